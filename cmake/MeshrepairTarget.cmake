@@ -1,0 +1,26 @@
+# What every target of the project has in common.
+
+# Compile settings shared by libraries, programs and tests. Contraction of a*b+c into one rounding is
+# off: the error bounds of the predicates and the "same input, same bytes" promise assume none.
+function(meshrepair_configure target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(PROJECT_IS_TOP_LEVEL)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Werror)
+  endif()
+endfunction()
+
+# meshrepair_library(NAME bsp SOURCES ... HEADERS ... LINK ...): a static library with its own
+# include root, installed and exported as meshrepair::NAME.
+function(meshrepair_library)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;HEADERS;LINK;LINK_PRIVATE" ${ARGN})
+  set(target meshrepair_${ARG_NAME})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(meshrepair::${ARG_NAME} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME} VERIFY_INTERFACE_HEADER_SETS ON)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${ARG_HEADERS})
+  target_include_directories(${target} PRIVATE src)
+  target_link_libraries(${target} PUBLIC ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
+  meshrepair_configure(${target})
+  install(TARGETS ${target} EXPORT meshrepair-targets FILE_SET HEADERS)
+endfunction()
