@@ -1,5 +1,10 @@
 // Region flooding and region processing (WM 4.2.3, Procedure 3), for when the signs are not those of a plane
 // and a convex cell.
+//
+// Why the curve is always simple: the flooded part M is connected across edges. Were the boundary of a
+// region R outside it to touch itself at a vertex, R would have two fans there with M between them on both
+// sides; a closed path through R and that vertex would separate the two fans of M, which M, connected
+// across edges, does not allow. So each R is a disk, and so is everything else together.
 #include <algorithm>
 #include <limits>
 
@@ -14,10 +19,6 @@ void Clipper::flood_regions(CellId cell, PlaneId plane) {
   for (const FacetId f : facets_) facet_sides_[f] = kUndecided;
   flood_below(cell, plane);
   keep_largest_region(cell, plane);
-  sort_by_side();
-  if (trace_curve(cell, false)) return;
-  ++report_.grown_disks;
-  grow_disk(cell, plane);
   sort_by_side();
   MESHREPAIR_ASSERT(trace_curve(cell, false));
 }
@@ -101,62 +102,6 @@ void Clipper::force_farthest_above(PlaneId plane) {
   const FacetId farthest = *std::max_element(
       facets_.begin(), facets_.end(), [&](FacetId a, FacetId b) { return height(a) < height(b); });
   facet_sides_[farthest] = kAbove;
-}
-
-// The curve touched itself. Grow the part below from one facet, taking only facets that were meant to be
-// below and whose common boundary with the part is one path; then the part stays a disk with a simple
-// boundary, and so does the rest of the sphere.
-void Clipper::grow_disk(CellId cell, PlaneId plane) {
-  for (const FacetId f : facets_) {
-    if (facet_sides_[f] == kBelow) facet_sides_[f] = kUndecided;
-  }
-  FacetId seed = lowest_facet(plane);
-  if (facet_sides_[seed] == kAbove) {
-    seed = *std::find_if(facets_.begin(), facets_.end(),
-                         [&](FacetId f) { return facet_sides_[f] == kUndecided; });
-  }
-  facet_sides_[seed] = kBelow;
-  bool grown = true;
-  while (grown) {
-    grown = false;
-    for (const FacetId f : facets_) {
-      if (facet_sides_[f] != kUndecided || !may_join_disk(f, cell)) continue;
-      facet_sides_[f] = kBelow;
-      grown = true;
-    }
-  }
-  for (const FacetId f : facets_) {
-    if (facet_sides_[f] == kUndecided) facet_sides_[f] = kAbove;
-  }
-}
-
-// Whether the facet's loop meets the part below in exactly one path of at least one edge. A vertex touches
-// the part if any facet of the cell around it belongs to the part.
-bool Clipper::may_join_disk(FacetId facet, CellId cell) const {
-  std::vector<bool> edge_shared;
-  std::vector<bool> vertex_shared;  // of the vertex between an edge and the one before it
-  complex_.for_each_use(facet, [&](UseId u) {
-    edge_shared.push_back(facet_sides_[across(u, cell)] == kBelow);
-    const VertexId v = complex_.origin(complex_.uses[u]);
-    bool touches = false;
-    for (const FacetId f : facets_) {
-      if (facet_sides_[f] != kBelow) continue;
-      complex_.for_each_use(f, [&](UseId w) {
-        touches |= complex_.origin(complex_.uses[w]) == v;
-      });
-    }
-    vertex_shared.push_back(touches);
-  });
-  std::size_t paths = 0;
-  std::size_t shared = 0;
-  const std::size_t n = edge_shared.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool before = edge_shared[(i + n - 1) % n];
-    shared += edge_shared[i];
-    paths += edge_shared[i] && !before;
-    if (vertex_shared[i] && !edge_shared[i] && !before) return false;
-  }
-  return paths == 1 && shared < n;
 }
 
 }  // namespace meshrepair

@@ -3,10 +3,7 @@
 // After facet clipping no edge joins the two sides. With right answers each facet is on one side, and the
 // edges between the sides form one simple closed curve; on a sphere such a curve leaves exactly two disks
 // (Jordan), so tracing it proves that the separation is sound and nothing more is needed. Otherwise the
-// paper's flooding decides, and should even its curve touch itself, the part below is grown facet by
-// facet such that it stays a disk.
-#include <bsp/assert.h>
-
+// paper's flooding decides.
 #include <extract/clip_cell.h>
 
 #include "complex_edit.h"

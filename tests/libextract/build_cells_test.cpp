@@ -107,7 +107,7 @@ TEST(Clipper, TopologySurvivesWrongPredicates) {
   ClipReport total;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     BuildTreeReport tree_report;
-    const Tree tree = tree_of(seed % 2 == 0 ? random_soup(25, 5, seed) : sphere(60 + 10 * seed), tree_report);
+    const Tree tree = tree_of(seed % 2 == 0 ? random_soup(25, 5, seed) : sphere(24), tree_report);
     UnreliableEngine engine(seed, seed % 3 == 0 ? 0.02 : seed % 3 == 1 ? 0.3 : 1.0);
     BuildCellsOptions options;
     options.engine = &engine;
@@ -120,14 +120,12 @@ TEST(Clipper, TopologySurvivesWrongPredicates) {
     total.region_floods += report.region_floods;
     total.several_regions += report.several_regions;
     total.forced_cuts += report.forced_cuts;
-    total.grown_disks += report.grown_disks;
   }
   // Every branch was taken.
   EXPECT_GT(total.several_groups, 0u);
   EXPECT_GT(total.region_floods, 0u);
   EXPECT_GT(total.several_regions, 0u);
   EXPECT_GT(total.forced_cuts, 0u);
-  EXPECT_GT(total.grown_disks, 0u);
 }
 
 }  // namespace

@@ -19,7 +19,6 @@ struct ClipReport {
   std::size_t region_floods = 0;     // the signs alone did not give one simple closed curve
   std::size_t several_regions = 0;   // the flood left more than one region above (WM fig. 7)
   std::size_t forced_cuts = 0;       // it left none, and a facet was forced above
-  std::size_t grown_disks = 0;       // the curve touched itself, and the part below was grown anew
 
   [[nodiscard]] std::size_t fallbacks() const {
     return loose_points + several_groups + region_floods;
@@ -60,8 +59,6 @@ class Clipper {
   void flood_below(CellId cell, PlaneId plane);
   void keep_largest_region(CellId cell, PlaneId plane);
   void force_farthest_above(PlaneId plane);
-  void grow_disk(CellId cell, PlaneId plane);
-  bool may_join_disk(FacetId facet, CellId cell) const;
 
   [[nodiscard]] int side_of(VertexId v) const { return vertex_marks_[v].side; }
   [[nodiscard]] FacetId across(UseId use, CellId cell) const {
