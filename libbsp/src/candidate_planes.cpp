@@ -50,6 +50,7 @@ PlaneId choose_fragment_plane(const FragmentPool& pool, std::span<const Fragment
     for (std::size_t j = 0; j < judged; ++j) {
       const Fragment& f = pool[fragments[j * count / judged]];
       if (f.plane != offered) judge(pool, f, pool.planes()[offered], tally);
+      if (options.split_weight * tally.cut > best_cost) break;  // lost already
     }
     const std::size_t imbalance =
         std::max(tally.front, tally.back) - std::min(tally.front, tally.back);

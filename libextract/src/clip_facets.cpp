@@ -7,10 +7,6 @@
 
 namespace meshrepair {
 
-void Clipper::clip_facets(CellId /*cell*/, PlaneId plane) {
-  for (const FacetId f : to_clip_) clip_facet(f, plane);
-}
-
 void Clipper::clip_facet(FacetId facet, PlaneId plane) {
   loop_.clear();
   complex_.for_each_use(facet, [&](UseId u) { loop_.push_back(u); });
@@ -28,17 +24,19 @@ void Clipper::clip_facet(FacetId facet, PlaneId plane) {
     previous = s;
   }
   if (below == 1) {
-    cut_off_run(loop_, -1, plane);
+    cut_off_run(facet, loop_, kBelow, plane);
   } else if (above == 1) {
-    cut_off_run(loop_, 1, plane);
+    cut_off_run(facet, loop_, kAbove, plane);
   } else {
     ++report_.several_groups;
+    plain_ = false;
     split_into_star(facet, loop_, plane);
   }
 }
 
 // Links the first vertices on the plane before and behind the only group with this sign.
-void Clipper::cut_off_run(const std::vector<UseId>& loop, int sign, PlaneId plane) {
+void Clipper::cut_off_run(FacetId facet, const std::vector<UseId>& loop, std::int8_t sign,
+                          PlaneId plane) {
   const std::size_t n = loop.size();
   const auto side_at = [&](std::size_t i) {
     return side_of(complex_.origin(complex_.uses[loop[i % n]]));
@@ -49,7 +47,10 @@ void Clipper::cut_off_run(const std::vector<UseId>& loop, int sign, PlaneId plan
   while (side_at(behind) == sign) ++behind;
   const UseId enter = loop[(first + n - 1) % n];
   const UseId leave = loop[behind % n];
-  split_and_share(complex_.uses[enter].facet, leave, enter, plane);
+  const FacetId run = split_and_share(facet, leave, enter, plane);
+  facet_sides_[run] = sign;
+  facet_sides_[facet] = static_cast<std::int8_t>(-sign);
+  on_plane_.push_back(complex_.uses[sign == kBelow ? enter : leave].previous);
 }
 
 // WM fig. 6b: a new vertex at the centre, linked to one vertex on the plane between any two groups.
@@ -79,6 +80,7 @@ void Clipper::split_into_star(FacetId facet, const std::vector<UseId>& loop, Pla
 FacetId Clipper::split_and_share(FacetId facet, UseId from, UseId to, PlaneId plane) {
   const FacetId added = internal::split_facet(complex_, facet, from, to, plane);
   facets_.push_back(added);
+  facet_sides_.push_back(kUndecided);
   if (complex_.facets[facet].triangle_count > 0) share_triangles(facet, added, plane);
   return added;
 }

@@ -20,7 +20,8 @@ void Clipper::flood_regions(CellId cell, PlaneId plane) {
   flood_below(cell, plane);
   keep_largest_region(cell, plane);
   sort_by_side();
-  MESHREPAIR_ASSERT(trace_curve(cell, false));
+  collect_curve_from_sides(cell);
+  MESHREPAIR_ASSERT(trace_curve(cell));
 }
 
 // The facet at the vertex farthest below.

@@ -13,77 +13,74 @@ namespace meshrepair {
 CellId Clipper::clip(CellId cell, PlaneId plane) {
   ++report_.clips;
   ++stamp_;
+  plain_ = true;
   classify_vertices(cell, plane);
   split_edges(plane);
-  clip_facets(cell, plane);
+  for (const FacetId f : to_clip_) clip_facet(f, plane);
 
-  facet_sides_.resize(complex_.facets.size());
-  if (!decide_by_signs() || !trace_curve(cell, true)) flood_regions(cell, plane);
+  sort_by_side();
+  collect_curve_from_clips(cell);
+  if (!plain_ || !trace_curve(cell)) flood_regions(cell, plane);
   return internal::separate_cell(complex_, cell, plane, curve_, below_, above_);
-}
-
-// False when there is a facet with both signs, or none on one of the sides.
-bool Clipper::decide_by_signs() {
-  below_.clear();
-  above_.clear();
-  bool mixed = false;
-  for (const FacetId f : facets_) {
-    bool above = false;
-    bool below = false;
-    complex_.for_each_use(f, [&](UseId u) {
-      const int s = side_of(complex_.origin(complex_.uses[u]));
-      above |= s > 0;
-      below |= s < 0;
-    });
-    mixed |= above && below;
-    facet_sides_[f] = below ? kBelow : kAbove;
-    (below ? below_ : above_).push_back(f);
-  }
-  return !mixed && !below_.empty() && !above_.empty();
-}
-
-// Collects the curve between below_ and above_; false when it is not one simple loop. When the sides are
-// those of the signs, only edges with both ends on the plane can be part of it.
-bool Clipper::trace_curve(CellId cell, bool on_plane_only) {
-  curve_.clear();
-  std::size_t edges = 0;
-  UseId start;
-  bool simple = true;
-  const auto leave = [&](VertexId v, UseId use) {
-    VertexMark& mark = vertex_marks_[v];
-    simple &= mark.out_stamp != curve_stamp_;
-    mark.out = use;
-    mark.out_stamp = curve_stamp_;
-    start = use;
-    ++edges;
-  };
-  ++curve_stamp_;
-  for (const FacetId f : below_) {
-    const bool outward = complex_.facets[f].below == cell;
-    complex_.for_each_use(f, [&](UseId u) {
-      const Use& use = complex_.uses[u];
-      if (on_plane_only && (side_of(complex_.origin(use)) | side_of(complex_.target(use))) != 0) return;
-      if (facet_sides_[across(u, cell)] != kAbove) return;
-      leave(outward ? complex_.origin(use) : complex_.target(use), u);
-    });
-  }
-  if (!simple || edges == 0) return false;
-  UseId u = start;
-  do {
-    curve_.push_back(u);
-    const Use& use = complex_.uses[u];
-    const bool outward = complex_.facets[use.facet].below == cell;
-    const VertexMark& mark = vertex_marks_[outward ? complex_.target(use) : complex_.origin(use)];
-    if (mark.out_stamp != curve_stamp_) return false;
-    u = mark.out;
-  } while (u != start);
-  return curve_.size() == edges;
 }
 
 void Clipper::sort_by_side() {
   below_.clear();
   above_.clear();
   for (const FacetId f : facets_) (facet_sides_[f] == kBelow ? below_ : above_).push_back(f);
+}
+
+// An edge between a facet below and one above has both ends on the plane, so it was there and seen while
+// classifying, or a facet's clipping made it.
+void Clipper::collect_curve_from_clips(CellId cell) {
+  curve_.clear();
+  for (const UseId u : on_plane_) {
+    if (facet_sides_[complex_.uses[u].facet] != kBelow) continue;
+    if (facet_sides_[across(u, cell)] == kAbove) curve_.push_back(u);
+  }
+}
+
+// The same for sides that have nothing to do with signs.
+void Clipper::collect_curve_from_sides(CellId cell) {
+  curve_.clear();
+  for (const FacetId f : below_) {
+    complex_.for_each_use(f, [&](UseId u) {
+      if (facet_sides_[across(u, cell)] == kAbove) curve_.push_back(u);
+    });
+  }
+}
+
+// Puts the curve in order, as facets below pass it seen from outside; false when it is not one simple loop.
+bool Clipper::trace_curve(CellId cell) {
+  ++curve_stamp_;
+  const auto start_of = [&](UseId u) {
+    const Use& use = complex_.uses[u];
+    const bool outward = complex_.facets[use.facet].below == cell;
+    return outward ? complex_.origin(use) : complex_.target(use);
+  };
+  const auto end_of = [&](UseId u) {
+    const Use& use = complex_.uses[u];
+    const bool outward = complex_.facets[use.facet].below == cell;
+    return outward ? complex_.target(use) : complex_.origin(use);
+  };
+  for (const UseId u : curve_) {
+    VertexMark& mark = vertex_marks_[start_of(u)];
+    if (mark.out_stamp == curve_stamp_) return false;
+    mark.out = u;
+    mark.out_stamp = curve_stamp_;
+  }
+  const std::size_t edges = curve_.size();
+  if (edges == 0) return false;
+  const UseId first = curve_[0];
+  curve_.clear();
+  UseId u = first;
+  do {
+    curve_.push_back(u);
+    const VertexMark& mark = vertex_marks_[end_of(u)];
+    if (mark.out_stamp != curve_stamp_) return false;
+    u = mark.out;
+  } while (u != first);
+  return curve_.size() == edges;
 }
 
 }  // namespace meshrepair

@@ -12,34 +12,36 @@ void Clipper::classify_vertex(VertexId vertex, PlaneId plane) {
   mark.side = engine_.side(complex_.vertices[vertex], plane, complex_.planes);
 }
 
+// Also finds the edges and facets to be split, and the side of every facet that is not.
 void Clipper::classify_vertices(CellId cell, PlaneId plane) {
   vertex_marks_.resize(complex_.vertices.size());
+  facet_sides_.resize(complex_.facets.size());
   facets_.clear();
   to_clip_.clear();
   to_split_.clear();
+  on_plane_.clear();
   complex_.for_each_facet(cell, [&](FacetId f) {
     facets_.push_back(f);
     bool above = false;
     bool below = false;
-    int previous_side = 0;
     const UseId first = complex_.facets[f].first_use;
-    UseId previous;
+    const VertexId start = complex_.origin(complex_.uses[first]);
+    classify_vertex(start, plane);
+    int side = side_of(start);
     UseId u = first;
     do {
       const Use& use = complex_.uses[u];
-      const VertexId v = complex_.origin(use);
+      const VertexId v = complex_.target(use);
       classify_vertex(v, plane);
-      const int s = side_of(v);
-      above |= s > 0;
-      below |= s < 0;
-      if (s * previous_side < 0) to_split_.push_back(complex_.uses[previous].edge);
-      previous_side = s;
-      previous = u;
+      const int next_side = side_of(v);
+      above |= next_side > 0;
+      below |= next_side < 0;
+      if (side * next_side < 0) to_split_.push_back(use.edge);
+      if ((side | next_side) == 0) on_plane_.push_back(u);
+      side = next_side;
       u = use.next;
     } while (u != first);
-    if (previous_side * side_of(complex_.origin(complex_.uses[first])) < 0) {
-      to_split_.push_back(complex_.uses[previous].edge);
-    }
+    facet_sides_[f] = below ? kBelow : kAbove;
     if (above && below) to_clip_.push_back(f);
   });
 }

@@ -45,16 +45,16 @@ class Clipper {
   void classify_vertex(VertexId vertex, PlaneId plane);
   void split_edges(PlaneId plane);
   // Facet clipping (WM 4.2.2)
-  void clip_facets(CellId cell, PlaneId plane);
   void clip_facet(FacetId facet, PlaneId plane);
-  void cut_off_run(const std::vector<UseId>& loop, int sign, PlaneId plane);
+  void cut_off_run(FacetId facet, const std::vector<UseId>& loop, std::int8_t sign, PlaneId plane);
   void split_into_star(FacetId facet, const std::vector<UseId>& loop, PlaneId plane);
   FacetId split_and_share(FacetId facet, UseId from, UseId to, PlaneId plane);
   void share_triangles(FacetId a, FacetId b, PlaneId plane);
   // Cell separation (WM 4.2.3)
-  bool decide_by_signs();
-  bool trace_curve(CellId cell, bool on_plane_only);
   void sort_by_side();
+  void collect_curve_from_clips(CellId cell);
+  void collect_curve_from_sides(CellId cell);
+  bool trace_curve(CellId cell);
   void flood_regions(CellId cell, PlaneId plane);
   void flood_below(CellId cell, PlaneId plane);
   void keep_largest_region(CellId cell, PlaneId plane);
@@ -84,8 +84,10 @@ class Clipper {
   std::vector<FacetId> to_clip_;     // with vertices on both sides
   std::vector<EdgeId> to_split_;     // with ends on both sides
   std::vector<UseId> loop_;          // of one facet
-  std::vector<UseId> curve_;
+  std::vector<UseId> on_plane_;      // with both ends on the plane, or made by clipping a facet
+  std::vector<UseId> curve_;         // uses by facets below, in order once it is traced
   std::vector<FacetId> below_, above_;
+  bool plain_ = true;                // no facet had several groups
   std::vector<FacetId> queue_;
   std::vector<TriangleId> triangles_;
 };
