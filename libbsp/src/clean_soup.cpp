@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <bsp/error.h>
-
-#include "hash_index.h"
+#include <bsp/hash_index.h>
 
 namespace meshrepair {
 namespace {
 
 using internal::hash_mix;
+using internal::hash_of;
 using internal::HashIndex;
 using Corners = std::array<PointId, 3>;
 
@@ -46,12 +46,6 @@ Grid grid_of(const TriangleSoup& soup, const std::vector<char>& used) {
     high = high.cwiseMax(soup.points[i]);
   }
   return low.x() <= high.x() ? make_grid(low, high) : Grid{};
-}
-
-std::uint64_t hash_of(const GridPoint& p) {
-  std::uint64_t h = hash_mix(0, static_cast<std::uint64_t>(p.x));
-  h = hash_mix(h, static_cast<std::uint64_t>(p.y));
-  return hash_mix(h, static_cast<std::uint64_t>(p.z));
 }
 
 // Fills points and grid_points; returns the new id of each used point.
@@ -91,7 +85,7 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-std::uint64_t hash_of(const Corners& sorted_corners) {
+std::uint64_t hash_of_corners(const Corners& sorted_corners) {
   return hash_mix(hash_mix(hash_mix(0, sorted_corners[0].value), sorted_corners[1].value),
                   sorted_corners[2].value);
 }
@@ -113,7 +107,7 @@ class TriangleCollector {
     const Corners key = sorted(corners);
     const TriangleId fresh = clean_.triangles.end_id();
     const TriangleId id(
-        index_.find_or_insert(hash_of(key), fresh.value, [&](std::uint32_t candidate) {
+        index_.find_or_insert(hash_of_corners(key), fresh.value, [&](std::uint32_t candidate) {
           return sorted(clean_.triangles[TriangleId(candidate)].corners) == key;
         }));
     if (id == fresh) {

@@ -113,6 +113,13 @@ bool snap_to_lattice(const std::array<double, 3>& position, double error, const 
   return side(found, a) == 0 && side(found, b) == 0 && side(found, c) == 0;
 }
 
+std::array<double, 3> rounded(const Homogeneous& point) {
+  const double denominator = point.denominator.to_double();
+  return {point.numerator[0].to_double() / denominator,
+          point.numerator[1].to_double() / denominator,
+          point.numerator[2].to_double() / denominator};
+}
+
 Point make_point(const std::array<double, 3>& position, double error,
                  const std::array<PlaneId, 3>& ids, const PlaneTable& planes) {
   GridPoint found;
@@ -146,13 +153,15 @@ Point meet(const PlaneTable& planes, PlaneId a, PlaneId b, PlaneId c,
   }
   const Homogeneous exact = internal::meet_exactly(planes[a], planes[b], planes[c]);
   if (exact.denominator.sign() == 0) return loose_point(fallback);
-  std::array<double, 3> position{};
-  const double denominator = exact.denominator.to_double();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    position[axis] = exact.numerator[axis].to_double() / denominator;
-  }
+  const std::array<double, 3> position = rounded(exact);
   if (!within_reach(position)) return loose_point(fallback);
   return make_point(position, kExactRounding, ids, planes);
+}
+
+std::array<double, 3> accurate_position(const Point& point, const PlaneTable& planes) {
+  if (!point.planes[0].valid()) return point.position;
+  return rounded(internal::meet_exactly(planes[point.planes[0]], planes[point.planes[1]],
+                                        planes[point.planes[2]]));
 }
 
 namespace {

@@ -35,4 +35,7 @@ struct Point {
 [[nodiscard]] Point meet(const PlaneTable& planes, PlaneId a, PlaneId b, PlaneId c,
                          const std::array<double, 3>& fallback);
 
+// The point's coordinates as near to the truth as doubles allow: to about 2^-25 of a grid step.
+[[nodiscard]] std::array<double, 3> accurate_position(const Point& point, const PlaneTable& planes);
+
 }  // namespace meshrepair

@@ -5,11 +5,19 @@
 #include <cstdint>
 #include <vector>
 
+#include <bsp/grid.h>
+
 namespace meshrepair::internal {
 
 inline std::uint64_t hash_mix(std::uint64_t h, std::uint64_t value) {
   h = (h ^ value) * 0x9E3779B97F4A7C15u;
   return h ^ (h >> 29);
+}
+
+inline std::uint64_t hash_of(const GridPoint& p) {
+  std::uint64_t h = hash_mix(0, static_cast<std::uint64_t>(p.x));
+  h = hash_mix(h, static_cast<std::uint64_t>(p.y));
+  return hash_mix(h, static_cast<std::uint64_t>(p.z));
 }
 
 // Room for `expected` keys; at most half full then. Positions only; keys are compared by the caller.
