@@ -35,8 +35,13 @@ constexpr std::size_t kTicksPerProgress = 8192;
 
 class FacetCoverer {
  public:
-  FacetCoverer(CellComplex& complex, CoverReport& report, ProgressObserver* progress)
-      : complex_(complex), report_(report), progress_(progress), cover_(complex.facets.size()) {}
+  FacetCoverer(CellComplex& complex, const IdVector<TriangleId, std::int32_t>& winding,
+               CoverReport& report, ProgressObserver* progress)
+      : complex_(complex),
+        winding_(winding),
+        report_(report),
+        progress_(progress),
+        cover_(complex.facets.size()) {}
 
   IdVector<FacetId, Cover> run() {
     const std::size_t count = complex_.facets.size();
@@ -82,7 +87,7 @@ class FacetCoverer {
       if (coverage == Coverage::full) {
         Cover& c = cover_[piece.facet];
         if (!c.opaque() || t < c.triangle) c.triangle = t;
-        c.winding += complex_.soup().triangles[t].winding;
+        c.winding += winding_[t];
       }
     }
     piece.undecided.resize(kept);
@@ -172,6 +177,7 @@ class FacetCoverer {
   }
 
   CellComplex& complex_;
+  const IdVector<TriangleId, std::int32_t>& winding_;
   CoverReport& report_;
   ProgressObserver* progress_;
   IdVector<FacetId, Cover> cover_;
@@ -182,10 +188,11 @@ class FacetCoverer {
 
 }  // namespace
 
-IdVector<FacetId, Cover> cover_facets(CellComplex& complex, CoverReport& report,
-                                      ProgressObserver* progress) {
+IdVector<FacetId, Cover> cover_facets(CellComplex& complex,
+                                      const IdVector<TriangleId, std::int32_t>& winding,
+                                      CoverReport& report, ProgressObserver* progress) {
   report = {};
-  return FacetCoverer(complex, report, progress).run();
+  return FacetCoverer(complex, winding, report, progress).run();
 }
 
 }  // namespace meshrepair

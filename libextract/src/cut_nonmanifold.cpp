@@ -6,11 +6,10 @@
 #include <extract/cut_nonmanifold.h>
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 #include <utility>
 
 #include <bsp/assert.h>
+#include <bsp/disjoint_sets.h>
 
 namespace meshrepair {
 namespace {
@@ -21,7 +20,7 @@ class NonmanifoldCutter {
  public:
   NonmanifoldCutter(const CellComplex& complex, const Boundary& boundary,
                     const std::vector<char>& solid)
-      : complex_(complex), boundary_(boundary), solid_(solid) {}
+      : complex_(complex), boundary_(boundary), solid_(solid), fans_(boundary.sides()) {}
 
   ManifoldCorners run() {
     list_sides_by_edge();
@@ -92,35 +91,17 @@ class NonmanifoldCutter {
   }
 
   void join_corners() {
-    parent_.resize(boundary_.sides());
-    std::iota(parent_.begin(), parent_.end(), 0u);
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
       // A side starts where its mate ends.
-      join(s, boundary_.next(mate_[s]));
+      fans_.join(s, boundary_.next(mate_[s]));
     }
-  }
-
-  std::uint32_t root(std::uint32_t corner) {
-    while (parent_[corner] != corner) {
-      parent_[corner] = parent_[parent_[corner]];
-      corner = parent_[corner];
-    }
-    return corner;
-  }
-
-  // The lower corner stays the root: numbering follows the order of the polygons.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
   }
 
   void number_vertices() {
     result_.vertex.resize(boundary_.sides());
     std::vector<char> seen(complex_.vertices.size(), 0);
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
-      const std::uint32_t r = root(s);
+      const std::uint32_t r = fans_.root(s);
       if (r == s) {
         result_.vertex[s] = static_cast<std::uint32_t>(result_.vertex_corner.size());
         result_.vertex_corner.push_back(s);
@@ -163,7 +144,7 @@ class NonmanifoldCutter {
   IdVector<EdgeId, std::uint32_t> first_side_;
   std::vector<std::uint32_t> next_side_;
   std::vector<std::uint32_t> mate_;
-  std::vector<std::uint32_t> parent_;
+  DisjointSets fans_;
   ManifoldCorners result_;
 };
 

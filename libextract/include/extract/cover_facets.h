@@ -25,7 +25,10 @@ struct CoverReport {
 // Decides by predicates on the edges of triangles and facets, never by areas. A facet that a triangle covers
 // in part (coplanar triangles, open borders) is split along the triangle's edges; its new vertices go into
 // the neighbouring facets too, so the complex stays conforming. Frees the facets' lists of triangles.
-[[nodiscard]] IdVector<FacetId, Cover> cover_facets(CellComplex& complex, CoverReport& report,
-                                                    ProgressObserver* progress = nullptr);
+// `winding` is how each triangle is turned against the normal of its plane (Triangle::winding, or that of
+// another orientation of the soup).
+[[nodiscard]] IdVector<FacetId, Cover> cover_facets(
+    CellComplex& complex, const IdVector<TriangleId, std::int32_t>& winding, CoverReport& report,
+    ProgressObserver* progress = nullptr);
 
 }  // namespace meshrepair

@@ -1,0 +1,42 @@
+// Which triangles meet at which edge.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace meshrepair {
+
+using IndexTriangle = std::array<std::uint32_t, 3>;
+
+// All edges of a list of triangles, sorted by their end points, each with the triangles' sides that run along
+// it. Side 3 t + k of triangle t runs from its corner k to corner k + 1. Sorting makes it n log n.
+class EdgeTable {
+ public:
+  explicit EdgeTable(std::span<const IndexTriangle> triangles);
+
+  // Calls visit(std::span<const std::uint32_t> sides) for each edge, the sides in ascending order.
+  template <class Visit>
+  void for_each_edge(Visit visit) const {
+    for (std::size_t i = 0; i + 1 < first_.size(); ++i) {
+      visit(std::span<const std::uint32_t>(sides_.data() + first_[i], first_[i + 1] - first_[i]));
+    }
+  }
+  [[nodiscard]] std::size_t edges() const { return first_.size() - 1; }
+
+ private:
+  std::vector<std::uint32_t> sides_;
+  std::vector<std::uint32_t> first_;
+};
+
+[[nodiscard]] inline std::uint32_t side_start(std::span<const IndexTriangle> triangles,
+                                              std::uint32_t side) {
+  return triangles[side / 3][side % 3];
+}
+
+[[nodiscard]] inline std::uint32_t next_side(std::uint32_t side) {
+  return side % 3 == 2 ? side - 2 : side + 1;
+}
+
+}  // namespace meshrepair

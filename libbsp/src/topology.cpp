@@ -1,0 +1,85 @@
+#include <bsp/topology.h>
+
+#include <numeric>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <bsp/disjoint_sets.h>
+
+namespace meshrepair {
+namespace {
+
+void count_edge(std::span<const IndexTriangle> triangles, std::span<const std::uint32_t> sides,
+                Topology& topology) {
+  ++topology.edges;
+  topology.open_edges += sides.size() == 1;
+  topology.nonmanifold_edges += sides.size() > 2;
+  topology.inconsistent_edges += sides.size() == 2 && side_start(triangles, sides[0]) ==
+                                                          side_start(triangles, sides[1]);
+}
+
+// Joins the two pairs of corners that the triangles on both sides of an edge have in common.
+void join_corners(std::span<const IndexTriangle> triangles, std::uint32_t s, std::uint32_t t,
+                  DisjointSets& corners) {
+  const bool opposite = side_start(triangles, s) != side_start(triangles, t);
+  corners.join(s, opposite ? next_side(t) : t);
+  corners.join(next_side(s), opposite ? t : next_side(t));
+}
+
+std::size_t count_split_vertices(std::span<const IndexTriangle> triangles, std::size_t points,
+                                 DisjointSets& corners) {
+  std::vector<char> fans(points, 0);
+  std::size_t split = 0;
+  for (std::uint32_t c = 0; c < 3 * triangles.size(); ++c) {
+    if (corners.root(c) != c) continue;
+    char& seen = fans[side_start(triangles, c)];
+    split += seen == 1;
+    if (seen < 2) ++seen;
+  }
+  return split;
+}
+
+}  // namespace
+
+Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t points) {
+  Topology topology;
+  topology.triangles = triangles.size();
+  for (const auto& t : triangles) {
+    topology.repeated_corners += t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  }
+  DisjointSets parts(triangles.size());
+  DisjointSets corners(3 * triangles.size());
+  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+    count_edge(triangles, sides, topology);
+    for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
+    if (sides.size() == 2) join_corners(triangles, sides[0], sides[1], corners);
+  });
+  topology.parts = parts.count();
+  topology.nonmanifold_vertices = count_split_vertices(triangles, points, corners);
+  return topology;
+}
+
+double signed_volume(const TriangleSoup& soup) {
+  if (soup.triangles.empty()) return 0;
+  const Vec3d base = soup.points[soup.triangles[0][0]];
+  double sum = 0;
+  for (const auto& t : soup.triangles) {
+    const Vec3d a = soup.points[t[0]] - base;
+    const Vec3d b = soup.points[t[1]] - base;
+    const Vec3d c = soup.points[t[2]] - base;
+    sum += a.dot(b.cross(c));
+  }
+  return sum / 6;
+}
+
+double surface_area(const TriangleSoup& soup) {
+  double sum = 0;
+  for (const auto& t : soup.triangles) {
+    const Vec3d& a = soup.points[t[0]];
+    sum += (soup.points[t[1]] - a).cross(soup.points[t[2]] - a).norm();
+  }
+  return sum / 2;
+}
+
+}  // namespace meshrepair

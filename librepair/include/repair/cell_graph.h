@@ -1,0 +1,45 @@
+// The cells and the links between them: all that the inside rules look at.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <extract/cell_complex.h>
+#include <extract/cover_facets.h>
+
+namespace meshrepair {
+
+// A facet between two cells.
+struct Link {
+  CellId below, above;
+  double area = 0;           // grid units, from rounded coordinates: a weight
+  std::int32_t winding = 0;  // of the cover, against the direction from below to above
+  bool opaque = false;       // covered by input
+};
+
+class CellGraph {
+ public:
+  CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover);
+
+  [[nodiscard]] std::size_t cells() const { return first_.size() - 1; }
+  [[nodiscard]] const std::vector<Link>& links() const { return links_; }
+  // Positions in links() of the links of a cell.
+  [[nodiscard]] std::span<const std::uint32_t> links_of(CellId cell) const {
+    return {&of_cell_[first_[cell.index()]], &of_cell_[first_[cell.index() + 1]]};
+  }
+  // Whether a facet of the cell lies on the outer box: such cells are empty by definition.
+  [[nodiscard]] bool unbounded(CellId cell) const { return unbounded_[cell.index()] != 0; }
+
+ private:
+  std::vector<Link> links_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> of_cell_;
+  std::vector<char> unbounded_;
+};
+
+[[nodiscard]] inline CellId other_end(const Link& link, CellId cell) {
+  return link.below == cell ? link.above : link.below;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,15 @@
+// The flood from infinity (WM 6.2).
+#pragma once
+
+#include <vector>
+
+#include <repair/cell_graph.h>
+
+namespace meshrepair {
+
+// 1 for the cells that cannot be reached from outside the box through cells with `empty` set, without passing
+// an opaque link: the inside.
+[[nodiscard]] std::vector<char> flood_from_infinity(const CellGraph& graph,
+                                                    const std::vector<char>& empty);
+
+}  // namespace meshrepair

@@ -1,0 +1,74 @@
+// The whole pipeline, as one call and in its three steps. The steps in a row give the same bytes as the one
+// call.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <bsp/build_tree.h>
+#include <bsp/clean_soup.h>
+#include <bsp/progress.h>
+#include <bsp/soup.h>
+#include <bsp/topology.h>
+#include <bsp/tree.h>
+#include <extract/clip_cell.h>
+#include <extract/cover_facets.h>
+#include <extract/extract_surface.h>
+#include <extract/surface.h>
+
+#include <repair/inside_rule.h>
+#include <repair/orient_parts.h>
+#include <repair/stage_meter.h>
+
+namespace meshrepair {
+
+struct RepairOptions {
+  BuildTreeOptions tree;
+  InsideOptions inside;
+  // Prove every invariant of the complex as it grows: a debugging aid, very slow.
+  bool check_cells = false;
+  ProgressObserver* progress = nullptr;
+};
+
+// Filled as far as the work came, also when it ended with an exception.
+struct RepairReport {
+  CleanReport clean;
+  Topology input;             // of the clean soup
+  double input_area = 0;      // in the input's units, squared
+  BuildTreeReport tree;
+  std::size_t cells = 0;
+  std::size_t facets = 0;
+  ClipReport clip;
+  CoverReport cover;
+  OrientReport orient;
+  std::size_t links = 0;
+  InsideReport inside;
+  ExtractReport extract;
+  Topology output;
+  double output_volume = 0;   // in the input's units, cubed
+  double output_area = 0;
+  std::vector<StageReport> stages;
+};
+
+struct RepairResult {
+  Surface surface;
+  RepairReport report;
+};
+
+// Soup to boundary of a solid. Throws InputError when no triangle is left after cleaning, NoSolidError when
+// nothing is enclosed.
+[[nodiscard]] RepairResult repair(const TriangleSoup& soup, const RepairOptions& options = {});
+// The same, leaving the report when it throws.
+[[nodiscard]] Surface repair(const TriangleSoup& soup, const RepairOptions& options,
+                             RepairReport& report);
+
+// Step 1: soup to tree, its leaves unknown. Throws InputError when no triangle is left.
+[[nodiscard]] Tree make_tree(const TriangleSoup& soup, const RepairOptions& options,
+                             RepairReport& report);
+// Step 2: labels the leaves. Throws NoSolidError when no leaf is solid.
+void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report);
+// Step 3: labelled tree to mesh. Throws InputError when a leaf has no label, NoSolidError when none is solid.
+[[nodiscard]] Surface extract_mesh(const Tree& tree, const RepairOptions& options,
+                                   RepairReport& report);
+
+}  // namespace meshrepair

@@ -1,0 +1,33 @@
+// The two global optimisations: solidity (Murali and Funkhouser 1997) and winding.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <repair/cell_graph.h>
+
+namespace meshrepair {
+
+struct SolveOptions {
+  double tolerance = 1e-5;  // relative residual of the conjugate gradients
+  int max_iterations = 5000;
+};
+
+struct SolveReport {
+  std::size_t unknowns = 0;
+  std::size_t iterations = 0;
+  double residual = 0;  // relative, as estimated by the solver
+  bool converged = true;
+};
+
+// s of each cell in [-1, 1], -1 outside: the minimum of
+//   sum over transparent links of A (s_i - s_j)^2 + sum over opaque links of A (s_i + s_j)^2.
+// Does not look at the triangles' orientation.
+[[nodiscard]] std::vector<double> solve_solidity(const CellGraph& graph, const SolveOptions& options,
+                                                 SolveReport& report);
+
+// w of each cell, 0 outside: the minimum of the sum over links of A (w_below - w_above - winding)^2.
+[[nodiscard]] std::vector<double> solve_winding(const CellGraph& graph, const SolveOptions& options,
+                                                SolveReport& report);
+
+}  // namespace meshrepair

@@ -1,0 +1,38 @@
+#include <repair/cell_graph.h>
+
+#include <algorithm>
+
+namespace meshrepair {
+namespace {
+
+// Areas are weights. One that rounding made 0 or worse would cut its cells off the system, so none is
+// smaller than this; on a grid of 2^26 steps it is nothing beside any real facet. In square grid steps.
+constexpr double kLeastArea = 1e-6;
+
+}  // namespace
+
+CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover)
+    : first_(complex.cells.size() + 1, 0), unbounded_(complex.cells.size(), 0) {
+  for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
+    const Facet& facet = complex.facets[f];
+    if (!facet.above.valid()) {
+      unbounded_[facet.below.index()] = 1;
+    } else if (!facet.below.valid()) {
+      unbounded_[facet.above.index()] = 1;
+    } else {
+      links_.push_back({facet.below, facet.above, std::max(facet_area(complex, f), kLeastArea),
+                        cover[f].winding, cover[f].opaque()});
+      ++first_[facet.below.index() + 1];
+      ++first_[facet.above.index() + 1];
+    }
+  }
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  of_cell_.resize(2 * links_.size());
+  std::vector<std::uint32_t> filled(first_.begin(), first_.end() - 1);
+  for (std::uint32_t l = 0; l < links_.size(); ++l) {
+    of_cell_[filled[links_[l].below.index()]++] = l;
+    of_cell_[filled[links_[l].above.index()]++] = l;
+  }
+}
+
+}  // namespace meshrepair

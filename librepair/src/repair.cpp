@@ -1,0 +1,140 @@
+#include <repair/repair.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <bsp/error.h>
+#include <extract/build_cells.h>
+
+#include <repair/cell_graph.h>
+
+namespace meshrepair {
+namespace {
+
+struct CoveredCells {
+  CellComplex complex;
+  IdVector<FacetId, Cover> cover;
+};
+
+CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_t>& winding,
+                        const RepairOptions& options, RepairReport& report, StageMeter& meter) {
+  meter.begin("cells");
+  BuildCellsOptions cell_options;
+  cell_options.check_every_clip = options.check_cells;
+  cell_options.progress = options.progress;
+  CoveredCells covered{build_cells(tree, cell_options, report.clip), {}};
+  report.cells = covered.complex.cells.size();
+  meter.begin("cover");
+  covered.cover = cover_facets(covered.complex, winding, report.cover, options.progress);
+  report.facets = covered.complex.facets.size();
+  return covered;
+}
+
+IdVector<TriangleId, std::int32_t> chosen_windings(const Tree& tree, const RepairOptions& options,
+                                                   RepairReport& report) {
+  return options.inside.rule == InsideRule::automatic ? orient_parts(tree.input, report.orient)
+                                                      : windings_of(tree.input);
+}
+
+CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
+                      RepairReport& report, StageMeter& meter) {
+  meter.begin("links");
+  const CellGraph graph(covered.complex, covered.cover);
+  report.links = graph.links().size();
+  meter.begin("inside");
+  CellLabels labels = label_cells(graph, options.inside, report.inside);
+  if (report.inside.solid_cells == 0) {
+    throw NoSolidError("the triangles enclose nothing: no part of space is inside");
+  }
+  return labels;
+}
+
+Surface find_surface(const CoveredCells& covered, const std::vector<char>& solid,
+                     RepairReport& report, StageMeter& meter) {
+  meter.begin("extract");
+  Surface surface = extract_surface(covered.complex, covered.cover, solid, report.extract);
+  meter.begin("check");
+  report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
+  report.output_volume = signed_volume(surface.mesh);
+  report.output_area = surface_area(surface.mesh);
+  return surface;
+}
+
+Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
+               StageMeter& meter) {
+  meter.begin("clean");
+  CleanSoup clean = clean_soup(soup, report.clean);
+  report.input = examine_topology(index_triangles(clean), clean.points.size());
+  report.input_area = surface_area(soup);
+  if (clean.triangles.empty()) {
+    throw NoSolidError("no triangle is left: all are degenerate or have coordinates that are not finite");
+  }
+  meter.begin("tree");
+  BuildTreeOptions tree_options = options.tree;
+  tree_options.progress = options.progress;
+  return build_tree(std::move(clean), tree_options, report.tree);
+}
+
+std::vector<char> solid_cells(const Tree& tree, const CellComplex& complex) {
+  std::vector<char> solid;
+  solid.reserve(complex.cells.size());
+  for (const Cell& cell : complex.cells) {
+    solid.push_back(tree.leaves[cell.leaf].label == Label::solid ? 1 : 0);
+  }
+  return solid;
+}
+
+void require_labels(const Tree& tree) {
+  bool any_solid = false;
+  for (const Leaf& leaf : tree.leaves) {
+    if (leaf.label == Label::unknown) {
+      throw InputError("the tree is not labelled: run bspsolid on it first");
+    }
+    any_solid |= leaf.label == Label::solid;
+  }
+  if (!any_solid) throw NoSolidError("no leaf of the tree is solid");
+}
+
+}  // namespace
+
+Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
+  StageMeter meter(report.stages, options.progress);
+  return make_tree(soup, options, report, meter);
+}
+
+void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) {
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("orient");
+  const auto winding = chosen_windings(tree, options, report);
+  const CoveredCells covered = make_cells(tree, winding, options, report, meter);
+  const CellLabels labels = find_solid(covered, options, report, meter);
+  for (CellId c(0u); c < covered.complex.cells.end_id(); ++c.value) {
+    tree.leaves[covered.complex.cells[c].leaf] = {
+        labels.solid[c.index()] != 0 ? Label::solid : Label::empty, labels.confidence[c.index()]};
+  }
+}
+
+Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairReport& report) {
+  require_labels(tree);
+  StageMeter meter(report.stages, options.progress);
+  const CoveredCells covered = make_cells(tree, windings_of(tree.input), options, report, meter);
+  return find_surface(covered, solid_cells(tree, covered.complex), report, meter);
+}
+
+Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
+  StageMeter meter(report.stages, options.progress);
+  const Tree tree = make_tree(soup, options, report, meter);
+  meter.begin("orient");
+  const auto winding = chosen_windings(tree, options, report);
+  const CoveredCells covered = make_cells(tree, winding, options, report, meter);
+  const CellLabels labels = find_solid(covered, options, report, meter);
+  return find_surface(covered, labels.solid, report, meter);
+}
+
+RepairResult repair(const TriangleSoup& soup, const RepairOptions& options) {
+  RepairResult result;
+  result.surface = repair(soup, options, result.report);
+  return result;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,43 @@
+#include <repair/repair.h>
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <bsp/error.h>
+
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+void expect_solid(const RepairResult& result) {
+  const Topology t =
+      examine_topology(result.surface.mesh.triangles, result.surface.mesh.points.size());
+  EXPECT_TRUE(t.closed());
+  EXPECT_TRUE(t.manifold());
+  EXPECT_TRUE(t.oriented());
+  EXPECT_EQ(result.report.clip.fallbacks(), 0u);
+  EXPECT_EQ(result.report.tree.lost_fragments, 0u);
+}
+
+TEST(Repair, CubeStaysACube) {
+  const RepairResult result = repair(cube());
+  expect_solid(result);
+  EXPECT_EQ(result.surface.mesh.triangles.size(), 12u);
+  EXPECT_EQ(result.surface.mesh.points.size(), 8u);
+  EXPECT_DOUBLE_EQ(result.report.output_volume, 1);
+}
+
+TEST(Repair, NothingEnclosedIsNoSolid) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  soup.triangles = {{0, 1, 2}};
+  EXPECT_THROW((void)repair(soup), NoSolidError);
+  EXPECT_THROW((void)repair(TriangleSoup{}), NoSolidError);
+}
+
+}  // namespace
+}  // namespace meshrepair
