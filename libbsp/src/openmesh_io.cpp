@@ -1,5 +1,7 @@
 #include <numeric>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -8,6 +10,8 @@
 
 #include <bsp/error.h>
 #include <bsp/openmesh.h>
+
+#include "mapped_file.h"
 
 namespace meshrepair {
 namespace {
@@ -144,10 +148,14 @@ TriangleSoup from_openmesh(const TriMesh& mesh) {
 }
 
 TriangleSoup read_om(const std::filesystem::path& path) {
+  constexpr std::string_view kSignature = "OM";
+  const MappedFile bytes(path);
+  std::istringstream stream{std::string(bytes.bytes())};
   TriMesh mesh;
   const SilentOpenMesh silence;
   OpenMesh::IO::Options options;
-  if (!OpenMesh::IO::read_mesh(mesh, path.string(), options)) {
+  if (!bytes.bytes().starts_with(kSignature) ||
+      !OpenMesh::IO::read_mesh(mesh, stream, ".om", options)) {
     throw InputError(path.string() + ": cannot be read as a mesh of OpenMesh (.om)");
   }
   return from_openmesh(mesh);

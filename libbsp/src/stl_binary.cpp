@@ -68,7 +68,7 @@ void append_floats(std::string& out, const Vec3d& vector) {
 }  // namespace
 
 bool is_binary_stl(std::string_view bytes) {
-  return bytes.size() > kHeaderSize &&
+  return bytes.size() >= kHeaderSize &&
          bytes.size() - kHeaderSize == kTriangleSize * std::size_t{declared_count(bytes)};
 }
 

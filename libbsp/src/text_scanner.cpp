@@ -103,10 +103,10 @@ std::size_t TextScanner::tokens_on_line() const {
 bool TextScanner::read_integer(std::int64_t& value, char tail) {
   const char* const first = *at_ == '+' && remaining() > 1 && is_digit(at_[1]) ? at_ + 1 : at_;
   const auto [end, error] = std::from_chars(first, end_, value);
-  const bool whole = end == end_ || is_space(*end) || (tail != '\0' && *end == tail);
-  if (error == std::errc() && whole) {
+  const bool has_tail = tail != '\0' && end != end_ && *end == tail;
+  if (error == std::errc() && (has_tail || ends_token(end))) {
     at_ = end;
-    if (end != end_ && !is_space(*end)) skip_token();
+    if (has_tail) skip_token();
     return true;
   }
   // Some programs print integers as "3.0" or "3e0".

@@ -65,6 +65,12 @@ class TextScanner {
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
   static bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
+  // Whether a token ends before this byte: at a blank, and at a backslash that continues the line.
+  [[nodiscard]] bool ends_token(const char* at) const {
+    if (at == end_ || is_space(*at)) return true;
+    return dialect_.continuation && *at == '\\' && (at + 1 == end_ || is_line_end(at[1]));
+  }
+
   // At a backslash that continues the line: goes behind the line end.
   bool skip_continuation();
   const char* token_end() const;
@@ -77,7 +83,7 @@ class TextScanner {
 
 inline const char* TextScanner::token_end() const {
   const char* end = at_;
-  while (end != end_ && !is_space(*end)) ++end;
+  while (!ends_token(end)) ++end;
   return end;
 }
 
@@ -116,7 +122,7 @@ inline void TextScanner::skip_line() {
 
 inline bool TextScanner::read_real(double& value) {
   const auto [end, error] = std::from_chars(at_, end_, value);
-  if (error == std::errc() && (end == end_ || is_space(*end))) {
+  if (error == std::errc() && ends_token(end)) {
     at_ = end;
     return true;
   }
