@@ -25,7 +25,7 @@ TEST(ReadObj, CornersInAllSpellings) {
   for (const std::string face :
        {"f 1 2 3", "f 1/1 2/1 3/1", "f 1/1/1 2/1/1 3/1/1", "f 1//1 2//1 3//1", "f -4 -3 -2",
         "f\t1\t2\t3 ", "  f 1 2 3", "f 1 2 3 # comment", "f 1 \\\n 2 3", "f 1 2 3\\\n",
-        "f 1 \\ \r\n2 3", "f +1 2 3", "f 1/ 2/ 3/", "fo 1 2 3", "f 1.0 2.0 3.0"}) {
+        "f 1 \\ \n2 3", "f +1 2 3", "f 1/ 2/ 3/", "fo 1 2 3", "f 1.0 2.0 3.0"}) {
     EXPECT_EQ(triangles_of(kPoints + face + "\n"), kFirst) << face;
     EXPECT_EQ(triangles_of(replaced(kPoints + face, "\n", "\r\n")), kFirst) << face;
   }
