@@ -1,17 +1,12 @@
+#include <array>
 #include <numeric>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include <OpenMesh/Core/IO/MeshIO.hh>
-
 #include <bsp/error.h>
 #include <bsp/openmesh.h>
-
-#include "mapped_file.h"
 
 namespace meshrepair {
 namespace {
@@ -89,23 +84,6 @@ class ManifoldCheck {
   std::vector<std::size_t> fan_;  // union-find over corners
 };
 
-// OpenMesh prints its errors; ours are exceptions.
-class SilentOpenMesh {
- public:
-  SilentOpenMesh() {
-    omerr().disable();
-    omlog().disable();
-    omout().disable();
-  }
-  SilentOpenMesh(const SilentOpenMesh&) = delete;
-  SilentOpenMesh& operator=(const SilentOpenMesh&) = delete;
-  ~SilentOpenMesh() {
-    omerr().enable();
-    omlog().enable();
-    omout().enable();
-  }
-};
-
 }  // namespace
 
 TriMesh to_openmesh(const TriangleSoup& soup) {
@@ -145,20 +123,6 @@ TriangleSoup from_openmesh(const TriMesh& mesh) {
     }
   }
   return soup;
-}
-
-TriangleSoup read_om(const std::filesystem::path& path) {
-  constexpr std::string_view kSignature = "OM";
-  const MappedFile bytes(path);
-  std::istringstream stream{std::string(bytes.bytes())};
-  TriMesh mesh;
-  const SilentOpenMesh silence;
-  OpenMesh::IO::Options options;
-  if (!bytes.bytes().starts_with(kSignature) ||
-      !OpenMesh::IO::read_mesh(mesh, stream, ".om", options)) {
-    throw InputError(path.string() + ": cannot be read as a mesh of OpenMesh (.om)");
-  }
-  return from_openmesh(mesh);
 }
 
 }  // namespace meshrepair

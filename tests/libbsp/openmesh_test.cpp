@@ -2,11 +2,13 @@
 #include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <iterator>
 #include <numeric>
 #include <random>
 #include <string>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <gtest/gtest.h>
 
 #include <bsp/openmesh.h>
@@ -100,6 +102,78 @@ TEST(ReadOm, FileOfOpenMeshComesBack) {
   const TriangleSoup back = read_om(path);
   EXPECT_EQ(point_bits(back), point_bits(soup));
   EXPECT_EQ(normalized(back.triangles), normalized(soup.triangles));
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST(ReadOm, PropertiesAndPolygonsArePassedOver) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "mesh.om").string();
+  using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<>;
+  PolyMesh mesh;
+  mesh.request_vertex_normals();
+  mesh.request_vertex_colors();
+  mesh.request_face_normals();
+  mesh.request_vertex_status();
+  OpenMesh::VPropHandleT<double> weight;
+  mesh.add_property(weight, "weight");
+  mesh.property(weight).set_persistent(true);
+  std::vector<PolyMesh::VertexHandle> corners;
+  // Enough points for ids of two bytes.
+  for (int i = 0; i < 300; ++i) {
+    const auto x = static_cast<float>(std::cos(i * 0.02));
+    corners.push_back(mesh.add_vertex({x, static_cast<float>(std::sin(i * 0.02)), 0}));
+  }
+  mesh.add_face(corners);
+  OpenMesh::IO::Options options = OpenMesh::IO::Options::VertexNormal;
+  options += OpenMesh::IO::Options::VertexColor;
+  options += OpenMesh::IO::Options::FaceNormal;
+  options += OpenMesh::IO::Options::Status;
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path, options));
+  const TriangleSoup soup = read_om(path);
+  EXPECT_EQ(soup.points.size(), 300u);
+  EXPECT_EQ(soup.triangles.size(), 298u);
+}
+
+TEST(ReadOm, CornersOfVersionOne) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "mesh.om";
+  // Kind, version 1.2, counts, three points in float, chunk of faces with ids of one byte.
+  const std::string head("OMP\x22\3\0\0\0\1\0\0\0\3\0\0\0\0\x16", 18);
+  const std::string faces("\xE8\x02\3\0\0\1\2", 7);
+  std::ofstream(path, std::ios::binary) << head + std::string(36, '\0') + faces;
+  EXPECT_EQ(read_om(path).triangles, (std::vector<Triangle>{{0, 1, 2}}));
+}
+
+TEST(ReadOm, BrokenFileIsRefusedOrAValidSoup) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "mesh.om";
+  ASSERT_TRUE(OpenMesh::IO::write_mesh(to_openmesh(tetrahedron()), path.string()));
+  const std::string whole = bytes_of(path);
+  const auto read = [&](const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    try {
+      expect_valid_indices(read_om(path));
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(read(whole));
+  const std::size_t faces_end = whole.size() - 2;
+  for (std::size_t size = 0; size < faces_end; ++size)
+    EXPECT_FALSE(read(whole.substr(0, size))) << size;
+  std::mt19937 random(3);
+  for (int round = 0; round < 1000; ++round) {
+    std::string bytes = whole;
+    for (unsigned count = 1 + random() % 4; count > 0; --count) {
+      bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
+    }
+    read(bytes);
+  }
 }
 
 TEST(ReadOm, WhatIsNoOmIsRefused) {
