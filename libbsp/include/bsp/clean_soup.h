@@ -1,0 +1,57 @@
+// A soup brought onto the working grid: the exact input of everything that follows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <bsp/grid.h>
+#include <bsp/ids.h>
+#include <bsp/plane_table.h>
+#include <bsp/soup.h>
+
+namespace meshrepair {
+
+// A triangle that is not degenerate on the grid and differs from every other one in its corners.
+struct Triangle {
+  std::array<PointId, 3> corners;  // in the order of its first copy
+  PlaneId plane;
+  // How its copies are turned: +1 all along the plane's normal, -1 all against it, 0 both kinds.
+  std::int32_t winding = 0;
+  std::uint32_t source = 0;  // index of the first copy in the soup that was given
+};
+
+struct CleanSoup {
+  Grid grid;
+  IdVector<PointId, Vec3d> points;          // original coordinates, one for each grid point in use
+  IdVector<PointId, GridPoint> grid_points;  // all different
+  IdVector<TriangleId, Triangle> triangles;
+  PlaneTable planes;
+};
+
+// What clean_soup() dropped or joined.
+struct CleanReport {
+  std::size_t triangles_in = 0;
+  std::size_t dropped_not_finite = 0;   // a corner is NaN or infinite
+  std::size_t dropped_degenerate = 0;   // corners equal or in a line, on the grid
+  std::size_t duplicates = 0;           // copies with the same orientation as the first
+  std::size_t opposite_duplicates = 0;  // copies turned the other way
+  std::size_t joined_points = 0;        // points with different coordinates on one grid point
+  double grid_unit = 0;                 // in the input's units; points moved by at most half of it
+};
+
+// Rounds the points to the grid, joins those that fall on one grid point, drops and counts what cannot be
+// a triangle. The result may be without triangles. Linear time. Throws InputError when an index is out of
+// range.
+[[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report);
+
+// An axis-parallel box with integer corners, inclusive.
+struct GridBox {
+  GridPoint low, high;
+};
+
+// The box that stands for all of space: the bounding box of the points with a margin on every side, so
+// that every input point is strictly inside.
+[[nodiscard]] GridBox outer_box(const CleanSoup& soup);
+
+}  // namespace meshrepair

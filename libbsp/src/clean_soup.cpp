@@ -1,0 +1,174 @@
+#include <bsp/clean_soup.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <bsp/error.h>
+#include <bsp/hash_index.h>
+
+namespace meshrepair {
+namespace {
+
+using internal::hash_mix;
+using internal::hash_of;
+using internal::HashIndex;
+using Corners = std::array<PointId, 3>;
+
+// Which points are corners of triangles whose three corners are finite; throws on indices out of range.
+std::vector<char> used_points(const TriangleSoup& soup, std::vector<char>& finite_triangle) {
+  std::vector<char> finite(soup.points.size());
+  for (std::size_t i = 0; i < soup.points.size(); ++i) finite[i] = soup.points[i].allFinite();
+  std::vector<char> used(soup.points.size(), 0);
+  finite_triangle.assign(soup.triangles.size(), 0);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto& corner = soup.triangles[t];
+    for (const std::uint32_t c : corner) {
+      if (c >= soup.points.size()) {
+        throw InputError("triangle " + std::to_string(t) + " refers to point " + std::to_string(c) +
+                         ", but there are " + std::to_string(soup.points.size()) + " points");
+      }
+    }
+    if (!finite[corner[0]] || !finite[corner[1]] || !finite[corner[2]]) continue;
+    finite_triangle[t] = 1;
+    for (const std::uint32_t c : corner) used[c] = 1;
+  }
+  return used;
+}
+
+Grid grid_of(const TriangleSoup& soup, const std::vector<char>& used) {
+  Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
+  Vec3d high = -low;
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    if (!used[i]) continue;
+    low = low.cwiseMin(soup.points[i]);
+    high = high.cwiseMax(soup.points[i]);
+  }
+  return low.x() <= high.x() ? make_grid(low, high) : Grid{};
+}
+
+// Fills points and grid_points; returns the new id of each used point.
+std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<char>& used,
+                                 CleanSoup& clean, CleanReport& report) {
+  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+  clean.points.reserve(count);
+  clean.grid_points.reserve(count);
+  HashIndex index(count);
+  std::vector<PointId> id_of(soup.points.size());
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    if (!used[i]) continue;
+    const GridPoint at = clean.grid.to_grid(soup.points[i]);
+    const PointId fresh = clean.grid_points.end_id();
+    const PointId id(index.find_or_insert(hash_of(at), fresh.value, [&](std::uint32_t candidate) {
+      return clean.grid_points[PointId(candidate)] == at;
+    }));
+    if (id == fresh) {
+      clean.grid_points.push_back(at);
+      clean.points.push_back(soup.points[i]);
+    } else if (clean.points[id] != soup.points[i]) {
+      ++report.joined_points;
+    }
+    id_of[i] = id;
+  }
+  return id_of;
+}
+
+// Whether b is a even permutation of a; both hold the same three ids.
+bool same_orientation(const Corners& a, const Corners& b) {
+  return (a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[2]) ||
+         (a[0] == b[2] && a[1] == b[0]);
+}
+
+Corners sorted(Corners corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+std::uint64_t hash_of_corners(const Corners& sorted_corners) {
+  return hash_mix(hash_mix(hash_mix(0, sorted_corners[0].value), sorted_corners[1].value),
+                  sorted_corners[2].value);
+}
+
+class TriangleCollector {
+ public:
+  TriangleCollector(CleanSoup& clean, CleanReport& report, std::size_t expected)
+      : clean_(clean), report_(report), index_(expected) {
+    clean_.triangles.reserve(expected);
+  }
+
+  void add(const Corners& corners, std::uint32_t source) {
+    const auto& at = clean_.grid_points;
+    Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
+    if (is_null(plane)) {
+      ++report_.dropped_degenerate;
+      return;
+    }
+    const Corners key = sorted(corners);
+    const TriangleId fresh = clean_.triangles.end_id();
+    const TriangleId id(
+        index_.find_or_insert(hash_of_corners(key), fresh.value, [&](std::uint32_t candidate) {
+          return sorted(clean_.triangles[TriangleId(candidate)].corners) == key;
+        }));
+    if (id == fresh) {
+      const auto interned = clean_.planes.intern(plane);
+      clean_.triangles.push_back({corners, interned.id, interned.turned ? -1 : 1, source});
+    } else {
+      add_copy(clean_.triangles[id], corners);
+    }
+  }
+
+ private:
+  // Only which orientations occur matters, not how often: a face that is there twice is one face.
+  void add_copy(Triangle& triangle, const Corners& corners) {
+    if (same_orientation(triangle.corners, corners)) {
+      ++report_.duplicates;
+    } else {
+      ++report_.opposite_duplicates;
+      triangle.winding = 0;
+    }
+  }
+
+  CleanSoup& clean_;
+  CleanReport& report_;
+  HashIndex index_;
+};
+
+}  // namespace
+
+CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report) {
+  report = {};
+  report.triangles_in = soup.triangles.size();
+  std::vector<char> finite;
+  const std::vector<char> used = used_points(soup, finite);
+  CleanSoup clean;
+  clean.grid = grid_of(soup, used);
+  report.grid_unit = clean.grid.unit;
+  const std::vector<PointId> id_of = join_points(soup, used, clean, report);
+  TriangleCollector collector(clean, report, soup.triangles.size());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    if (!finite[t]) {
+      ++report.dropped_not_finite;
+      continue;
+    }
+    const auto& c = soup.triangles[t];
+    collector.add({id_of[c[0]], id_of[c[1]], id_of[c[2]]}, static_cast<std::uint32_t>(t));
+  }
+  return clean;
+}
+
+GridBox outer_box(const CleanSoup& soup) {
+  if (soup.grid_points.empty()) return {{-1, -1, -1}, {1, 1, 1}};
+  GridPoint low = soup.grid_points[PointId(0u)];
+  GridPoint high = low;
+  for (const GridPoint& p : soup.grid_points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const std::int32_t extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const std::int32_t margin = extent / 16 + 1;
+  return {{low.x - margin, low.y - margin, low.z - margin},
+          {high.x + margin, high.y + margin, high.z + margin}};
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,31 @@
+// Which facets are covered by input triangles, exactly.
+#pragma once
+
+#include <cstddef>
+
+#include <bsp/progress.h>
+
+#include <extract/cell_complex.h>
+
+namespace meshrepair {
+
+// What lies on a facet. A facet is covered in full by a triangle or not at all.
+struct Cover {
+  TriangleId triangle;       // the lowest id of the triangles that cover it; invalid: none, it is transparent
+  std::int32_t winding = 0;  // sum over them of their orientation against the facet's normal
+
+  [[nodiscard]] bool opaque() const { return triangle.valid(); }
+};
+
+struct CoverReport {
+  std::size_t opaque_facets = 0;
+  std::size_t split_facets = 0;  // how many cuts it took until no facet was covered in part
+};
+
+// Decides by predicates on the edges of triangles and facets, never by areas. A facet that a triangle covers
+// in part (coplanar triangles, open borders) is split along the triangle's edges; its new vertices go into
+// the neighbouring facets too, so the complex stays conforming. Frees the facets' lists of triangles.
+[[nodiscard]] IdVector<FacetId, Cover> cover_facets(CellComplex& complex, CoverReport& report,
+                                                    ProgressObserver* progress = nullptr);
+
+}  // namespace meshrepair

@@ -1,0 +1,26 @@
+// From a labelled complex to the mesh of its boundary.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <extract/cell_complex.h>
+#include <extract/cover_facets.h>
+#include <extract/surface.h>
+
+namespace meshrepair {
+
+struct ExtractReport {
+  std::size_t boundary_facets = 0;
+  std::size_t singular_edges = 0;
+  std::size_t singular_vertices = 0;
+  std::size_t middle_vertices = 0;  // put into edges at which solids touch along their whole length
+};
+
+// `solid` has one entry for each cell. Points of the input keep their original coordinates bit for bit; new
+// points are rounded from their exact place. The surface has no triangle when nothing is solid.
+[[nodiscard]] Surface extract_surface(const CellComplex& complex,
+                                      const IdVector<FacetId, Cover>& cover,
+                                      const std::vector<char>& solid, ExtractReport& report);
+
+}  // namespace meshrepair

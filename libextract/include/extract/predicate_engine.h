@@ -1,0 +1,40 @@
+// How the clipper asks about geometry: the only door through which numbers reach the topology.
+#pragma once
+
+#include <bsp/plane_table.h>
+#include <bsp/point.h>
+#include <bsp/predicates.h>
+
+namespace meshrepair {
+
+// An engine may be wrong about sides: the clipper keeps the topology valid whatever it says.
+class PredicateEngine {
+ public:
+  PredicateEngine() = default;
+  PredicateEngine(const PredicateEngine&) = delete;
+  PredicateEngine& operator=(const PredicateEngine&) = delete;
+  virtual ~PredicateEngine() = default;
+
+  // -1 below, 0 on, +1 above the plane.
+  virtual int side(const Point& point, PlaneId plane, const PlaneTable& planes) = 0;
+  // The point where the edge from `a` to `b`, on the common line of planes p and q, passes through `plane`.
+  virtual Point cross(const Point& a, const Point& b, PlaneId p, PlaneId q, PlaneId plane,
+                      const PlaneTable& planes) = 0;
+};
+
+// Never wrong.
+class ExactEngine final : public PredicateEngine {
+ public:
+  int side(const Point& point, PlaneId plane, const PlaneTable& planes) override {
+    return meshrepair::side(point, plane, planes);
+  }
+  Point cross(const Point& a, const Point& b, PlaneId p, PlaneId q, PlaneId plane,
+              const PlaneTable& planes) override {
+    const auto& u = a.position;
+    const auto& v = b.position;
+    return meet(planes, p, q, plane,
+                {0.5 * (u[0] + v[0]), 0.5 * (u[1] + v[1]), 0.5 * (u[2] + v[2])});
+  }
+};
+
+}  // namespace meshrepair

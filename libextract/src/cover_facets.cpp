@@ -1,0 +1,191 @@
+// Coverage of facets.
+//
+// Idea: the triangles of a node ride on the facets that the node's plane made, so each facet has a short list
+// of triangles that may cover it. On a closed input the planes of neighbouring triangles have already cut
+// the facets along all edges, and each test says "full" or "none". Where it says "part" (triangles in one
+// plane, open borders) the facet is cut along an edge of such a triangle, and both halves are looked at
+// again with the triangles that are still undecided: a small partition of the plane, made on demand.
+//
+// Invariant: an edge chosen for a cut crosses the facet and never crosses its parts, so it ends.
+#include <extract/cover_facets.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <bsp/assert.h>
+#include <bsp/error.h>
+#include <bsp/predicates.h>
+
+#include "complex_edit.h"
+#include "prepared_triangle.h"
+
+namespace meshrepair {
+namespace {
+
+using internal::Coverage;
+using internal::coverage_of;
+using internal::PreparedTriangle;
+
+// How many triangles offer their edges for a cut, and on how many each offer is judged.
+constexpr std::size_t kOffers = 6;
+constexpr std::size_t kJudged = 24;
+constexpr std::size_t kTicksPerProgress = 8192;
+
+class FacetCoverer {
+ public:
+  FacetCoverer(CellComplex& complex, CoverReport& report, ProgressObserver* progress)
+      : complex_(complex), report_(report), progress_(progress), cover_(complex.facets.size()) {}
+
+  IdVector<FacetId, Cover> run() {
+    const std::size_t count = complex_.facets.size();
+    for (FacetId f(0u); f.index() < count; ++f.value) {
+      tell_progress(f.index(), count);
+      const Facet& facet = complex_.facets[f];
+      if (facet.triangle_count == 0) continue;
+      const auto first = complex_.facet_triangles.begin() + facet.first_triangle;
+      cover(f, {first, first + facet.triangle_count});
+    }
+    for (const Cover& c : cover_) report_.opaque_facets += c.opaque();
+    complex_.facet_triangles = {};
+    for (Facet& f : complex_.facets) f.first_triangle = f.triangle_count = 0;
+    return std::move(cover_);
+  }
+
+ private:
+  struct Piece {
+    FacetId facet;
+    std::vector<TriangleId> undecided;
+  };
+
+  void cover(FacetId facet, std::vector<TriangleId> triangles) {
+    pieces_.push_back({facet, std::move(triangles)});
+    while (!pieces_.empty()) {
+      Piece piece = std::move(pieces_.back());
+      pieces_.pop_back();
+      decide(piece);
+      if (piece.undecided.empty()) continue;
+      const FacetId other = split(piece.facet, choose_cut(piece));
+      ++report_.split_facets;
+      pieces_.push_back({other, piece.undecided});
+      pieces_.push_back(std::move(piece));
+    }
+  }
+
+  // Applies the triangles that cover all of the facet and drops those that miss it.
+  void decide(Piece& piece) {
+    std::size_t kept = 0;
+    for (const TriangleId t : piece.undecided) {
+      const Coverage coverage = coverage_of(complex_, piece.facet, prepared(t));
+      if (coverage == Coverage::part) piece.undecided[kept++] = t;
+      if (coverage == Coverage::full) {
+        Cover& c = cover_[piece.facet];
+        if (!c.opaque() || t < c.triangle) c.triangle = t;
+        c.winding += complex_.soup().triangles[t].winding;
+      }
+    }
+    piece.undecided.resize(kept);
+  }
+
+  // An edge that crosses the facet, cuts few of the undecided triangles and leaves both sides alike.
+  Plane choose_cut(const Piece& piece) {
+    const auto& list = piece.undecided;
+    const std::size_t offers = std::min(kOffers, list.size());
+    std::size_t best_cost = std::numeric_limits<std::size_t>::max();
+    Plane best;
+    for (std::size_t k = 0; k < offers; ++k) {
+      const PreparedTriangle offered = prepared(list[k * list.size() / offers]);
+      for (const Plane& edge : offered.edges) {
+        const std::size_t cost = list.size() > 1 ? cost_of(edge, list) : 0;
+        if (cost < best_cost && internal::crosses(complex_, piece.facet, edge)) {
+          best_cost = cost;
+          best = edge;
+        }
+      }
+    }
+    MESHREPAIR_ASSERT(best_cost != std::numeric_limits<std::size_t>::max());
+    return best;
+  }
+
+  std::size_t cost_of(const Plane& edge, const std::vector<TriangleId>& list) const {
+    const std::size_t judged = std::min(kJudged, list.size());
+    std::size_t cut = 0, inside = 0, outside = 0;
+    for (std::size_t j = 0; j < judged; ++j) {
+      const auto& corners = complex_.soup().triangles[list[j * list.size() / judged]].corners;
+      int above = 0, below = 0;
+      for (const PointId p : corners) {
+        const int s = side(complex_.soup().grid_points[p], edge);
+        above += s > 0;
+        below += s < 0;
+      }
+      (above > 0 && below > 0 ? cut : above > 0 ? inside : outside) += 1;
+    }
+    return 8 * cut + std::max(inside, outside) - std::min(inside, outside);
+  }
+
+  // Cuts the facet, which is convex, along a plane that crosses it.
+  FacetId split(FacetId facet, const Plane& along) {
+    const PlaneId plane = complex_.planes.append(along);
+    std::vector<UseId> crossed;
+    complex_.for_each_use(facet, [&](UseId u) {
+      const Use& use = complex_.uses[u];
+      if (side_of(complex_.origin(use), plane) * side_of(complex_.target(use), plane) < 0) {
+        crossed.push_back(u);
+      }
+    });
+    for (const UseId u : crossed) {
+      const Edge& edge = complex_.edges[complex_.uses[u].edge];
+      const auto& a = complex_.vertices[edge.ends[0]].position;
+      const auto& b = complex_.vertices[edge.ends[1]].position;
+      const Point at = meet(complex_.planes, edge.planes[0], edge.planes[1], plane,
+                            {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
+      internal::split_edge(complex_, complex_.uses[u].edge, at);
+    }
+    std::vector<UseId> ends;
+    complex_.for_each_use(facet, [&](UseId u) {
+      if (side_of(complex_.origin(complex_.uses[u]), plane) == 0) ends.push_back(u);
+    });
+    MESHREPAIR_ASSERT(ends.size() == 2);
+    const FacetId added = internal::split_facet(complex_, facet, ends[0], ends[1], plane);
+    cover_.push_back(cover_[facet]);
+    return added;
+  }
+
+  int side_of(VertexId v, PlaneId plane) const {
+    return side(complex_.vertices[v], plane, complex_.planes);
+  }
+
+  // Facets of one node follow each other and mostly ask for the same triangle.
+  const PreparedTriangle& prepared(TriangleId t) {
+    if (t != prepared_id_) {
+      prepared_ = internal::prepare_triangle(complex_.soup(), t);
+      prepared_id_ = t;
+    }
+    return prepared_;
+  }
+
+  void tell_progress(std::size_t done, std::size_t all) {
+    if (progress_ == nullptr || done % kTicksPerProgress != 0) return;
+    if (progress_->cancelled()) throw Cancelled();
+    progress_->advance(static_cast<double>(done) / static_cast<double>(all));
+  }
+
+  CellComplex& complex_;
+  CoverReport& report_;
+  ProgressObserver* progress_;
+  IdVector<FacetId, Cover> cover_;
+  std::vector<Piece> pieces_;
+  PreparedTriangle prepared_;
+  TriangleId prepared_id_;
+};
+
+}  // namespace
+
+IdVector<FacetId, Cover> cover_facets(CellComplex& complex, CoverReport& report,
+                                      ProgressObserver* progress) {
+  report = {};
+  return FacetCoverer(complex, report, progress).run();
+}
+
+}  // namespace meshrepair

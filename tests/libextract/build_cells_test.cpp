@@ -1,0 +1,132 @@
+#include <extract/build_cells.h>
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <bsp/build_tree.h>
+#include <extract/check_complex.h>
+
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+struct Case {
+  std::string name;
+  TriangleSoup soup;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+Tree tree_of(const TriangleSoup& soup, BuildTreeReport& report) {
+  CleanReport clean;
+  return build_tree(clean_soup(soup, clean), {}, report);
+}
+
+double box_volume(const GridBox& b) {
+  return (static_cast<double>(b.high.x) - b.low.x) * (static_cast<double>(b.high.y) - b.low.y) *
+         (static_cast<double>(b.high.z) - b.low.z);
+}
+
+class BuildCells : public ::testing::TestWithParam<Case> {};
+
+TEST_P(BuildCells, CellsAreSpheresThatFillTheBox) {
+  BuildTreeReport tree_report;
+  const Tree tree = tree_of(GetParam().soup, tree_report);
+  EXPECT_EQ(tree_report.lost_fragments, 0u);
+  ClipReport report;
+  const CellComplex complex = build_cells(tree, {}, report);
+  EXPECT_EQ(report.fallbacks(), 0u);
+  EXPECT_EQ(complex.cells.size(), tree.leaves.size());
+  EXPECT_NO_THROW(check_complex(complex));
+  const double whole = box_volume(outer_box(tree.input));
+  double sum = 0;
+  for (CellId c(0u); c < complex.cells.end_id(); ++c.value) {
+    const double volume = cell_volume(complex, c);
+    EXPECT_GT(volume, -1e-9 * whole);
+    sum += volume;
+  }
+  EXPECT_NEAR(sum, whole, 1e-9 * whole);
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all = {{"Cube", cube()},
+                           {"Sphere", sphere(2000)},
+                           {"Torus", torus(30, 20)},
+                           {"Spheres", two_overlapping_spheres(2000)},
+                           {"Cubes", random_cubes(30, 1)},
+                           {"NoisySphere", noisy_sphere(1000, 0.2, 1)},
+                           {"Flat", TriangleSoup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}},
+                           {"Empty", TriangleSoup{}}};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::string n = std::to_string(seed);
+    all.push_back({"GridBoxes" + n, random_grid_boxes(10, 6, seed)});
+    all.push_back({"GridSoup" + n, random_soup(60, 4, seed)});
+    all.push_back({"Soup" + n, random_soup(40, 100000, seed)});
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, BuildCells, ::testing::ValuesIn(cases()),
+                         [](const auto& param_info) { return param_info.param.name; });
+
+TEST(BuildCells, InvariantsHoldAfterEveryClip) {
+  BuildTreeReport tree_report;
+  const Tree tree = tree_of(random_grid_boxes(6, 5, 3), tree_report);
+  ClipReport report;
+  BuildCellsOptions options;
+  options.check_every_clip = true;
+  EXPECT_NO_THROW((void)build_cells(tree, options, report));
+  EXPECT_GT(report.clips, 0u);
+}
+
+// Answers at random near the plane: the topology has to stay valid whatever the numbers say.
+class UnreliableEngine final : public PredicateEngine {
+ public:
+  UnreliableEngine(std::uint64_t seed, double wrong) : random_(seed), wrong_(wrong) {}
+  int side(const Point& point, PlaneId plane, const PlaneTable& planes) override {
+    if (random_.chance(wrong_)) return random_.integer(-1, 1);
+    return meshrepair::side(point, plane, planes);
+  }
+  Point cross(const Point& a, const Point& b, PlaneId, PlaneId, PlaneId, const PlaneTable&) override {
+    const double t = random_.real(0, 1);
+    std::array<double, 3> at{};
+    for (std::size_t i = 0; i < 3; ++i) at[i] = (1 - t) * a.position[i] + t * b.position[i];
+    return loose_point(at);
+  }
+
+ private:
+  Random random_;
+  double wrong_;
+};
+
+TEST(Clipper, TopologySurvivesWrongPredicates) {
+  ClipReport total;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    BuildTreeReport tree_report;
+    const Tree tree = tree_of(seed % 2 == 0 ? random_soup(25, 5, seed) : sphere(24), tree_report);
+    UnreliableEngine engine(seed, seed % 3 == 0 ? 0.02 : seed % 3 == 1 ? 0.3 : 1.0);
+    BuildCellsOptions options;
+    options.engine = &engine;
+    options.check_every_clip = true;
+    ClipReport report;
+    CellComplex complex = build_cells(tree, options, report);
+    EXPECT_NO_THROW(check_complex(complex));
+    EXPECT_EQ(complex.cells.size(), tree.leaves.size());
+    total.several_groups += report.several_groups;
+    total.region_floods += report.region_floods;
+    total.several_regions += report.several_regions;
+    total.forced_cuts += report.forced_cuts;
+  }
+  // Every branch was taken.
+  EXPECT_GT(total.several_groups, 0u);
+  EXPECT_GT(total.region_floods, 0u);
+  EXPECT_GT(total.several_regions, 0u);
+  EXPECT_GT(total.forced_cuts, 0u);
+}
+
+}  // namespace
+}  // namespace meshrepair
