@@ -1,0 +1,38 @@
+#include "mesh_source.h"
+
+#include <algorithm>
+
+#include <bsp/error.h>
+
+namespace meshrepair {
+
+std::size_t MeshSource::line_at(std::size_t position) const {
+  const std::string_view before = bytes.substr(0, std::min(position, bytes.size()));
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const bool cr_of_crlf = before[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n';
+    if (before[i] == '\n' || (before[i] == '\r' && !cr_of_crlf)) ++line;
+  }
+  return line;
+}
+
+void MeshSource::fail(const std::string& what) const { throw InputError(name + ": " + what); }
+
+void MeshSource::fail_at(std::size_t position, const std::string& what) const {
+  throw InputError(name + ":" + std::to_string(line_at(position)) + ": " + what);
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+}
+
+std::string printable(std::string_view word) {
+  constexpr std::size_t kLongest = 40;
+  std::string text(word.substr(0, kLongest));
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return text;
+}
+
+}  // namespace meshrepair

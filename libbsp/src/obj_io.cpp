@@ -1,0 +1,108 @@
+#include "obj_io.h"
+
+#include <array>
+#include <limits>
+
+#include "face_list.h"
+#include "text_scanner.h"
+#include "text_writer.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr TextDialect kObjText = {.comment = '#', .continuation = true};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const MeshSource& source) : source_(source), text_(source.bytes, kObjText) {}
+
+  ReadResult run() {
+    result_.report.format = SoupFormat::obj;
+    while (text_.next_anywhere()) {
+      line_at_ = text_.position();
+      const std::string_view word = text_.peek_token();
+      text_.skip_token();
+      if (word == "v") {
+        read_point();
+      } else if (word == "f" || word == "fo") {  // fo: face outline of old versions
+        read_face();
+      }
+      text_.skip_line();
+    }
+    report_losses();
+    faces_.append_to(result_);
+    return std::move(result_);
+  }
+
+ private:
+  void read_point() {
+    Vec3d point = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    bool good = true;
+    for (int i = 0; i < 3; ++i) good = text_.next_on_line() && text_.read_real(point[i]) && good;
+    if (!good && result_.report.bad_points++ == 0) first_bad_point_ = line_at_;
+    result_.soup.points.push_back(point);
+  }
+
+  void read_face() {
+    faces_.begin_face();
+    while (text_.next_on_line()) {
+      std::int64_t number = 0;
+      if (!text_.read_integer(number, '/')) {
+        if (result_.report.bad_faces++ == 0) first_bad_face_ = line_at_;
+        return faces_.drop_face();
+      }
+      faces_.add_corner(index_of(number));
+    }
+    faces_.end_face();
+  }
+
+  [[nodiscard]] std::int64_t index_of(std::int64_t number) const {
+    if (number > 0) return number - 1;
+    if (number == 0) return FaceList::kNoPoint;
+    return static_cast<std::int64_t>(result_.soup.points.size()) + number;
+  }
+
+  void report_losses() {
+    ReadReport& report = result_.report;
+    if (report.bad_faces > 0) {
+      report.warnings.push_back(counted(report.bad_faces, "face") +
+                                " left out: corners that are not numbers (first: line " +
+                                std::to_string(source_.line_at(first_bad_face_)) + ")");
+    }
+    if (report.bad_points > 0) {
+      report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
+                                " are not numbers (first: line " +
+                                std::to_string(source_.line_at(first_bad_point_)) + ")");
+    }
+  }
+
+  const MeshSource& source_;
+  TextScanner text_;
+  ReadResult result_;
+  FaceList faces_;
+  std::size_t line_at_ = 0;
+  std::size_t first_bad_face_ = 0;
+  std::size_t first_bad_point_ = 0;
+};
+
+}  // namespace
+
+ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); }
+
+std::string format_obj(const TriangleSoup& soup, const std::vector<std::string>& comments) {
+  std::string out;
+  for (const std::string& comment : comments) out += "# " + comment + "\n";
+  for (const Vec3d& point : soup.points) {
+    out += "v ";
+    append_triple(out, point);
+    out += '\n';
+  }
+  for (const auto& [a, b, c] : soup.triangles) {
+    out += "f ";
+    append_triple(out, std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,27 @@
+// PLY, ASCII and binary of both byte orders.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <bsp/soup_io.h>
+
+#include "mesh_source.h"
+
+namespace meshrepair {
+
+// Points are the properties x, y, z of the element `vertex`; faces are the list vertex_indices (or
+// vertex_index, or the only list) of the element `face`, and the strips of `tristrips`. Other
+// elements and properties, of any type and anywhere, are passed over. The header's counts and the
+// lengths of lists are checked against the bytes: elements end where the file ends. In ASCII a line
+// that cannot be read is a bad face, or a bad point kept as NaN; in a binary file nothing can be
+// read behind it.
+[[nodiscard]] ReadResult read_ply(const MeshSource& source);
+
+// Coordinates in double.
+[[nodiscard]] std::string format_ply_binary(const TriangleSoup& soup,
+                                            const std::vector<std::string>& comments);
+[[nodiscard]] std::string format_ply_ascii(const TriangleSoup& soup,
+                                           const std::vector<std::string>& comments);
+
+}  // namespace meshrepair

@@ -1,0 +1,27 @@
+// Appends numbers to a text: the shortest digits that read back as the same bits, in any locale.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <string>
+
+namespace meshrepair {
+
+template <class Number>
+void append_number(std::string& text, Number value) {
+  std::array<char, 32> digits;
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  text.append(digits.data(), end);
+}
+
+// Three numbers with blanks between, as they stand in an Eigen vector or a std::array.
+template <class Triple>
+void append_triple(std::string& text, const Triple& triple) {
+  append_number(text, triple[0]);
+  text += ' ';
+  append_number(text, triple[1]);
+  text += ' ';
+  append_number(text, triple[2]);
+}
+
+}  // namespace meshrepair
