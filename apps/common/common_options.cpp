@@ -14,6 +14,7 @@ namespace meshrepair {
 namespace {
 
 constexpr unsigned kMostThreads = 1024;
+constexpr std::string_view kReportOption = "--report";
 
 // Help in which an option is "--name TYPE", and what it does ends with its default.
 class HelpFormatter : public CLI::Formatter {
@@ -92,14 +93,13 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
 }
 
 std::string find_report_option(int argc, const char* const* argv) {
-  constexpr std::string_view kName = "--report";
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
     if (argument == "--") break;
-    if (argument.substr(0, kName.size() + 1) == "--report=") {
-      return std::string(argument.substr(kName.size() + 1));
+    if (argument.substr(0, kReportOption.size() + 1) == "--report=") {
+      return std::string(argument.substr(kReportOption.size() + 1));
     }
-    if (argument != kName || i + 1 == argc) continue;
+    if (argument != kReportOption || i + 1 == argc) continue;
     const std::string_view value = argv[i + 1];
     if (value == "-" || (!value.empty() && value.front() != '-')) return std::string(value);
   }

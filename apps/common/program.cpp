@@ -33,7 +33,7 @@ ProgressBar::Options bar_options(const CommonOptions& options) {
 Program::Program(const std::string& name, const std::string& description,
                  const std::string& examples)
     : command_line_(description, name) {
-  command_line_.footer("Examples:\n" + examples.substr(0, examples.find_last_not_of("\n") + 1));
+  command_line_.footer("Examples:\n" + examples.substr(0, examples.find_last_not_of('\n') + 1));
 }
 
 int Program::run(int argc, const char* const* argv, const Body& body) {
