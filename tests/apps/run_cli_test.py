@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 TIMEOUT_SECONDS = 110
 
@@ -42,6 +43,19 @@ def read_all(descriptor, chunks):
         chunks.append(chunk)
 
 
+def wait_until_asleep(process):
+    """Until the program waits for something (input, a timer), or for two seconds."""
+    for _ in range(200):
+        try:
+            with open(f"/proc/{process.pid}/stat", encoding="utf-8") as file:
+                state = file.read().rsplit(")", 1)[1].split()[0]
+        except OSError:
+            return
+        if state == "S":
+            return
+        time.sleep(0.01)
+
+
 def run(options, folder):
     """Exit code, stdout and stderr (bytes) of the program."""
     stdin = options.stdin.encode()
@@ -67,6 +81,7 @@ def run(options, folder):
     for reader in readers:
         reader.start()
     for name in options.signal:
+        wait_until_asleep(process)
         process.send_signal(signal.Signals["SIG" + name])
         if len(options.signal) > 1:
             try:
@@ -74,6 +89,8 @@ def run(options, folder):
             except subprocess.TimeoutExpired:
                 pass
     try:
+        if options.signal:  # stdin stays open: its end would wake the program up, too
+            process.wait(TIMEOUT_SECONDS)
         process.communicate(stdin, timeout=TIMEOUT_SECONDS)
     except BrokenPipeError:
         process.wait(TIMEOUT_SECONDS)
