@@ -24,7 +24,7 @@ struct Id {
 
   [[nodiscard]] constexpr bool valid() const { return value != kInvalidValue; }
   [[nodiscard]] constexpr std::size_t index() const { return value; }
-  constexpr auto operator<=>(const Id&) const = default;
+  constexpr auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 using PlaneId = Id<struct PlaneTag>;

@@ -1,0 +1,109 @@
+#include "common/common_options.h"
+
+#include <cstdio>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <bsp/error.h>
+
+namespace meshrepair {
+namespace {
+
+constexpr unsigned kMostThreads = 1024;
+constexpr std::string_view kReportOption = "--report";
+
+// Help in which an option is "--name TYPE", and what it does ends with its default.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { column_width(28); }
+
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    const std::string help = Formatter::make_help(app, std::move(name), mode);
+    return CLI::detail::find_and_replace(help, "\n\n\n", "\n\n");
+  }
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string type = option->get_type_name();  // "TYPE:check"
+    if (option->get_positional() || option->get_type_size() == 0 || type.empty()) return {};
+    return " " + type.substr(0, type.find(':'));
+  }
+
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::string value = option->get_default_str();
+    if (value.empty()) return option->get_description();
+    return option->get_description() + " (default: " + value + ")";
+  }
+};
+
+}  // namespace
+
+Verbosity CommonOptions::verbosity() const {
+  if (quiet) return Verbosity::quiet;
+  return verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
+std::string program_version() { return MESHREPAIR_VERSION; }
+
+void add_common_options(CLI::App& app, CommonOptions& options) {
+  app.formatter(std::make_shared<HelpFormatter>());
+  const std::string running = "Running";
+  const std::string telling = "Reporting";
+  app.add_option("--threads", options.threads, "Number of threads; 0 uses all")
+      ->capture_default_str()
+      ->check(CLI::Range(0U, kMostThreads))
+      ->type_name("N")
+      ->group(running);
+  app.add_option("--time-limit", options.time_limit, "Give up after this time; 0 is never")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS")
+      ->group(running);
+  app.add_option("--report", options.report, "Write a report as JSON; - is standard output")
+      ->type_name("FILE")
+      ->group(telling);
+  CLI::Option* quiet =
+      app.add_flag("--quiet,-q", options.quiet, "Print errors only")->group(telling);
+  app.add_flag("--verbose,-v", options.verbose, "Print what each step does")
+      ->excludes(quiet)
+      ->group(telling);
+  app.set_version_flag("--version", app.get_name() + " " + program_version())
+      ->description("Print the version and exit")
+      ->group(telling);
+  app.set_help_flag("--help,-h", "Print this text and exit")->group(telling);
+}
+
+bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return false;
+  } catch (const CLI::CallForVersion& version) {
+    std::fputs((std::string(version.what()) + "\n").c_str(), stdout);
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+std::string find_report_option(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--") break;
+    if (argument.substr(0, kReportOption.size() + 1) == "--report=") {
+      return std::string(argument.substr(kReportOption.size() + 1));
+    }
+    if (argument != kReportOption || i + 1 == argc) continue;
+    const std::string_view value = argv[i + 1];
+    if (value == "-" || (!value.empty() && value.front() != '-')) return std::string(value);
+  }
+  return {};
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,37 @@
+// The options that every program has, and how its command line is parsed.
+#pragma once
+
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "common/logging.h"
+
+namespace meshrepair {
+
+struct CommonOptions {
+  std::string report;  // file for the JSON report, "-" is stdout, empty is none
+  bool quiet = false;
+  bool verbose = false;
+  unsigned threads = 0;   // 0: all that the machine has
+  double time_limit = 0;  // seconds, 0: none
+
+  [[nodiscard]] Verbosity verbosity() const;
+};
+
+// The version of the project, "1.2.3".
+[[nodiscard]] std::string program_version();
+
+// Adds the options above, --version and --help. Call it after the program's own options: the groups
+// appear in help in the order in which they were added.
+void add_common_options(CLI::App& app, CommonOptions& options);
+
+// True if the program is to go on, false if it was asked for help or version, which are then on
+// stdout. Throws UsageError.
+[[nodiscard]] bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
+
+// The value of --report found without parsing, so that a report can say what was wrong with the
+// command line; empty if there is none.
+[[nodiscard]] std::string find_report_option(int argc, const char* const* argv);
+
+}  // namespace meshrepair

@@ -1,0 +1,45 @@
+// The exit codes of every program, and the one place where exceptions become exit codes.
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace meshrepair {
+
+// What a script can gate on. `limit`, `output` and `internal` may be tried again; `input` and
+// `no_solid` are final.
+enum class ExitCode : int {
+  done = 0,           // done; where a mesh was written, it holds every guarantee that was checked
+  not_certified = 1,  // a mesh was written, but not every guarantee could be shown
+  usage = 2,          // wrong usage: nothing was read
+  input = 3,          // the input cannot be read
+  limit = 4,          // a limit on time, memory or size was hit
+  no_solid = 5,       // the input was read, but encloses nothing
+  output = 6,         // the output cannot be written
+  internal = 70,      // a bug of ours
+  interrupted = 130,  // SIGINT
+  terminated = 143,   // SIGTERM
+};
+
+// Why a program ends early: its exit code and one line for the user, without the program's name.
+struct Failure {
+  ExitCode code = ExitCode::internal;
+  std::string message;
+};
+
+// The family of bsp/error.h by type, std::bad_alloc to limit, the rest to internal. Once a signal
+// was received every failure is that interruption: a cancelled read looks like a broken one. The
+// message has no newline.
+[[nodiscard]] Failure describe_failure(const std::exception_ptr& error);
+
+// Throws OutputError if what was printed to std::cout or stdout could not be written.
+void flush_standard_output();
+
+// Runs `function` and returns its exit code. An exception becomes the exit code above and exactly
+// one line
+// "<program>: <message>" on stderr. flush_standard_output() is part of it.
+[[nodiscard]] int run_guarded(std::string_view program, const std::function<ExitCode()>& function);
+
+}  // namespace meshrepair

@@ -1,0 +1,63 @@
+#include "common/json_report.h"
+
+#include <sys/resource.h>
+#include <utility>
+
+#include <bsp/assert.h>
+
+#include "common/common_options.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr const char* kTailKeys[] = {"stages", "seconds", "peak_memory_bytes", "exit_code",
+                                     "error"};
+
+std::size_t peak_memory_bytes() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+Json stages_of(const ProgressBar& progress) {
+  Json stages = Json::array();
+  for (const StageTime& time : progress.stages()) {
+    stages.push_back({{"name", time.name}, {"seconds", time.seconds}});
+  }
+  return stages;
+}
+
+}  // namespace
+
+JsonReport::JsonReport(const std::string& program, const std::vector<std::string>& command)
+    : head_(Json::object()), sections_(Json::object()) {
+  head_["program"] = program;
+  head_["version"] = program_version();
+  head_["command"] = command;
+  head_["input"] = nullptr;
+  head_["output"] = nullptr;
+}
+
+void JsonReport::set_input(Json input) { head_["input"] = std::move(input); }
+
+void JsonReport::set_output(Json output) { head_["output"] = std::move(output); }
+
+void JsonReport::set_section(const std::string& key, Json section) {
+  MESHREPAIR_ASSERT(!head_.contains(key));
+  for (const char* reserved : kTailKeys) MESHREPAIR_ASSERT(key != reserved);
+  sections_[key] = std::move(section);
+}
+
+std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failure,
+                             const ProgressBar& progress) const {
+  Json report = head_;
+  report.update(sections_);
+  report["stages"] = stages_of(progress);
+  report["seconds"] = progress.seconds();
+  report["peak_memory_bytes"] = peak_memory_bytes();
+  report["exit_code"] = static_cast<int>(code);
+  report["error"] = failure ? Json(failure->message) : Json(nullptr);
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,52 @@
+// The JSON report of a run: one object, the same frame for every program, written on failure too.
+//
+//   program       name
+//   version       of the project
+//   command       the command line, one string per argument
+//   input         what was read, or null
+//   output        what was written, or null
+//   ...           the program's own sections, in the order in which they were added
+//   stages        [{"name", "seconds"}]
+//   seconds       wall time of the whole run
+//   peak_memory_bytes
+//   exit_code     as returned by the process
+//   error         the line on stderr without the program's name, or null
+//
+// Keys are snake_case; times are in seconds, sizes in bytes. A number that is not finite is null, a
+// byte that is not UTF-8 (in a file's name) the replacement character.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "common/exit_code.h"
+#include "common/progress_bar.h"
+
+namespace meshrepair {
+
+using Json = nlohmann::ordered_json;  // keeps the order in which keys were added
+
+class JsonReport {
+ public:
+  JsonReport(const std::string& program, const std::vector<std::string>& command);
+
+  void set_input(Json input);
+  void set_output(Json output);
+  // Adds a section, or replaces it. Pre: not one of the keys above.
+  void set_section(const std::string& key, Json section);
+
+  // The finished text. `failure` is what ended the run early, if anything did.
+  [[nodiscard]] std::string text(ExitCode code, const std::optional<Failure>& failure,
+                                 const ProgressBar& progress) const;
+
+ private:
+  Json head_;      // program to output
+  Json sections_;  // the program's own
+};
+
+}  // namespace meshrepair

@@ -1,0 +1,57 @@
+#include "common/logging.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <unistd.h>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace meshrepair {
+namespace {
+
+spdlog::level::level_enum level_of(Verbosity verbosity) {
+  switch (verbosity) {
+    case Verbosity::quiet:
+      return spdlog::level::err;
+    case Verbosity::normal:
+      return spdlog::level::warn;
+    case Verbosity::verbose:
+      return spdlog::level::debug;
+  }
+  return spdlog::level::warn;
+}
+
+bool environment_has(const char* variable) {
+  const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): before any thread
+  return value != nullptr && *value != '\0';
+}
+
+}  // namespace
+
+bool stderr_is_terminal() {
+  const char* terminal = std::getenv("TERM");  // NOLINT(concurrency-mt-unsafe): never changed
+  return isatty(STDERR_FILENO) == 1 &&
+         (terminal == nullptr || std::string_view(terminal) != "dumb");
+}
+
+void set_up_logging(const std::string& program, Verbosity verbosity) {
+  const bool colours = stderr_is_terminal() && !environment_has("NO_COLOR");
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(
+      colours ? spdlog::color_mode::always : spdlog::color_mode::never);
+  auto logger = std::make_shared<spdlog::logger>(program, std::move(sink));
+  logger->set_level(level_of(verbosity));
+  logger->flush_on(spdlog::level::trace);
+  // On a terminal each line first clears what the progress bar has drawn there.
+  const std::string clear_line = stderr_is_terminal() ? "\r\x1b[K" : "";
+  logger->set_pattern(clear_line + "%n: %^%l%$: %v");
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void print_summary(std::string_view lines) {
+  if (!spdlog::should_log(spdlog::level::warn)) return;
+  std::fwrite(lines.data(), 1, lines.size(), stderr);
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,86 @@
+#include "common/program.h"
+
+#include <exception>
+#include <optional>
+
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+
+#include <bsp/atomic_file.h>
+#include <bsp/error.h>
+
+#include "common/logging.h"
+#include "common/signals.h"
+
+namespace meshrepair {
+namespace {
+
+std::optional<tbb::global_control> limit_threads(unsigned threads) {
+  if (threads == 0) return std::nullopt;
+  return std::optional<tbb::global_control>(std::in_place,
+                                            tbb::global_control::max_allowed_parallelism, threads);
+}
+
+ProgressBar::Options bar_options(const CommonOptions& options) {
+  ProgressBar::Options bar;
+  bar.draw = !options.quiet && stderr_is_terminal();
+  bar.time_limit = options.time_limit;
+  return bar;
+}
+
+}  // namespace
+
+Program::Program(const std::string& name, const std::string& description,
+                 const std::string& examples)
+    : command_line_(description, name) {
+  command_line_.footer("Examples:\n" + examples.substr(0, examples.find_last_not_of('\n') + 1));
+}
+
+int Program::run(int argc, const char* const* argv, const Body& body) {
+  return run_guarded(command_line_.get_name(), [&] {
+    install_signal_handlers();
+    set_up_logging(command_line_.get_name(), Verbosity::normal);
+    return run_and_report(argc, argv, body);
+  });
+}
+
+ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& body) {
+  JsonReport report(command_line_.get_name(), std::vector<std::string>(argv, argv + argc));
+  std::optional<ProgressBar> progress(std::in_place);
+  ExitCode code = ExitCode::done;
+  std::exception_ptr error;
+  try {
+    options_.report = find_report_option(argc, argv);
+    add_common_options(command_line_, options_);
+    if (!parse_command_line(command_line_, argc, argv)) return ExitCode::done;
+    set_up_logging(command_line_.get_name(), options_.verbosity());
+    progress.emplace(bar_options(options_));
+    const auto thread_limit = limit_threads(options_.threads);
+    Run run{report, *progress, options_};
+    code = body(run);
+    flush_standard_output();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  progress->finish();
+  write_report(report, code, error, *progress);
+  if (error) std::rethrow_exception(error);
+  return code;
+}
+
+// An error of the run outweighs one of its report.
+void Program::write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
+                           const ProgressBar& progress) const {
+  if (options_.report.empty()) return;
+  std::optional<Failure> failure;
+  if (error) failure = describe_failure(error);
+  const std::string text = report.text(failure ? failure->code : code, failure, progress);
+  try {
+    write_file_atomically(options_.report, text);
+  } catch (const OutputError& e) {
+    if (!error) throw;
+    spdlog::warn("no report: {}", e.what());
+  }
+}
+
+}  // namespace meshrepair

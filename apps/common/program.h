@@ -1,0 +1,54 @@
+// The frame of every program: command line, logging, signals, threads, report and exit code.
+//
+//   int main(int argc, char** argv) {
+//     Program program("bspbuild", "Builds the BSP tree of a mesh.", "  bspbuild in.stl -o
+//     out.bsp\n"); program.command_line().add_option("IN", options.input, "Mesh")->required();
+//     return program.run(argc, argv, [&](Run& run) { ...; return ExitCode::done; });
+//   }
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "common/common_options.h"
+#include "common/exit_code.h"
+#include "common/json_report.h"
+#include "common/progress_bar.h"
+
+namespace meshrepair {
+
+// What the body of a program works with.
+struct Run {
+  JsonReport& report;
+  ProgressBar& progress;
+  const CommonOptions& options;
+};
+
+class Program {
+ public:
+  using Body = std::function<ExitCode(Run&)>;
+
+  // `examples`: lines for the end of the help text, indented by two spaces, each ending with a
+  // newline.
+  Program(const std::string& name, const std::string& description, const std::string& examples);
+
+  // For the program's own options, to be added before run().
+  [[nodiscard]] CLI::App& command_line() { return command_line_; }
+
+  // Parses, runs `body`, writes the report whatever happened, and returns the exit code. The report
+  // that cannot be written turns success into ExitCode::output.
+  [[nodiscard]] int run(int argc, const char* const* argv, const Body& body);
+
+ private:
+  ExitCode run_and_report(int argc, const char* const* argv, const Body& body);
+  void write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
+                    const ProgressBar& progress) const;
+
+  CLI::App command_line_;
+  CommonOptions options_;
+};
+
+}  // namespace meshrepair

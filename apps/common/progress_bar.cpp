@@ -1,0 +1,118 @@
+#include "common/progress_bar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <bsp/error.h>
+
+#include "common/signals.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr double kSecondsBetweenDrawings = 0.1;
+
+double seconds_between(std::chrono::steady_clock::time_point from,
+                       std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+int columns_of(std::FILE* terminal) {
+  winsize size = {};
+  if (ioctl(fileno(terminal), TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 80;
+}
+
+}  // namespace
+
+std::string progress_line(std::string_view stage, double share, double seconds, int columns) {
+  const double clamped = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+  const int percent = static_cast<int>(clamped * 100);
+  std::string line = fmt::format("{:<12} {:>3}% ", stage, percent);
+  const std::string end = fmt::format(" {:.1f} s", seconds);
+  const int room = columns - static_cast<int>(line.size() + end.size()) - 2;
+  if (room >= 10) {
+    const auto width = static_cast<std::size_t>(std::min(room, 40));
+    const auto filled = static_cast<std::size_t>(clamped * static_cast<double>(width));
+    line += '[' + std::string(filled, '=') + std::string(width - filled, ' ') + ']';
+  }
+  line += end;
+  return line.substr(0, static_cast<std::size_t>(std::max(columns, 0)));
+}
+
+ProgressBar::ProgressBar(const Options& options)
+    : options_(options), start_(Clock::now()), stage_start_(start_), last_drawn_(start_) {}
+
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::stage(std::string_view name) {
+  end_stage();
+  stage_ = name;
+  stage_start_ = Clock::now();
+  share_ = 0;
+  draw();
+}
+
+void ProgressBar::advance(double share) {
+  share_ = share;
+  draw();
+}
+
+bool ProgressBar::cancelled() {
+  if (received_signal() != 0) return true;
+  if (options_.time_limit > 0 && seconds() > options_.time_limit) {
+    throw LimitError(
+        fmt::format("time limit of {:g} s reached in stage '{}'", options_.time_limit, stage_));
+  }
+  draw();
+  return false;
+}
+
+void ProgressBar::finish() {
+  end_stage();
+  clear();
+}
+
+double ProgressBar::seconds() const { return seconds_between(start_, Clock::now()); }
+
+void ProgressBar::end_stage() {
+  if (stage_.empty()) return;
+  const double seconds = seconds_between(stage_start_, Clock::now());
+  const auto known = std::find_if(stages_.begin(), stages_.end(),
+                                  [&](const StageTime& time) { return time.name == stage_; });
+  if (known != stages_.end()) {
+    known->seconds += seconds;
+  } else {
+    stages_.push_back({stage_, seconds});
+  }
+  spdlog::info("{}: {:.3f} s", stage_, seconds);
+  stage_.clear();
+}
+
+void ProgressBar::draw() {
+  if (!options_.draw || stage_.empty()) return;
+  const Clock::time_point now = Clock::now();
+  if (seconds_between(start_, now) < options_.delay) return;
+  if (line_is_drawn_ && seconds_between(last_drawn_, now) < kSecondsBetweenDrawings) return;
+  // One column is left free: a full line would wrap on some terminals.
+  const std::string line = progress_line(stage_, share_, seconds_between(stage_start_, now),
+                                         columns_of(options_.terminal) - 1);
+  fmt::print(options_.terminal, "\r{}\x1b[K", line);
+  std::fflush(options_.terminal);
+  line_is_drawn_ = true;
+  last_drawn_ = now;
+}
+
+void ProgressBar::clear() {
+  if (!line_is_drawn_) return;
+  std::fputs("\r\x1b[K", options_.terminal);
+  std::fflush(options_.terminal);
+  line_is_drawn_ = false;
+}
+
+}  // namespace meshrepair

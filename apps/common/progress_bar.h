@@ -1,0 +1,68 @@
+// The observer of every program: times the stages, draws them, and passes on signals and the time
+// limit.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <bsp/progress.h>
+
+namespace meshrepair {
+
+struct StageTime {
+  std::string name;
+  double seconds = 0;
+};
+
+// One line of at most `columns` characters: stage, share, bar, seconds. Share is clamped to 0 to 1.
+[[nodiscard]] std::string progress_line(std::string_view stage, double share, double seconds,
+                                        int columns);
+
+class ProgressBar : public ProgressObserver {
+ public:
+  struct Options {
+    bool draw = false;             // on `terminal`, from the first half second on
+    double time_limit = 0;         // seconds from construction on; 0 is none
+    std::FILE* terminal = stderr;  // not owned
+    double delay = 0.5;            // seconds before anything is drawn: short runs stay silent
+  };
+
+  explicit ProgressBar(const Options& options);
+  ProgressBar() : ProgressBar(Options()) {}
+  ~ProgressBar() override;
+
+  void stage(std::string_view name) override;
+  void advance(double share) override;
+  // True once a signal was received. Throws LimitError once the time limit is over.
+  bool cancelled() override;
+
+  // Ends the last stage and clears the line. May be called more than once.
+  void finish();
+
+  // The stages so far, in order of their first start; one that was entered again adds up. The
+  // current one is included after finish() only.
+  [[nodiscard]] const std::vector<StageTime>& stages() const { return stages_; }
+  // Since construction.
+  [[nodiscard]] double seconds() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void end_stage();
+  void draw();
+  void clear();
+
+  Options options_;
+  Clock::time_point start_;
+  Clock::time_point stage_start_;
+  Clock::time_point last_drawn_;
+  std::string stage_;
+  double share_ = 0;
+  bool line_is_drawn_ = false;
+  std::vector<StageTime> stages_;
+};
+
+}  // namespace meshrepair

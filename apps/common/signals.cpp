@@ -1,0 +1,43 @@
+#include "common/signals.h"
+
+#include <atomic>
+#include <csignal>
+#include <unistd.h>
+
+#include <bsp/atomic_file.h>
+
+namespace meshrepair {
+namespace {
+
+std::atomic<int> first_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a handler may touch lock-free atomics only");
+
+extern "C" void handle_signal(int number) {
+  int none = 0;
+  if (first_signal.compare_exchange_strong(none, number)) return;
+  remove_unfinished_file();
+  _exit(128 + number);
+}
+
+// Without SA_RESTART: a program that waits for its standard input must wake up.
+void handle(int number) {
+  struct sigaction action = {};
+  sigaction(number, nullptr, &action);
+  if (action.sa_handler == SIG_IGN) return;
+  action = {};
+  action.sa_handler = handle_signal;
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  handle(SIGINT);
+  handle(SIGTERM);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+int received_signal() noexcept { return first_signal.load(); }
+
+}  // namespace meshrepair

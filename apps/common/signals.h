@@ -1,0 +1,15 @@
+// How programs end when they are asked to: politely first, at once if asked twice.
+#pragma once
+
+namespace meshrepair {
+
+// SIGINT and SIGTERM: the first one is noted (see received_signal) and the work is expected to stop
+// at the next question of cancelled(); the second one removes the unfinished output file and ends
+// the process at once with 130 or 143. SIGPIPE is ignored: a closed pipe is then a write error like
+// any other. A signal that was ignored when the program started (nohup) stays ignored.
+void install_signal_handlers();
+
+// The number of the first signal received, or 0.
+[[nodiscard]] int received_signal() noexcept;
+
+}  // namespace meshrepair

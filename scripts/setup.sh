@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that the project needs. This is the only place that names them.
+set -euo pipefail
+
+usage() {
+  cat <<TEXT
+Usage: scripts/setup.sh [build|all]
+
+  build   what is needed to build the programs and to run the tests
+  all     the same, and what the checks need: clang-format, clang-tidy (default)
+
+Asks for nothing, and does nothing if all is there. Needs Debian 12 or a relative of it, and root or sudo
+if something is missing.
+TEXT
+}
+
+build_packages=(
+  ca-certificates
+  cmake
+  g++
+  git
+  libbenchmark-dev
+  libcli11-dev
+  libeigen3-dev
+  libgmock-dev
+  libgtest-dev
+  libopenmesh-dev
+  libspdlog-dev
+  libtbb-dev
+  ninja-build
+  nlohmann-json3-dev
+  python3
+)
+check_packages=(
+  clang
+  clang-format-14
+  clang-tidy
+  python3-numpy
+)
+
+case "${1:-all}" in
+  build) packages=("${build_packages[@]}") ;;
+  all) packages=("${build_packages[@]}" "${check_packages[@]}") ;;
+  -h | --help) usage; exit 0 ;;
+  *) usage >&2; exit 2 ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "setup.sh: this is no Debian; install the counterparts of: ${packages[*]}" >&2
+  exit 1
+fi
+
+is_installed() {
+  [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+missing=()
+for package in "${packages[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+if [ "${#missing[@]}" -eq 0 ]; then
+  echo "setup: all ${#packages[@]} packages are installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup.sh: not root, and there is no sudo; as root, run: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+echo "setup: installing ${missing[*]}"
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 --quiet "$@"
+}
+apt update
+apt install --yes --no-install-recommends "${missing[@]}"

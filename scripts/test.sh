@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Sets up, builds the release and runs all tests.
+set -euo pipefail
+
+if [ "$#" -gt 0 ]; then
+  echo "Usage: scripts/test.sh"
+  echo
+  echo "Installs what a build needs (scripts/setup.sh), builds build/release and runs all tests."
+  case "$1" in -h | --help) exit 0 ;; *) exit 2 ;; esac
+fi
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+jobs=$(nproc)
+
+scripts/setup.sh build
+cmake --preset release
+cmake --build build/release --parallel "$jobs"
+ctest --test-dir build/release --output-on-failure --parallel "$jobs" --no-tests=error

@@ -1,0 +1,64 @@
+#include "common/json_report.h"
+
+#include <gmock/gmock.h>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <bsp/error.h>
+
+namespace meshrepair {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+TEST(JsonReport, FrameIsCompleteAndInOrder) {
+  JsonReport report("test", {"test", "in.stl"});
+  report.set_section("repair", {{"cells", 5}});
+  report.set_input({{"path", "in.stl"}});
+  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  EXPECT_THAT(keys_of(json),
+              ElementsAre("program", "version", "command", "input", "output", "repair", "stages",
+                          "seconds", "peak_memory_bytes", "exit_code", "error"));
+  EXPECT_EQ(json["repair"]["cells"], 5);
+  EXPECT_EQ(json["input"]["path"], "in.stl");
+  EXPECT_TRUE(json["output"].is_null());
+  EXPECT_TRUE(json["error"].is_null());
+  EXPECT_GT(json["peak_memory_bytes"], 0);
+}
+
+TEST(JsonReport, FailureHasCodeAndMessage) {
+  const JsonReport report("test", {"test"});
+  const Failure failure = {ExitCode::no_solid, "in.stl: encloses nothing"};
+  const Json json = Json::parse(report.text(failure.code, failure, ProgressBar()));
+  EXPECT_EQ(json["exit_code"], 5);
+  EXPECT_EQ(json["error"], "in.stl: encloses nothing");
+}
+
+TEST(JsonReport, FileNamesNeedNotBeUtf8) {
+  JsonReport report("test", {"test", "\xff.stl"});
+  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  EXPECT_EQ(json["command"][1], "\xEF\xBF\xBD.stl");
+}
+
+TEST(JsonReport, NumbersThatAreNotFiniteAreNull) {
+  JsonReport report("test", {"test"});
+  report.set_section("x", {{"volume", std::numeric_limits<double>::quiet_NaN()}});
+  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  EXPECT_TRUE(json["x"]["volume"].is_null());
+}
+
+TEST(JsonReport, SectionsCannotReplaceTheFrame) {
+  JsonReport report("test", {"test"});
+  EXPECT_THROW(report.set_section("program", 1), InternalError);
+  EXPECT_THROW(report.set_section("exit_code", 1), InternalError);
+}
+
+}  // namespace
+}  // namespace meshrepair

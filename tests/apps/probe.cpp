@@ -1,0 +1,76 @@
+// A program that does nothing but end in one of the ways in which programs end: what is tested with
+// it is the frame that all programs share.
+#include <chrono>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <thread>
+#include <unistd.h>
+
+#include <tbb/global_control.h>
+
+#include <bsp/assert.h>
+#include <bsp/error.h>
+
+#include "common/program.h"
+
+namespace meshrepair {
+namespace {
+
+ExitCode fail(const std::string& how) {
+  if (how == "usage") throw UsageError("x.txt: unknown format");
+  if (how == "input") throw InputError("x.stl: is empty");
+  if (how == "limit") throw LimitError("more than 5 triangles");
+  if (how == "memory") throw std::bad_alloc();
+  if (how == "no_solid") throw NoSolidError("x.stl: encloses nothing");
+  if (how == "output") throw OutputError("x.stl: cannot be written: No space left on device");
+  if (how == "cancelled") throw Cancelled();
+  if (how == "assert") MESHREPAIR_ASSERT(how.empty());
+  if (how == "exception") throw std::runtime_error("first line\nsecond line");
+  if (how == "unknown") throw 1;
+  return how == "not_certified" ? ExitCode::not_certified : ExitCode::done;
+}
+
+// Until it is told to stop, and at most 20 seconds.
+ExitCode work(ProgressBar& progress, bool deaf) {
+  progress.stage("waiting");
+  std::puts("working");
+  std::fflush(stdout);
+  for (int i = 0; i < 2000; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    progress.advance(i / 2000.0);
+    if (!deaf && progress.cancelled()) throw Cancelled();
+  }
+  return ExitCode::done;
+}
+
+ExitCode probe(const std::string& what, Run& run) {
+  run.report.set_input({{"path", what}});
+  if (what == "work") return work(run.progress, false);
+  if (what == "deaf") return work(run.progress, true);
+  if (what == "stdin") {
+    std::puts("working");
+    std::fflush(stdout);
+    char byte = 0;
+    if (read(STDIN_FILENO, &byte, 1) < 0) throw InputError("standard input: interrupted");
+    return ExitCode::done;
+  }
+  if (what == "threads") {
+    const auto threads =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    run.report.set_section("probe", {{"threads", threads}});
+  }
+  if (what == "print") std::puts("data");
+  return fail(what);
+}
+
+}  // namespace
+}  // namespace meshrepair
+
+int main(int argc, char** argv) {
+  std::string what;
+  meshrepair::Program program("probe", "Ends in the way that it is told.", "  probe done\n");
+  program.command_line().add_option("WHAT", what, "How to end")->required();
+  return program.run(argc, argv,
+                     [&](meshrepair::Run& run) { return meshrepair::probe(what, run); });
+}

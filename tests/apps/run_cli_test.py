@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Runs a program in an empty folder and compares what it did with what was expected.
+
+Called by the CMake function cli_test (cmake/CliTest.cmake), which says what the options mean.
+"""
+
+import argparse
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+TIMEOUT_SECONDS = 110
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--exit", type=int, default=0)
+    parser.add_argument("--stdin", default="")
+    parser.add_argument("--stdin-file")
+    for repeated in ("--stdout", "--stderr", "--exists", "--missing", "--json", "--signal"):
+        parser.add_argument(repeated, action="append", default=[])
+    parser.add_argument("--run-in-terminal", action="store_true")
+    parser.add_argument("--closed-stdout", action="store_true")
+    parser.add_argument("command", nargs="+")
+    return parser.parse_args()
+
+
+def read_all(descriptor, chunks):
+    while True:
+        try:
+            chunk = os.read(descriptor, 65536)
+        except OSError:  # a terminal says so when its other end is closed
+            chunk = b""
+        if not chunk:
+            return
+        chunks.append(chunk)
+
+
+def wait_until_asleep(process):
+    """Until the program waits for something (input, a timer), or for two seconds."""
+    for _ in range(200):
+        try:
+            with open(f"/proc/{process.pid}/stat", encoding="utf-8") as file:
+                state = file.read().rsplit(")", 1)[1].split()[0]
+        except OSError:
+            return
+        if state == "S":
+            return
+        time.sleep(0.01)
+
+
+def run(options, folder):
+    """Exit code, stdout and stderr (bytes) of the program."""
+    stdin = options.stdin.encode()
+    if options.stdin_file:
+        with open(options.stdin_file, "rb") as file:
+            stdin = file.read()
+
+    err_read, err_write = pty.openpty() if options.run_in_terminal else os.pipe()
+    out_read, out_write = os.pipe()
+    if options.closed_stdout:
+        os.close(out_read)
+    process = subprocess.Popen(options.command, cwd=folder, stdin=subprocess.PIPE,
+                               stdout=out_write, stderr=err_write)
+    os.close(out_write)
+    os.close(err_write)
+
+    out, err = [], []
+    readers = [threading.Thread(target=read_all, args=(err_read, err))]
+    if not options.closed_stdout:
+        if options.signal:
+            out.append(os.read(out_read, 65536))
+        readers.append(threading.Thread(target=read_all, args=(out_read, out)))
+    for reader in readers:
+        reader.start()
+    for name in options.signal:
+        wait_until_asleep(process)
+        process.send_signal(signal.Signals["SIG" + name])
+        if len(options.signal) > 1:
+            try:
+                process.wait(0.5)
+            except subprocess.TimeoutExpired:
+                pass
+    try:
+        if options.signal:  # stdin stays open: its end would wake the program up, too
+            process.wait(TIMEOUT_SECONDS)
+        process.communicate(stdin, timeout=TIMEOUT_SECONDS)
+    except BrokenPipeError:
+        process.wait(TIMEOUT_SECONDS)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+    for reader in readers:
+        reader.join()
+    return process.returncode, b"".join(out), b"".join(err)
+
+
+def json_value(text, keys):
+    value = json.loads(text)
+    for key in keys.split("."):
+        value = value[int(key)] if isinstance(value, list) else value[key]
+    return value
+
+
+def check_json(check, folder, stdout):
+    name, rest = check.split(":", 1)
+    keys, expected = rest.split("=", 1)
+    if name == "-":
+        text = stdout
+    else:
+        with open(os.path.join(folder, name), "rb") as file:
+            text = file.read()
+    value = json_value(text, keys)
+    if value != json.loads(expected):
+        return f"{name}: {keys} is {value!r}, not {expected}"
+    return None
+
+
+def complaints(options, folder, code, stdout, stderr):
+    if code != options.exit:
+        yield f"exit code {code}, not {options.exit}"
+    for stream, text, patterns in (("stdout", stdout, options.stdout),
+                                   ("stderr", stderr, options.stderr)):
+        for pattern in patterns:
+            if not re.search(pattern, text.decode("utf-8", "replace")):
+                yield f"{stream} does not match {pattern!r}"
+    for name in options.exists:
+        if not os.path.exists(os.path.join(folder, name)):
+            yield f"{name} was not written"
+    for name in options.missing:
+        if os.path.exists(os.path.join(folder, name)):
+            yield f"{name} was written"
+    for check in options.json:
+        try:
+            complaint = check_json(check, folder, stdout)
+        except (OSError, ValueError, KeyError, IndexError) as error:
+            complaint = f"{check}: {error!r}"
+        if complaint:
+            yield complaint
+
+
+def main():
+    options = parse_arguments()
+    with tempfile.TemporaryDirectory(prefix="cli_test_") as folder:
+        code, stdout, stderr = run(options, folder)
+        found = list(complaints(options, folder, code, stdout, stderr))
+        if not found:
+            return 0
+        for complaint in found:
+            print(complaint)
+        print("files:", *sorted(os.listdir(folder)))
+        print(f"--- stdout\n{stdout.decode('utf-8', 'replace')}")
+        print(f"--- stderr\n{stderr.decode('utf-8', 'replace')}")
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
