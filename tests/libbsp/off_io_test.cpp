@@ -49,8 +49,11 @@ TEST(ReadOff, HeadersAsTheyOccur) {
         "# x\nOFF\n# y\n3 2 0\n\n# z\n", "OFF\n3 2\n", "OFF\n3\n2\n0\n", "COFF\n3 2 0\n",
         "NOFF\n3 2 0\n", "STCN4OFF\n3 2 0\n", "4OFF\n3 2 0\n", "nOFF\n3\n3 2 0\n", "noff\n3 2 0\n",
         "OFF\n3 2 0 # counts\n"}) {
-    expect_both_triangles(header + kPoints + kFaces);
-    expect_both_triangles(replaced(header + kPoints + kFaces, "\n", "\r\n"));
+    std::string text = header;
+    text += kPoints;
+    text += kFaces;
+    expect_both_triangles(text);
+    expect_both_triangles(replaced(text, "\n", "\r\n"));
   }
 }
 

@@ -40,6 +40,7 @@ double overlap(const std::vector<Vec3d>& points, const std::vector<Triangle>& tr
 
 TEST(TriangulatePolygon, ConvexPolygonIsTheFanOfItsFirstCorner) {
   std::vector<Vec3d> points;
+  points.reserve(6);
   for (int i = 0; i < 6; ++i) points.emplace_back(std::cos(i), 5, std::sin(i));
   EXPECT_EQ(triangulate(points),
             (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
@@ -98,6 +99,7 @@ TEST(TriangulatePolygon, WhatHasNoEarsIsTheFan) {
 
 TEST(TriangulatePolygon, ManyCornersTakeNoQuadraticTime) {
   std::vector<Vec3d> points;
+  points.reserve(200000);
   for (int i = 0; i < 200000; ++i) points.emplace_back(i, i % 2, 0);
   EXPECT_EQ(triangulate(points).size(), points.size() - 2);
 }

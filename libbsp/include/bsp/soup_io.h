@@ -1,19 +1,20 @@
 // Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects.
 //
 // Reading: the format is told by content first, then by extension. Coordinates are kept in double.
-// STL corners with bit-identical coordinates (-0 is 0) are welded into one point; the points of indexed
-// formats are kept as they are. Polygons are triangulated. The bytes decide, never a declared count: a
-// file that holds less than it promises is read as far as it goes and the loss is counted, and no memory
-// is taken for what the file cannot hold. No path named inside a file is opened.
+// STL corners with bit-identical coordinates (-0 is 0) are welded into one point; the points of
+// indexed formats are kept as they are. Polygons are triangulated. The bytes decide, never a
+// declared count: a file that holds less than it promises is read as far as it goes and the loss is
+// counted, and no memory is taken for what the file cannot hold. No path named inside a file is
+// opened. A mapped file must not be shortened by others while it is read.
 //
-// Writing: shortest decimal digits that read back as the same bits; every write is checked; the target
-// appears atomically (a temporary file beside it, fsync, rename) unless it is a device or a pipe.
+// Writing: shortest decimal digits that read back as the same bits; every write is checked; the
+// target appears atomically (a temporary file beside it, fsync, rename) unless it is a device or a
+// pipe.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,12 +33,16 @@ enum class SoupFormat { stl_binary, stl_ascii, obj, off, ply_binary, ply_ascii }
 struct ReadReport {
   SoupFormat format = SoupFormat::obj;
   std::size_t bytes = 0;
-  std::size_t declared_triangles = 0;  // faces or triangles that the header promised; 0 if it has none
-  std::size_t polygons = 0;            // faces with more than three corners, triangulated
-  std::size_t bad_faces = 0;           // faces dropped: index out of range, too few corners, not numbers
-  std::size_t bad_points = 0;          // points whose coordinates are not numbers (kept as NaN)
-  std::size_t missing_faces = 0;       // promised by the header, not in the file
-  std::size_t trailing_bytes = 0;      // after the last element of a binary file
+  std::size_t declared_triangles =
+      0;                      // faces or triangles that the header promised; 0 if it has none
+  std::size_t polygons = 0;   // faces with more than three corners, triangulated
+  std::size_t bad_faces = 0;  // faces dropped: index out of range, too few corners, not numbers
+  // Points with a coordinate that is no number, or missing: kept as NaN, so that the indices of the
+  // others hold. "nan", "inf", "-1.#IND" and the like are numbers: kept as they are, and not
+  // counted.
+  std::size_t bad_points = 0;
+  std::size_t missing_faces = 0;   // promised by the header, not in the file
+  std::size_t trailing_bytes = 0;  // after the last element of a binary file
   // One sentence for each kind of oddity, for the user, without the file's name.
   std::vector<std::string> warnings;
 };
@@ -47,8 +52,9 @@ struct ReadResult {
   ReadReport report;
 };
 
-// Reads a file; "-" is standard input. Throws InputError (one line that names the file and the place)
-// when it cannot be opened, is empty, or holds no format that is known, or no readable triangle at all.
+// Reads a file; "-" is standard input. Throws InputError (one line that names the file and the
+// place) when it cannot be opened, is empty, or holds no format that is known, or no readable
+// triangle at all.
 [[nodiscard]] ReadResult read_soup(const std::filesystem::path& path);
 
 // The same from memory. `name` is used in messages and for its extension.
@@ -64,8 +70,8 @@ struct WriteOptions {
 // The format that an extension stands for, if any. Case does not matter.
 [[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
 
-// Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format can be
-// told, OutputError when anything cannot be written in full; the target is then as it was.
+// Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format
+// can be told, OutputError when anything cannot be written in full; the target is then as it was.
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 
