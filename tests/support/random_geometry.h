@@ -16,7 +16,8 @@ class Random {
 
   // Inclusive bounds.
   std::int32_t integer(std::int32_t low, std::int32_t high) {
-    return low + static_cast<std::int32_t>(engine_() % (static_cast<std::uint64_t>(high - low) + 1));
+    const auto span = static_cast<std::uint64_t>(std::int64_t{high} - low) + 1;
+    return static_cast<std::int32_t>(low + static_cast<std::int64_t>(engine_() % span));
   }
   double real(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
