@@ -62,9 +62,9 @@ class FragmentPool {
   const CleanSoup& soup_;
   PlaneTable planes_;
   std::vector<std::array<PlaneId, 3>> edge_planes_;  // by triangle; made when first needed
-  std::vector<Fragment> fragments_;
+  TrivialVector<Fragment> fragments_;
   std::vector<FragmentId> free_fragments_;
-  std::vector<Corner> corners_;
+  TrivialVector<Corner> corners_;
   std::vector<std::vector<std::uint32_t>> free_blocks_;  // by number of corners
   std::vector<int> sides_;                               // scratch
   std::vector<Corner> front_, back_;                     // scratch

@@ -122,7 +122,7 @@ void Clipper::share_triangles(FacetId a, FacetId b, PlaneId plane) {
   other.triangle_count = static_cast<std::uint32_t>(triangles_.size());
   if (kept > 0 && !triangles_.empty()) {
     other.first_triangle = static_cast<std::uint32_t>(pool.size());
-    pool.insert(pool.end(), triangles_.begin(), triangles_.end());
+    for (const TriangleId t : triangles_) pool.push_back(t);
   } else {
     std::copy(triangles_.begin(), triangles_.end(), pool.begin() + other.first_triangle);
   }

@@ -107,7 +107,7 @@ class CellComplex {
   IdVector<UseId, Use> uses;
   IdVector<FacetId, Facet> facets;
   IdVector<CellId, Cell> cells;
-  std::vector<TriangleId> facet_triangles;
+  TrivialVector<TriangleId> facet_triangles;
 
  private:
   const CleanSoup* soup_;
