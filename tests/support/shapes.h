@@ -124,12 +124,14 @@ inline Eigen::Matrix3d random_rotation(Random& random) {
   return q.normalized().toRotationMatrix();
 }
 
-// Turned cubes with centres in a unit cube and edges of 0.1 to 0.3.
+// Turned cubes with centres in a unit cube. Their edges shrink with their number, so that each overlaps a few
+// others however many there are.
 inline TriangleSoup random_cubes(std::size_t count, std::uint64_t seed) {
+  const double edge = 0.45 / std::cbrt(static_cast<double>(count));
   Random random(seed);
   TriangleSoup soup;
   for (std::size_t i = 0; i < count; ++i) {
-    const double half = 0.5 * random.real(0.1, 0.3);
+    const double half = 0.5 * edge * random.real(0.7, 1.3);
     const Vec3d centre(random.real(0, 1), random.real(0, 1), random.real(0, 1));
     append(soup, moved(transformed(box(Vec3d::Constant(-half), Vec3d::Constant(half)),
                                    random_rotation(random)),

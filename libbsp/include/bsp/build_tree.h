@@ -17,7 +17,7 @@ struct BuildTreeOptions {
   // ... or one side more than this.
   double largest_side_share = 0.95;
   // How many fragments offer their plane, and on how many fragments each offer is judged.
-  std::size_t candidates = 10;
+  std::size_t candidates = 6;
   std::size_t judged_fragments = 128;
   // An offer's cost is split_weight * (fragments cut) + |front - back|.
   std::size_t split_weight = 8;
