@@ -1,7 +1,7 @@
-#include <bsp/grid.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <bsp/grid.h>
 
 namespace meshrepair {
 namespace {

@@ -1,11 +1,10 @@
-#include <bsp/tree_io.h>
-
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include <bsp/atomic_file.h>
 #include <bsp/predicates.h>
+#include <bsp/tree_io.h>
 
 #include "mapped_file.h"
 #include "tree_sections.h"
@@ -186,7 +185,8 @@ void read_nodes(SectionReader& in, Tree& tree) {
   tree.root = count > 0 ? TreeRef(NodeId(0u)) : TreeRef(LeafId(0u));
 }
 
-// Each child comes later than its parent and is referred to once, so there is no cycle; leaves likewise.
+// Each child comes later than its parent and is referred to once, so there is no cycle; leaves
+// likewise.
 void check_structure(const SectionReader& in, const Tree& tree, std::size_t leaves) {
   std::vector<char> node_seen(tree.nodes.size(), 0);
   std::vector<char> leaf_seen(leaves, 0);

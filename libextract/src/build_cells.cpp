@@ -1,11 +1,9 @@
-#include <extract/build_cells.h>
-
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <bsp/error.h>
-
+#include <extract/build_cells.h>
 #include <extract/check_complex.h>
 
 namespace meshrepair {

@@ -1,8 +1,7 @@
-#include <extract/cell_complex.h>
-
 #include <cmath>
 
 #include <bsp/assert.h>
+#include <extract/cell_complex.h>
 
 #include "complex_edit.h"
 
@@ -28,8 +27,7 @@ Position area_vector(const CellComplex& complex, FacetId facet) {
   Position sum{};
   Position previous{};
   complex.for_each_use(facet, [&](UseId use) {
-    const Position here =
-        minus(complex.vertices[complex.origin(complex.uses[use])].position, base);
+    const Position here = minus(complex.vertices[complex.origin(complex.uses[use])].position, base);
     const Position part = cross(previous, here);
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += part[axis];
     previous = here;
@@ -69,7 +67,8 @@ double cell_volume(const CellComplex& complex, CellId cell) {
   double sum = 0;
   complex.for_each_facet(cell, [&](FacetId f) {
     const Facet& facet = complex.facets[f];
-    const Position& on_it = complex.vertices[complex.origin(complex.uses[facet.first_use])].position;
+    const Position& on_it =
+        complex.vertices[complex.origin(complex.uses[facet.first_use])].position;
     const double part = dot(area_vector(complex, f), minus(on_it, base));
     sum += facet.below == cell ? part : -part;
   });

@@ -1,9 +1,8 @@
-#include <repair/orient_parts.h>
-
 #include <cmath>
 #include <vector>
 
 #include <bsp/edge_table.h>
+#include <repair/orient_parts.h>
 
 namespace meshrepair {
 namespace {
@@ -29,8 +28,8 @@ Neighbours find_neighbours(const std::vector<IndexTriangle>& triangles) {
 
 double area_of(const CleanSoup& soup, TriangleId t) {
   const auto& c = soup.triangles[t].corners;
-  const Plane plane = plane_through(soup.grid_points[c[0]], soup.grid_points[c[1]],
-                                    soup.grid_points[c[2]]);
+  const Plane plane =
+      plane_through(soup.grid_points[c[0]], soup.grid_points[c[1]], soup.grid_points[c[2]]);
   return std::hypot(static_cast<double>(plane.normal[0]), static_cast<double>(plane.normal[1]),
                     static_cast<double>(plane.normal[2]));
 }

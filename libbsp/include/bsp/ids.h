@@ -1,7 +1,7 @@
 // Typed 32-bit ids and vectors that are indexed by them.
 //
-// An id is a position in one particular array. Making each kind its own type lets the compiler refuse
-// a facet where a cell is meant. The invalid id is all ones.
+// An id is a position in one particular array. Making each kind its own type lets the compiler
+// refuse a facet where a cell is meant. The invalid id is all ones.
 #pragma once
 
 #include <compare>

@@ -1,7 +1,9 @@
-// A growing array of trivially copyable values that is moved by the system's page tables, not by copying.
+// A growing array of trivially copyable values that is moved by the system's page tables, not by
+// copying.
 //
-// std::vector grows by allocating a second, larger array and copying, which for the pools of a large complex
-// doubles the peak memory and touches every page twice. realloc() remaps large blocks in place of that.
+// std::vector grows by allocating a second, larger array and copying, which for the pools of a
+// large complex doubles the peak memory and touches every page twice. realloc() remaps large blocks
+// in place of that.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // Signed integers of 128 and 256 bits, as far as the exact predicates need them.
 //
-// Int128 is the compiler's own. Int256 is two's complement in four 64-bit words, lowest first; all its
-// operations are exact as long as the true result fits, which the callers prove (see predicates.cpp).
+// Int128 is the compiler's own. Int256 is two's complement in four 64-bit words, lowest first; all
+// its operations are exact as long as the true result fits, which the callers prove (see
+// predicates.cpp).
 #pragma once
 
 #include <array>
@@ -35,7 +36,8 @@ class Int256 {
     const Uint128 high = Uint128{x1} * y1;
     Int256 r;
     r.words_[0] = static_cast<std::uint64_t>(low);
-    Uint128 sum = (low >> 64) + static_cast<std::uint64_t>(mid_a) + static_cast<std::uint64_t>(mid_b);
+    Uint128 sum =
+        (low >> 64) + static_cast<std::uint64_t>(mid_a) + static_cast<std::uint64_t>(mid_b);
     r.words_[1] = static_cast<std::uint64_t>(sum);
     sum = (sum >> 64) + (mid_a >> 64) + (mid_b >> 64) + static_cast<std::uint64_t>(high);
     r.words_[2] = static_cast<std::uint64_t>(sum);
