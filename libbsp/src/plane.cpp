@@ -45,11 +45,11 @@ Plane plane_along_axis(const GridPoint& a, const GridPoint& b, int axis) {
 }
 
 int dominant_axis(const Plane& plane) {
-  int best = 0;
-  for (int axis = 1; axis < 3; ++axis) {
+  std::size_t best = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis) {
     if (std::abs(plane.normal[axis]) > std::abs(plane.normal[best])) best = axis;
   }
-  return best;
+  return static_cast<int>(best);
 }
 
 bool make_canonical(Plane& plane) {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <bsp/assert.h>
+#include <bsp/error.h>
 #include <extract/cell_complex.h>
 
 #include "complex_edit.h"
@@ -52,8 +52,7 @@ UseId CellComplex::mate(UseId use, CellId cell) const {
   for (UseId u = edges[uses[use].edge].first_use; u.valid(); u = uses[u].next_around) {
     if (u != use && bounds(uses[u].facet, cell)) return u;
   }
-  MESHREPAIR_ASSERT(!"every edge of a cell has two facets");
-  return {};
+  throw InternalError("internal error: an edge of a cell has only one facet");
 }
 
 double facet_area(const CellComplex& complex, FacetId facet) {

@@ -81,7 +81,7 @@ class NonmanifoldCutter {
       mate_[s] = side;
       return;
     }
-    MESHREPAIR_ASSERT(!"a wedge of solid cells ends at a boundary facet");
+    throw InternalError("internal error: a wedge of solid cells does not end at a boundary facet");
   }
 
   [[nodiscard]] CellId solid_side(FacetId f) const {

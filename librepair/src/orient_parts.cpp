@@ -55,7 +55,9 @@ class PartOrienter {
   }
 
  private:
-  enum : std::int8_t { kUnseen, kKeep, kTurn };
+  static constexpr std::int8_t kUnseen = 0;
+  static constexpr std::int8_t kKeep = 1;
+  static constexpr std::int8_t kTurn = 2;
 
   void orient_part_of(std::uint32_t seed) {
     ++report_.parts;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace meshrepair {
@@ -52,7 +53,7 @@ class Int256 {
     const std::uint64_t y = static_cast<std::uint64_t>(magnitude(factor));
     Int256 r;
     Uint128 carry = 0;
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       carry += Uint128{x.words_[i]} * y;
       r.words_[i] = static_cast<std::uint64_t>(carry);
       carry >>= 64;
@@ -63,7 +64,7 @@ class Int256 {
   constexpr Int256 operator-() const {
     Int256 r;
     Uint128 carry = 1;
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       carry += static_cast<std::uint64_t>(~words_[i]);
       r.words_[i] = static_cast<std::uint64_t>(carry);
       carry >>= 64;
@@ -74,7 +75,7 @@ class Int256 {
   friend constexpr Int256 operator+(const Int256& a, const Int256& b) {
     Int256 r;
     Uint128 carry = 0;
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       carry += Uint128{a.words_[i]} + b.words_[i];
       r.words_[i] = static_cast<std::uint64_t>(carry);
       carry >>= 64;
@@ -93,11 +94,11 @@ class Int256 {
   // The nearest double to within one unit in the last place.
   [[nodiscard]] double to_double() const {
     const Int256 x = sign() < 0 ? -*this : *this;
-    int top = 3;
+    std::size_t top = 3;
     while (top > 0 && x.words_[top] == 0) --top;
     // Two words hold at least 65 significant bits, or all there are.
     double value = static_cast<double>(x.words_[top]);
-    int exponent = 64 * top;
+    int exponent = 64 * static_cast<int>(top);
     if (top > 0) {
       const Uint128 pair = (Uint128{x.words_[top]} << 64) | x.words_[top - 1];
       value = static_cast<double>(pair);

@@ -39,7 +39,9 @@ class Clipper {
   [[nodiscard]] const ClipReport& report() const { return report_; }
 
  private:
-  enum : std::int8_t { kBelow = -1, kUndecided = 0, kAbove = 1 };
+  static constexpr std::int8_t kBelow = -1;
+  static constexpr std::int8_t kUndecided = 0;
+  static constexpr std::int8_t kAbove = 1;
 
   // Edge splitting (WM 4.2.1)
   void classify_vertices(CellId cell, PlaneId plane);
