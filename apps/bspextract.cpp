@@ -4,6 +4,7 @@
 
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
+#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
@@ -19,11 +20,12 @@ ExitCode extract(Options& options, Run& run) {
   check_files(options.input, options.output, run.options);
   const WriteOptions format = mesh_format(options.output, options.format);
   options.repair.progress = &run.progress;
-  Findings findings{options.input, options.output, {}, {}, {}};
+  Findings findings(options.input, options.output);
   return with_findings(run, findings, [&] {
     const Tree tree = read_tree_stage(run, findings);
     const Surface surface = extract_mesh(tree, options.repair, findings.repair);
     write_mesh_stage(surface, format, run, findings);
+    print_summary(run, findings);
     return certify(findings);
   });
 }

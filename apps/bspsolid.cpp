@@ -3,6 +3,7 @@
 
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
+#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
@@ -16,11 +17,12 @@ struct Options {
 ExitCode label(Options& options, Run& run) {
   check_files(options.input, options.output, run.options);
   options.repair.progress = &run.progress;
-  Findings findings{options.input, options.output, {}, {}, {}};
+  Findings findings(options.input, options.output);
   return with_findings(run, findings, [&] {
     Tree tree = read_tree_stage(run, findings);
     label_tree(tree, options.repair, findings.repair);
     write_tree_stage(tree, run, findings);
+    print_summary(run, findings);
     return ExitCode::done;
   });
 }

@@ -4,6 +4,7 @@
 
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
+#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
@@ -19,11 +20,12 @@ ExitCode repair_mesh(Options& options, Run& run) {
   check_files(options.input, options.output, run.options);
   const WriteOptions format = mesh_format(options.output, options.format);
   options.repair.progress = &run.progress;
-  Findings findings{options.input, options.output, {}, {}, {}};
+  Findings findings(options.input, options.output);
   return with_findings(run, findings, [&] {
     const TriangleSoup soup = read_mesh_stage(run, findings);
     const Surface surface = repair(soup, options.repair, findings.repair);
     write_mesh_stage(surface, format, run, findings);
+    print_summary(run, findings);
     return certify(findings);
   });
 }

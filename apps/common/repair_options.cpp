@@ -50,10 +50,11 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& c
 void add_inside_option(CLI::App& app, InsideRule& rule) {
   add_choice(
       app, "--inside", kRules, [&rule](InsideRule value) { rule = value; },
-      "What is solid: auto (winding where the triangles' orientation can be trusted, else "
-      "solidity), "
-      "solidity (blind to orientation; voids are filled), parity (the same, voids and overlaps are "
-      "empty), winding (overlaps are united, voids stay)")
+      "How to decide what is solid:\n"
+      "  auto      winding where the orientation can be trusted, else solidity\n"
+      "  solidity  looks at no orientation; fills voids\n"
+      "  parity    looks at no orientation; voids and overlaps are empty\n"
+      "  winding   trusts the orientation; overlaps are solid, voids empty\n")
       ->default_str(std::string(rule_name(rule)))
       ->group("Repair");
 }
@@ -68,7 +69,7 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
 
 void add_check_cells_option(CLI::App& app, bool& check_cells) {
   app.add_flag("--check-cells", check_cells,
-               "Debugging: prove the cells' invariants after each cut; very slow")
+               "Debugging: prove the cells' invariants after each cut; slow")
       ->group("Repair");
 }
 

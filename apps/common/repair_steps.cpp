@@ -18,10 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostWarnings = 10;
 
-std::string display_name(const std::string& path, std::string_view stream) {
-  return path == "-" ? std::string(stream) : path;
-}
-
 // Devices may be named as often as one likes: /dev/null.
 bool is_same_file(const fs::path& a, const fs::path& b) {
   if (a == "-" || b == "-") return a == b;
@@ -63,6 +59,10 @@ void run_named(const std::string& name, const std::function<void()>& work) {
 
 }  // namespace
 
+std::string Findings::input_name() const { return input == "-" ? "standard input" : input; }
+
+std::string Findings::output_name() const { return output == "-" ? "standard output" : output; }
+
 TreeFacts facts_of(const Tree& tree) {
   TreeFacts facts;
   facts.triangles = tree.input.triangles.size();
@@ -103,7 +103,7 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
   run.report.set_input({{"path", findings.input}});
   ExitCode code = ExitCode::internal;
   try {
-    run_named(display_name(findings.input, "standard input"), [&] { code = work(); });
+    run_named(findings.input_name(), [&] { code = work(); });
   } catch (...) {
     add_sections(findings, run.report);
     throw;
@@ -117,7 +117,7 @@ TriangleSoup read_mesh_stage(Run& run, Findings& findings) {
   meter.begin("read");
   ReadResult result = read_soup(findings.input);
   findings.mesh_read = std::move(result.report);
-  log_warnings(display_name(findings.input, "standard input"), findings.mesh_read->warnings);
+  log_warnings(findings.input_name(), findings.mesh_read->warnings);
   return std::move(result.soup);
 }
 
@@ -141,6 +141,7 @@ void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
   write_tree(tree, findings.output);
+  findings.tree_written = facts_of(tree);
   run.report.set_output({{"path", findings.output}, {"format", "BSP tree"}});
 }
 
@@ -151,8 +152,7 @@ ExitCode certify(const Findings& findings) {
   if (!surface.manifold()) missing += ", not manifold";
   if (!surface.oriented()) missing += ", not consistently oriented";
   if (missing.empty()) return ExitCode::done;
-  spdlog::error("{}: written, but{}", display_name(findings.output, "standard output"),
-                missing.substr(1));
+  spdlog::error("{}: written, but{}", findings.output_name(), missing.substr(1));
   return ExitCode::not_certified;
 }
 

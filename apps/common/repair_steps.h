@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
@@ -28,10 +29,18 @@ struct TreeFacts {
 
 // All that is known of a run, filled as far as the work came.
 struct Findings {
+  Findings(std::string input_path, std::string output_path)
+      : input(std::move(input_path)), output(std::move(output_path)) {}
+
+  // For people: "-" by what it stands for.
+  [[nodiscard]] std::string input_name() const;
+  [[nodiscard]] std::string output_name() const;
+
   std::string input;
   std::string output;
   std::optional<ReadReport> mesh_read;
   std::optional<TreeFacts> tree_read;
+  std::optional<TreeFacts> tree_written;
   RepairReport repair;
 };
 

@@ -112,6 +112,17 @@ Json result_of(const RepairReport& repair) {
           {"area", repair.output_area}};
 }
 
+Json stages_of(const RepairReport& repair) {
+  Json stages = Json::array();
+  for (const StageReport& stage : repair.stages) {
+    stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"cpu_seconds", stage.cpu_seconds},
+                      {"peak_bytes", stage.peak_bytes}});
+  }
+  return stages;
+}
+
 }  // namespace
 
 void add_sections(const Findings& findings, JsonReport& report) {
@@ -128,6 +139,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "inside")) report.set_section("inside", section_of(repair.inside));
   if (was_begun(repair, "extract")) report.set_section("extract", section_of(repair.extract));
   if (was_begun(repair, "check")) report.set_section("result", result_of(repair));
+  report.set_stages(stages_of(repair));
 }
 
 }  // namespace meshrepair
