@@ -1,5 +1,6 @@
 #include "common/json_report.h"
 
+#include <algorithm>
 #include <sys/resource.h>
 #include <utility>
 
@@ -13,10 +14,13 @@ namespace {
 constexpr const char* kTailKeys[] = {"stages", "seconds", "peak_memory_bytes", "exit_code",
                                      "error"};
 
-std::size_t peak_memory_bytes() {
+// A program that measures the peak of each stage sets the system's count back in between.
+std::size_t peak_memory_bytes(const Json& stages) {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+  std::size_t peak = static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+  for (const Json& stage : stages) peak = std::max(peak, stage.value("peak_bytes", std::size_t{0}));
+  return peak;
 }
 
 Json stages_of(const ProgressBar& progress) {
@@ -42,6 +46,8 @@ void JsonReport::set_input(Json input) { head_["input"] = std::move(input); }
 
 void JsonReport::set_output(Json output) { head_["output"] = std::move(output); }
 
+void JsonReport::set_stages(Json stages) { stages_ = std::move(stages); }
+
 void JsonReport::set_section(const std::string& key, Json section) {
   MESHREPAIR_ASSERT(!head_.contains(key));
   for (const char* reserved : kTailKeys) MESHREPAIR_ASSERT(key != reserved);
@@ -52,9 +58,9 @@ std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failur
                              const ProgressBar& progress) const {
   Json report = head_;
   report.update(sections_);
-  report["stages"] = stages_of(progress);
+  report["stages"] = stages_.is_null() ? stages_of(progress) : stages_;
   report["seconds"] = progress.seconds();
-  report["peak_memory_bytes"] = peak_memory_bytes();
+  report["peak_memory_bytes"] = peak_memory_bytes(report["stages"]);
   report["exit_code"] = static_cast<int>(code);
   report["error"] = failure ? Json(failure->message) : Json(nullptr);
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

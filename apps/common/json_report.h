@@ -6,7 +6,7 @@
 //   input         what was read, or null
 //   output        what was written, or null
 //   ...           the program's own sections, in the order in which they were added
-//   stages        [{"name", "seconds"}]
+//   stages        [{"name", "seconds"}], more of each where a program measures more
 //   seconds       wall time of the whole run
 //   peak_memory_bytes
 //   exit_code     as returned by the process
@@ -40,6 +40,9 @@ class JsonReport {
   // Adds a section, or replaces it. Pre: not one of the keys above.
   void set_section(const std::string& key, Json section);
 
+  // The stages with what the program measured of each; without it they are those of the progress.
+  void set_stages(Json stages);
+
   // The finished text. `failure` is what ended the run early, if anything did.
   [[nodiscard]] std::string text(ExitCode code, const std::optional<Failure>& failure,
                                  const ProgressBar& progress) const;
@@ -47,6 +50,7 @@ class JsonReport {
  private:
   Json head_;      // program to output
   Json sections_;  // the program's own
+  Json stages_;    // null: those of the progress
 };
 
 }  // namespace meshrepair

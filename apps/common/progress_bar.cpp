@@ -55,6 +55,7 @@ void ProgressBar::stage(std::string_view name) {
   stage_ = name;
   stage_start_ = Clock::now();
   share_ = 0;
+  spdlog::debug("{} ...", stage_);
   draw();
 }
 

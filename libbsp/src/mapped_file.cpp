@@ -31,6 +31,8 @@ class Descriptor {
   throw InputError(name + ": " + what + ": " + std::generic_category().message(error));
 }
 
+// An interrupted read is an error like any other: signals are handled without SA_RESTART by
+// programs that are to stop, and a read begun anew would wait on.
 std::string read_to_end(int descriptor, const std::string& name) {
   constexpr std::size_t kStep = std::size_t{1} << 20;
   std::string bytes;
@@ -38,7 +40,6 @@ std::string read_to_end(int descriptor, const std::string& name) {
   for (;;) {
     if (bytes.size() - filled < kStep) bytes.resize(2 * bytes.size() + kStep);
     const ssize_t count = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
-    if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail(name, "cannot be read", errno);
     if (count == 0) break;
     filled += static_cast<std::size_t>(count);

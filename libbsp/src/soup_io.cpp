@@ -7,6 +7,7 @@
 #include <bsp/atomic_file.h>
 #include <bsp/error.h>
 #include <bsp/soup_io.h>
+#include <bsp/tree_io.h>
 
 #include "mapped_file.h"
 #include "mesh_source.h"
@@ -29,6 +30,9 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
 // By content, then by extension.
 SoupFormat recognize(const MeshSource& source) {
   if (const auto format = recognize_content(source.bytes)) return *format;
+  if (looks_like_tree(source.bytes)) {
+    source.fail("is a BSP tree, not a mesh: bspsolid and bspextract take it further");
+  }
   const std::string_view foreign = name_foreign_format(source.bytes);
   if (!foreign.empty()) source.fail("is " + std::string(foreign) + ", which cannot be read");
   const auto format = format_of_extension(source.name);

@@ -7,6 +7,7 @@
 #include <bsp/tree_io.h>
 
 #include "mapped_file.h"
+#include "recognize_format.h"
 #include "tree_sections.h"
 
 namespace meshrepair {
@@ -236,6 +237,12 @@ void read_leaves(SectionReader& in, Tree& tree) {
   }
 }
 
+std::string why_no_tree(std::string_view bytes) {
+  if (bytes.empty()) return "is empty";
+  if (recognize_content(bytes)) return "is a mesh, not a BSP tree: run bspbuild on it first";
+  return "is not a .bsp file";
+}
+
 }  // namespace
 
 std::string format_tree(const Tree& tree) {
@@ -255,7 +262,7 @@ bool looks_like_tree(std::string_view bytes) { return bytes.starts_with(kSignatu
 
 Tree parse_tree(std::string_view bytes, const std::string& name) {
   SectionReader in(bytes, name);
-  in.skip(kSignature, bytes.empty() ? "is empty" : "is not a .bsp file");
+  in.skip(kSignature, bytes.starts_with(kSignature) ? std::string() : why_no_tree(bytes));
   const std::uint32_t version = in.header_number();
   if (version != kVersion) {
     in.fail("has version " + std::to_string(version) + "; this program reads version " +

@@ -1,0 +1,23 @@
+// The options that several programs have, beyond those that every program has.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include <bsp/soup_io.h>
+#include <repair/inside_rule.h>
+
+namespace meshrepair {
+
+// --inside: which parts of space are solid.
+void add_inside_option(CLI::App& app, InsideRule& rule);
+
+// --format: the format of the mesh that is written, whatever its name.
+void add_format_option(CLI::App& app, std::optional<SoupFormat>& format);
+
+// --check-cells: the debugging aid RepairOptions::check_cells.
+void add_check_cells_option(CLI::App& app, bool& check_cells);
+
+}  // namespace meshrepair

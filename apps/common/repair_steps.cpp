@@ -1,0 +1,159 @@
+#include "common/repair_steps.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <spdlog/spdlog.h>
+
+#include <bsp/error.h>
+
+#include "common/report_sections.h"
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostWarnings = 10;
+
+// Devices may be named as often as one likes: /dev/null.
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  if (a == "-" || b == "-") return a == b;
+  std::error_code error;
+  if (fs::is_character_file(a, error)) return false;
+  if (fs::exists(a, error) && fs::exists(b, error)) return fs::equivalent(a, b, error);
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+void check_report(const std::string& report, const std::string& file, const std::string& what) {
+  if (report.empty() || !is_same_file(report, file)) return;
+  throw UsageError("--report: " + report + " is the " + what + ", too");
+}
+
+void log_warnings(const std::string& name, const std::vector<std::string>& warnings) {
+  const std::size_t shown = std::min(warnings.size(), kMostWarnings);
+  for (std::size_t i = 0; i < shown; ++i) spdlog::warn("{}: {}", name, warnings[i]);
+  if (warnings.size() > shown) {
+    spdlog::warn("{}: {} more warnings, all in the report", name, warnings.size() - shown);
+  }
+}
+
+template <class ErrorType>
+[[noreturn]] void rethrow_named(const ErrorType& error, const std::string& name) {
+  const std::string message = error.what();
+  if (message.rfind(name, 0) == 0) throw error;
+  throw ErrorType(name + ": " + message);
+}
+
+void run_named(const std::string& name, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    rethrow_named(error, name);
+  } catch (const NoSolidError& error) {
+    rethrow_named(error, name);
+  }
+}
+
+}  // namespace
+
+std::string Findings::input_name() const { return input == "-" ? "standard input" : input; }
+
+std::string Findings::output_name() const { return output == "-" ? "standard output" : output; }
+
+TreeFacts facts_of(const Tree& tree) {
+  TreeFacts facts;
+  facts.triangles = tree.input.triangles.size();
+  facts.nodes = tree.nodes.size();
+  facts.leaves = tree.leaves.size();
+  std::size_t unknown = 0;
+  for (const Leaf& leaf : tree.leaves) {
+    facts.solid_leaves += leaf.label == Label::solid;
+    unknown += leaf.label == Label::unknown;
+  }
+  facts.labelled = unknown == 0;
+  return facts;
+}
+
+void check_files(const std::string& input, const std::string& output, const CommonOptions& common) {
+  check_report(common.report, input, "input");
+  check_report(common.report, output, "output");
+  if (output == "-") return;
+  const fs::path folder = fs::path(output).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    throw OutputError(output + ": there is no folder " + folder.string());
+  }
+  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
+}
+
+WriteOptions mesh_format(const std::string& output, const std::optional<SoupFormat>& format) {
+  WriteOptions options;
+  options.format = format ? format : format_of_extension(output);
+  if (options.format) return options;
+  throw UsageError(output == "-" ? "standard output has no name that tells a format: use --format"
+                                 : output +
+                                       ": no mesh format has this extension (.stl, .obj, "
+                                       ".off, .ply): use --format");
+}
+
+ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work) {
+  run.report.set_input({{"path", findings.input}});
+  ExitCode code = ExitCode::internal;
+  try {
+    run_named(findings.input_name(), [&] { code = work(); });
+  } catch (...) {
+    add_sections(findings, run.report);
+    throw;
+  }
+  add_sections(findings, run.report);
+  return code;
+}
+
+TriangleSoup read_mesh_stage(Run& run, Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("read");
+  ReadResult result = read_soup(findings.input);
+  findings.mesh_read = std::move(result.report);
+  log_warnings(findings.input_name(), findings.mesh_read->warnings);
+  return std::move(result.soup);
+}
+
+Tree read_tree_stage(Run& run, Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("read");
+  Tree tree = read_tree(findings.input);
+  findings.tree_read = facts_of(tree);
+  return tree;
+}
+
+void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& run,
+                      Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("write");
+  write_soup(surface.mesh, findings.output, options);
+  run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
+}
+
+void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("write");
+  write_tree(tree, findings.output);
+  findings.tree_written = facts_of(tree);
+  run.report.set_output({{"path", findings.output}, {"format", "BSP tree"}});
+}
+
+ExitCode certify(const Findings& findings) {
+  const Topology& surface = findings.repair.output;
+  std::string missing;
+  if (!surface.closed()) missing += ", not closed";
+  if (!surface.manifold()) missing += ", not manifold";
+  if (!surface.oriented()) missing += ", not consistently oriented";
+  if (missing.empty()) return ExitCode::done;
+  spdlog::error("{}: written, but{}", findings.output_name(), missing.substr(1));
+  return ExitCode::not_certified;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,69 @@
+// What the programs that take steps of the repair have in common: reading and writing as stages of
+// their own, messages that name the file, and a report that holds what was found.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <bsp/soup_io.h>
+#include <bsp/tree_io.h>
+#include <repair/repair.h>
+
+#include "common/program.h"
+
+namespace meshrepair {
+
+// What a .bsp file held.
+struct TreeFacts {
+  std::size_t triangles = 0;
+  std::size_t nodes = 0;
+  std::size_t leaves = 0;
+  std::size_t solid_leaves = 0;
+  bool labelled = false;
+};
+
+[[nodiscard]] TreeFacts facts_of(const Tree& tree);
+
+// All that is known of a run, filled as far as the work came.
+struct Findings {
+  Findings(std::string input_path, std::string output_path)
+      : input(std::move(input_path)), output(std::move(output_path)) {}
+
+  // For people: "-" by what it stands for.
+  [[nodiscard]] std::string input_name() const;
+  [[nodiscard]] std::string output_name() const;
+
+  std::string input;
+  std::string output;
+  std::optional<ReadReport> mesh_read;
+  std::optional<TreeFacts> tree_read;
+  std::optional<TreeFacts> tree_written;
+  RepairReport repair;
+};
+
+// The files of a run. Throws UsageError where two of them that must differ are one, or where no
+// format can be told for a mesh; OutputError where the output cannot be: all of it before hours of
+// work.
+void check_files(const std::string& input, const std::string& output, const CommonOptions& common);
+[[nodiscard]] WriteOptions mesh_format(const std::string& output,
+                                       const std::optional<SoupFormat>& format);
+
+// Runs `work`, then puts the findings into the report, also when it throws. Errors about the input
+// that do not name it are given its name.
+ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
+
+// Stage "read". What a reader passed over is logged as warnings.
+[[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
+[[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
+// Stage "write".
+void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& run,
+                      Findings& findings);
+void write_tree_stage(const Tree& tree, Run& run, Findings& findings);
+
+// Done if the surface holds all guarantees that were checked; says on stderr which it does not.
+[[nodiscard]] ExitCode certify(const Findings& findings);
+
+}  // namespace meshrepair

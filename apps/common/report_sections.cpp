@@ -1,0 +1,145 @@
+#include "common/report_sections.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace meshrepair {
+namespace {
+
+bool was_begun(const RepairReport& repair, std::string_view stage) {
+  return std::any_of(repair.stages.begin(), repair.stages.end(),
+                     [&](const StageReport& s) { return s.name == stage; });
+}
+
+Json section_of(const ReadReport& read) {
+  return {{"format", format_name(read.format)},
+          {"bytes", read.bytes},
+          {"declared_triangles", read.declared_triangles},
+          {"polygons", read.polygons},
+          {"bad_faces", read.bad_faces},
+          {"bad_points", read.bad_points},
+          {"missing_faces", read.missing_faces},
+          {"trailing_bytes", read.trailing_bytes},
+          {"warnings", read.warnings}};
+}
+
+Json section_of(const TreeFacts& tree) {
+  return {{"format", "BSP tree"},      {"triangles", tree.triangles},
+          {"nodes", tree.nodes},       {"leaves", tree.leaves},
+          {"labelled", tree.labelled}, {"solid_leaves", tree.solid_leaves}};
+}
+
+Json section_of(const CleanReport& clean) {
+  return {{"triangles_in", clean.triangles_in},
+          {"dropped_not_finite", clean.dropped_not_finite},
+          {"dropped_degenerate", clean.dropped_degenerate},
+          {"duplicates", clean.duplicates},
+          {"opposite_duplicates", clean.opposite_duplicates},
+          {"joined_points", clean.joined_points},
+          {"grid_unit", clean.grid_unit}};
+}
+
+Json defects_of(const RepairReport& repair) {
+  const Topology& input = repair.input;
+  return {{"triangles", input.triangles},
+          {"edges", input.edges},
+          {"open_edges", input.open_edges},
+          {"nonmanifold_edges", input.nonmanifold_edges},
+          {"inconsistent_edges", input.inconsistent_edges},
+          {"nonmanifold_vertices", input.nonmanifold_vertices},
+          {"parts", input.parts},
+          {"duplicates", repair.clean.duplicates + repair.clean.opposite_duplicates},
+          {"degenerate", repair.clean.dropped_degenerate},
+          {"not_finite", repair.clean.dropped_not_finite},
+          {"area", repair.input_area}};
+}
+
+Json section_of(const BuildTreeReport& tree) {
+  return {{"nodes", tree.nodes},         {"leaves", tree.leaves},
+          {"depth", tree.depth},         {"spatial_cuts", tree.spatial_cuts},
+          {"fragments", tree.fragments}, {"lost_fragments", tree.lost_fragments}};
+}
+
+Json section_of(const OrientReport& orient) {
+  return {{"parts", orient.parts},
+          {"turned_triangles", orient.turned_triangles},
+          {"unorientable_parts", orient.unorientable_parts}};
+}
+
+Json cells_of(const RepairReport& repair) {
+  const ClipReport& clip = repair.clip;
+  return {{"cells", repair.cells},
+          {"facets", repair.facets},
+          {"links", repair.links},
+          {"clips", clip.clips},
+          {"fallbacks",
+           {{"loose_points", clip.loose_points},
+            {"several_groups", clip.several_groups},
+            {"region_floods", clip.region_floods},
+            {"several_regions", clip.several_regions},
+            {"forced_cuts", clip.forced_cuts}}},
+          {"opaque_facets", repair.cover.opaque_facets},
+          {"split_facets", repair.cover.split_facets}};
+}
+
+Json section_of(const InsideReport& inside) {
+  return {{"asked", rule_name(inside.asked)},
+          {"used", rule_name(inside.used)},
+          {"reason", inside.reason},
+          {"exact", inside.exact},
+          {"contradictions", inside.contradictions},
+          {"unknowns", inside.solve.unknowns},
+          {"iterations", inside.solve.iterations},
+          {"residual", inside.solve.residual},
+          {"converged", inside.solve.converged},
+          {"winding_distance", inside.winding_distance},
+          {"winding_contradiction", inside.winding_contradiction},
+          {"solid_cells", inside.solid_cells}};
+}
+
+Json section_of(const ExtractReport& extract) {
+  return {{"boundary_facets", extract.boundary_facets},
+          {"singular_edges", extract.singular_edges},
+          {"singular_vertices", extract.singular_vertices},
+          {"middle_vertices", extract.middle_vertices}};
+}
+
+Json result_of(const RepairReport& repair) {
+  const Topology& output = repair.output;
+  return {{"triangles", output.triangles}, {"parts", output.parts},
+          {"closed", output.closed()},     {"manifold", output.manifold()},
+          {"oriented", output.oriented()}, {"volume", repair.output_volume},
+          {"area", repair.output_area}};
+}
+
+Json stages_of(const RepairReport& repair) {
+  Json stages = Json::array();
+  for (const StageReport& stage : repair.stages) {
+    stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"cpu_seconds", stage.cpu_seconds},
+                      {"peak_bytes", stage.peak_bytes}});
+  }
+  return stages;
+}
+
+}  // namespace
+
+void add_sections(const Findings& findings, JsonReport& report) {
+  const RepairReport& repair = findings.repair;
+  if (findings.mesh_read) report.set_section("read", section_of(*findings.mesh_read));
+  if (findings.tree_read) report.set_section("read", section_of(*findings.tree_read));
+  if (was_begun(repair, "clean")) {
+    report.set_section("clean", section_of(repair.clean));
+    report.set_section("defects", defects_of(repair));
+  }
+  if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
+  if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
+  if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));
+  if (was_begun(repair, "inside")) report.set_section("inside", section_of(repair.inside));
+  if (was_begun(repair, "extract")) report.set_section("extract", section_of(repair.extract));
+  if (was_begun(repair, "check")) report.set_section("result", result_of(repair));
+  report.set_stages(stages_of(repair));
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,149 @@
+#include "common/summary.h"
+
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "common/logging.h"
+
+namespace meshrepair {
+namespace {
+
+// Lines of a label and a text; a line that continues the one above has no label.
+class Lines {
+ public:
+  void add(std::string_view label, const std::string& text) {
+    text_ += fmt::format("{:<9} {}\n", label, text);
+  }
+  void add(std::string_view label, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) add(&text == texts.data() ? label : "", text);
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void add_count(std::vector<std::string>& texts, std::size_t count, std::string_view noun,
+               const std::string& what) {
+  if (count > 0) texts.push_back(number_of(count, noun) + " " + what);
+}
+
+std::string reading_troubles(const ReadReport& read) {
+  std::vector<std::string> texts;
+  add_count(texts, read.missing_faces, "face", "promised but missing");
+  add_count(texts, read.bad_faces, "face", "unreadable");
+  add_count(texts, read.bad_points, "point", "unreadable");
+  return joined(texts);
+}
+
+std::string useless_triangles(const CleanReport& clean) {
+  std::vector<std::string> texts;
+  add_count(texts, clean.duplicates + clean.opposite_duplicates, "triangle",
+            "there more than once");
+  add_count(texts, clean.dropped_degenerate, "triangle", "without area");
+  add_count(texts, clean.dropped_not_finite, "triangle", "with coordinates that are no numbers");
+  return joined(texts);
+}
+
+std::vector<std::string> troubles_of(const Findings& findings) {
+  const Topology& input = findings.repair.input;
+  std::vector<std::string> texts;
+  texts.push_back(reading_troubles(*findings.mesh_read));
+  texts.push_back(useless_triangles(findings.repair.clean));
+  std::erase(texts, "");
+  add_count(texts, input.open_edges, "open edge", "(gaps and holes)");
+  add_count(texts, input.nonmanifold_edges, "edge", "with more than two triangles");
+  add_count(texts, input.inconsistent_edges, "edge", "whose two triangles face opposite ways");
+  add_count(texts, input.nonmanifold_vertices, "point", "in which parts of the surface only touch");
+  if (texts.empty()) {
+    texts.emplace_back("nothing to be seen in its edges (what crosses or overlaps is not counted)");
+  }
+  return texts;
+}
+
+void describe_input(const Findings& findings, Lines& lines) {
+  if (findings.mesh_read) {
+    lines.add("read", fmt::format("{}: {}, {} in {}", findings.input_name(),
+                                  format_name(findings.mesh_read->format),
+                                  number_of(findings.repair.clean.triangles_in, "triangle"),
+                                  number_of(findings.repair.input.parts, "part")));
+    lines.add("wrong", troubles_of(findings));
+  }
+  if (findings.tree_read) {
+    lines.add("read", fmt::format("{}: tree of {}, {}", findings.input_name(),
+                                  number_of(findings.tree_read->triangles, "triangle"),
+                                  number_of(findings.tree_read->leaves, "cell")));
+  }
+}
+
+void describe_decision(const InsideReport& inside, Lines& lines) {
+  std::vector<std::string> texts = {
+      fmt::format("decided by {}{}", rule_name(inside.used),
+                  inside.asked == InsideRule::automatic ? ": " + inside.reason : ", as asked for")};
+  if (!inside.exact) {
+    texts.push_back(number_of(inside.contradictions, "contradiction") +
+                    " in the input: the most likely solid was taken");
+  }
+  lines.add("inside", texts);
+}
+
+void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
+  const RepairReport& repair = findings.repair;
+  const Topology& output = repair.output;
+  lines.add("written", fmt::format("{}: {} in {}, in {:.2f} s", findings.output_name(),
+                                   number_of(output.triangles, "triangle"),
+                                   number_of(output.parts, "part"), seconds));
+  lines.add("checked", joined({output.closed() ? "closed" : "NOT CLOSED",
+                               output.manifold() ? "manifold" : "NOT MANIFOLD",
+                               output.oriented() ? "oriented" : "NOT ORIENTED"}));
+  lines.add("size", fmt::format("volume {:.6g}, area {:.6g}, in the input's units",
+                                repair.output_volume, repair.output_area));
+}
+
+void describe_tree(const Findings& findings, double seconds, Lines& lines) {
+  const TreeFacts& tree = *findings.tree_written;
+  const std::string what = tree.labelled ? fmt::format("{} of {} solid", grouped(tree.solid_leaves),
+                                                       number_of(tree.leaves, "cell"))
+                                         : fmt::format("{}, {}", number_of(tree.nodes, "cut"),
+                                                       number_of(tree.leaves, "cell"));
+  lines.add("written", fmt::format("{}: {}, in {:.2f} s", findings.output_name(), what, seconds));
+}
+
+}  // namespace
+
+std::string grouped(std::size_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');
+  return text;
+}
+
+std::string number_of(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+std::string summary_of(const Findings& findings, double seconds) {
+  Lines lines;
+  describe_input(findings, lines);
+  if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair.inside, lines);
+  if (findings.tree_written) {
+    describe_tree(findings, seconds, lines);
+  } else {
+    describe_mesh(findings, seconds, lines);
+  }
+  return lines.text();
+}
+
+void print_summary(Run& run, const Findings& findings) {
+  const double seconds = run.progress.seconds();
+  run.progress.finish();
+  print_summary(summary_of(findings, seconds));
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,25 @@
+// What a program did, in a few lines for people.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "common/repair_steps.h"
+
+namespace meshrepair {
+
+// 1234567 as "1,234,567", whatever the locale.
+[[nodiscard]] std::string grouped(std::size_t number);
+
+// "1 triangle", "1,200 triangles".
+[[nodiscard]] std::string number_of(std::size_t count, std::string_view noun);
+
+// At most a dozen aligned lines: what was read, what was wrong with it, how it was decided what is
+// solid, and what came out, each as far as it is known. `seconds` is the time that it all took.
+[[nodiscard]] std::string summary_of(const Findings& findings, double seconds);
+
+// Clears the progress bar and prints the summary to stderr, unless the run is to be quiet.
+void print_summary(Run& run, const Findings& findings);
+
+}  // namespace meshrepair
