@@ -130,18 +130,57 @@ class TreeBuilder {
   }
 
   void divide(const Region& region) {
-    if (fragments(region).size() > options_.spatial_cut_above && divide_spatially(region)) return;
-    const PlaneId plane = internal::choose_fragment_plane(pool_, fragments(region), options_);
-    distribute(region, plane);
-    add_node(region, plane);
+    const bool many = fragments(region).size() > options_.spatial_cut_above;
+    if (many && divide_spatially(region)) return;
+    const internal::FragmentPlane chosen =
+        internal::choose_fragment_plane(pool_, fragments(region), options_);
+    if (chosen.cost > judged(region) / (many ? 2 : 1) && divide_by_edge(region, chosen.cost))
+      return;
+    distribute(region, chosen.plane);
+    add_node(region, chosen.plane);
   }
 
   bool divide_spatially(const Region& region) {
-    const std::optional<Plane> cut = find_spatial_cut(pool_, fragments(region), options_);
-    if (!cut) return false;
-    distribute(region, pool_.add_plane(*cut));
-    add_node(region, tree_.input.planes.intern(*cut).id);
+    const auto found = find_spatial_cut(pool_, fragments(region), options_);
+    if (!found) return false;
+    if (found->cut_share > options_.tolerated_cut_share) {
+      const double cost = static_cast<double>(options_.split_weight * judged(region));
+      if (divide_by_edge(region, static_cast<std::size_t>(cost * found->cut_share))) return true;
+    }
+    if (!divide_by_foreign_plane(region, found->plane)) return false;
     ++report_.spatial_cuts;
+    return true;
+  }
+
+  bool divide_by_edge(const Region& region, std::size_t cost_to_beat) {
+    const std::optional<Plane> cut =
+        internal::choose_edge_plane(pool_, tree_.input, fragments(region), options_, cost_to_beat);
+    if (!cut || !divide_by_foreign_plane(region, *cut)) return false;
+    ++report_.edge_cuts;
+    return true;
+  }
+
+  // How many of a region's fragments a plane is judged on: the most that a plane may cost without
+  // cutting any.
+  [[nodiscard]] std::size_t judged(const Region& region) const {
+    return std::min(options_.judged_fragments, fragments(region).size());
+  }
+
+  // By a plane that was not chosen as the plane of a fragment. It cuts the region if there are
+  // fragments on both sides, or one in it; otherwise nothing is changed, and false returned.
+  bool divide_by_foreign_plane(const Region& region, const Plane& cut) {
+    const PlaneId plane = tree_.input.planes.intern(cut).id;
+    // The pool knows the planes that the soup had at the start; later ones have ids of its own
+    // there.
+    const PlaneId pool_plane =
+        plane.index() < pool_.soup_planes() ? plane : pool_.add_plane(tree_.input.planes[plane]);
+    distribute(region, pool_plane);
+    if (on_plane_.empty() && (front_.empty() || back_.empty())) {
+      stack_.insert(stack_.end(), front_.begin(), front_.end());
+      stack_.insert(stack_.end(), back_.begin(), back_.end());
+      return false;
+    }
+    add_node(region, plane);
     return true;
   }
 

@@ -34,35 +34,65 @@ void judge(const FragmentPool& pool, const Fragment& f, const Plane& plane, Tall
   }
 }
 
+// What a plane would cost, judged on a sample; more than `limit` once that is certain. Fragments in
+// the plane `own` cost nothing.
+std::size_t cost_of(const FragmentPool& pool, std::span<const FragmentId> fragments,
+                    const Plane& plane, PlaneId own, const BuildTreeOptions& options,
+                    std::size_t limit) {
+  const std::size_t count = fragments.size();
+  const std::size_t judged = std::min(options.judged_fragments, count);
+  Tally tally;
+  for (std::size_t j = 0; j < judged; ++j) {
+    const Fragment& f = pool[fragments[j * count / judged]];
+    if (f.plane != own) judge(pool, f, plane, tally);
+    if (options.split_weight * tally.cut > limit) break;
+  }
+  return options.split_weight * tally.cut + std::max(tally.front, tally.back) -
+         std::min(tally.front, tally.back);
+}
+
 }  // namespace
 
-PlaneId choose_fragment_plane(const FragmentPool& pool, std::span<const FragmentId> fragments,
-                              const BuildTreeOptions& options) {
+FragmentPlane choose_fragment_plane(const FragmentPool& pool, std::span<const FragmentId> fragments,
+                                    const BuildTreeOptions& options) {
   const std::size_t count = fragments.size();
   const std::size_t offers = std::min(options.candidates, count);
-  const std::size_t judged = std::min(options.judged_fragments, count);
   std::size_t best_cost = std::numeric_limits<std::size_t>::max();
   FragmentId best = fragments[0];
-  if (count == 1) return pool[best].plane;
+  if (count == 1) return {pool[best].plane, 0};
   for (std::size_t k = 0; k < offers; ++k) {
     const FragmentId id = fragments[k * count / offers];
     const PlaneId offered = pool[id].plane;
-    Tally tally;
-    for (std::size_t j = 0; j < judged; ++j) {
-      const Fragment& f = pool[fragments[j * count / judged]];
-      if (f.plane != offered) judge(pool, f, pool.planes()[offered], tally);
-      if (options.split_weight * tally.cut > best_cost) break;  // lost already
-    }
-    const std::size_t imbalance =
-        std::max(tally.front, tally.back) - std::min(tally.front, tally.back);
-    const std::size_t cost = options.split_weight * tally.cut + imbalance;
+    const std::size_t cost =
+        cost_of(pool, fragments, pool.planes()[offered], offered, options, best_cost);
     const bool tie_won = cost == best_cost && pool[id].triangle < pool[best].triangle;
     if (cost < best_cost || tie_won) {
       best_cost = cost;
       best = id;
     }
   }
-  return pool[best].plane;
+  return {pool[best].plane, best_cost};
+}
+
+std::optional<Plane> choose_edge_plane(const FragmentPool& pool, const CleanSoup& soup,
+                                       std::span<const FragmentId> fragments,
+                                       const BuildTreeOptions& options, std::size_t to_beat) {
+  const std::size_t count = fragments.size();
+  const std::size_t offers = std::min(options.candidates, count);
+  std::optional<Plane> best;
+  for (std::size_t k = 0; k < offers; ++k) {
+    const Triangle& triangle = soup.triangles[pool[fragments[k * count / offers]].triangle];
+    const int axis = dominant_axis(pool.planes()[triangle.plane]);
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Plane offered = plane_along_axis(soup.grid_points[triangle.corners[e]],
+                                             soup.grid_points[triangle.corners[(e + 1) % 3]], axis);
+      const std::size_t cost = cost_of(pool, fragments, offered, PlaneId(), options, to_beat);
+      if (cost >= to_beat) continue;
+      to_beat = cost;
+      best = offered;
+    }
+  }
+  return best;
 }
 
 }  // namespace meshrepair::internal

@@ -17,7 +17,10 @@ bool is_original(PlaneId edge) { return edge.value >= kOriginalEdge; }
 }  // namespace
 
 FragmentPool::FragmentPool(const CleanSoup& soup)
-    : soup_(soup), planes_(soup.planes), edge_planes_(soup.triangles.size()) {
+    : soup_(soup),
+      planes_(soup.planes),
+      soup_planes_(soup.planes.size()),
+      edge_planes_(soup.triangles.size()) {
   planes_.release_index();
   fragments_.reserve(soup.triangles.size());
   corners_.reserve(3 * soup.triangles.size());

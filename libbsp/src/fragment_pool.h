@@ -52,6 +52,8 @@ class FragmentPool {
   // and whatever add_plane() was given.
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
   PlaneId add_plane(const Plane& plane) { return planes_.append(plane); }
+  // How many planes have the same ids here as in the soup.
+  [[nodiscard]] std::size_t soup_planes() const { return soup_planes_; }
 
  private:
   FragmentId new_fragment(const Fragment& parent, const std::vector<Corner>& corners);
@@ -62,6 +64,7 @@ class FragmentPool {
 
   const CleanSoup& soup_;
   PlaneTable planes_;
+  std::size_t soup_planes_;
   std::vector<std::array<PlaneId, 3>> edge_planes_;  // by triangle; made when first needed
   TrivialVector<Fragment> fragments_;
   std::vector<FragmentId> free_fragments_;

@@ -53,6 +53,7 @@ struct Best {
   double cost = std::numeric_limits<double>::infinity();
   std::size_t axis = 0;
   double at = 0;
+  std::size_t both = 0;  // fragments on both sides
 };
 
 void try_axis(const Bins& bins, const Bounds& box, std::size_t axis, std::size_t count,
@@ -75,15 +76,17 @@ void try_axis(const Bins& bins, const Bounds& box, std::size_t axis, std::size_t
     right_size[axis] = size[axis] - left_size[axis];
     const double cost = half_area(left_size) * static_cast<double>(left) +
                         half_area(right_size) * static_cast<double>(right);
-    if (cost < best.cost) best = {cost, axis, box.low[axis] + left_size[axis]};
+    if (cost < best.cost) {
+      best = {cost, axis, box.low[axis] + left_size[axis], left + right - count};
+    }
   }
 }
 
 }  // namespace
 
-std::optional<Plane> find_spatial_cut(const FragmentPool& pool,
-                                      std::span<const FragmentId> fragments,
-                                      const BuildTreeOptions& options) {
+std::optional<SpatialCut> find_spatial_cut(const FragmentPool& pool,
+                                           std::span<const FragmentId> fragments,
+                                           const BuildTreeOptions& options) {
   const Bounds box = bounds_of(pool, fragments);
   Best best;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,7 +99,8 @@ std::optional<Plane> find_spatial_cut(const FragmentPool& pool,
   std::array<std::int64_t, 3> normal{};
   normal[best.axis] = 2;
   const auto below = static_cast<std::int64_t>(std::floor(best.at));
-  return make_plane(normal, -(2 * Int128{below} + 1));
+  return SpatialCut{make_plane(normal, -(2 * Int128{below} + 1)),
+                    static_cast<double>(best.both) / static_cast<double>(fragments.size())};
 }
 
 }  // namespace meshrepair::internal

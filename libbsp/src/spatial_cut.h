@@ -11,10 +11,15 @@
 
 namespace meshrepair::internal {
 
+struct SpatialCut {
+  Plane plane;
+  double cut_share = 0;  // of the fragments, by their bounding boxes
+};
+
 // The best cut at a half-integer coordinate, so that no grid point lies on it; nothing when no cut
 // separates the fragments well enough for the options.
-[[nodiscard]] std::optional<Plane> find_spatial_cut(const FragmentPool& pool,
-                                                    std::span<const FragmentId> fragments,
-                                                    const BuildTreeOptions& options);
+[[nodiscard]] std::optional<SpatialCut> find_spatial_cut(const FragmentPool& pool,
+                                                         std::span<const FragmentId> fragments,
+                                                         const BuildTreeOptions& options);
 
 }  // namespace meshrepair::internal

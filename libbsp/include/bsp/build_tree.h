@@ -17,6 +17,9 @@ struct BuildTreeOptions {
   double largest_total_share = 1.6;
   // ... or one side more than this.
   double largest_side_share = 0.95;
+  // A spatial cut through more than this share of the fragments has to be better than the best
+  // plane through an edge.
+  double tolerated_cut_share = 0.3;
   // How many fragments offer their plane, and on how many fragments each offer is judged.
   std::size_t candidates = 6;
   std::size_t judged_fragments = 128;
@@ -29,7 +32,8 @@ struct BuildTreeReport {
   std::size_t nodes = 0;
   std::size_t leaves = 0;
   std::size_t depth = 0;
-  std::size_t spatial_cuts = 0;
+  std::size_t spatial_cuts = 0;    // nodes with an axis-parallel plane of our own
+  std::size_t edge_cuts = 0;       // nodes with a plane through an edge, across its triangle
   std::size_t fragments = 0;       // at the nodes, in the end
   std::size_t lost_fragments = 0;  // that fell on no side of a plane; 0 with exact predicates
 };
