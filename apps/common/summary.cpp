@@ -83,14 +83,17 @@ void describe_input(const Findings& findings, Lines& lines) {
   }
 }
 
-void describe_decision(const InsideReport& inside, Lines& lines) {
+void describe_decision(const RepairReport& repair, Lines& lines) {
+  const InsideReport& inside = repair.inside;
+  std::vector<std::string> remarks;
+  add_count(remarks, repair.orient.turned_triangles, "triangle", "turned like the neighbours");
+  if (!inside.exact) {
+    add_count(remarks, inside.contradictions, "contradiction", "left, the most likely solid taken");
+  }
   std::vector<std::string> texts = {
       fmt::format("decided by {}{}", rule_name(inside.used),
                   inside.asked == InsideRule::automatic ? ": " + inside.reason : ", as asked for")};
-  if (!inside.exact) {
-    texts.push_back(number_of(inside.contradictions, "contradiction") +
-                    " in the input: the most likely solid was taken");
-  }
+  if (!remarks.empty()) texts.push_back(joined(remarks));
   lines.add("inside", texts);
 }
 
@@ -131,7 +134,7 @@ std::string number_of(std::size_t count, std::string_view noun) {
 std::string summary_of(const Findings& findings, double seconds) {
   Lines lines;
   describe_input(findings, lines);
-  if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair.inside, lines);
+  if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair, lines);
   if (findings.tree_written) {
     describe_tree(findings, seconds, lines);
   } else {
