@@ -43,20 +43,23 @@ std::string reading_troubles(const ReadReport& read) {
   return joined(texts);
 }
 
-std::string useless_triangles(const CleanReport& clean) {
+std::string dropped_triangles(const CleanReport& clean) {
   std::vector<std::string> texts;
-  add_count(texts, clean.duplicates + clean.opposite_duplicates, "triangle",
-            "there more than once");
-  add_count(texts, clean.dropped_degenerate, "triangle", "without area");
-  add_count(texts, clean.dropped_not_finite, "triangle", "with coordinates that are no numbers");
-  return joined(texts);
+  const std::size_t copies = clean.duplicates + clean.opposite_duplicates;
+  if (copies > 0) texts.push_back(number_of(copies, "duplicate"));
+  if (clean.dropped_degenerate > 0)
+    texts.push_back(grouped(clean.dropped_degenerate) + " without area");
+  if (clean.dropped_not_finite > 0) {
+    texts.push_back(grouped(clean.dropped_not_finite) + " with coordinates that are no numbers");
+  }
+  return texts.empty() ? std::string() : "triangles dropped: " + joined(texts);
 }
 
 std::vector<std::string> troubles_of(const Findings& findings) {
   const Topology& input = findings.repair.input;
   std::vector<std::string> texts;
   texts.push_back(reading_troubles(*findings.mesh_read));
-  texts.push_back(useless_triangles(findings.repair.clean));
+  texts.push_back(dropped_triangles(findings.repair.clean));
   std::erase(texts, "");
   add_count(texts, input.open_edges, "open edge", "(gaps and holes)");
   add_count(texts, input.nonmanifold_edges, "edge", "with more than two triangles");
