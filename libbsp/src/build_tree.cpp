@@ -1,24 +1,29 @@
 // Building the tree.
 //
-// Idea: a region with many fragments is cut across an axis where that separates them; a small one is cut by
-// the plane of one of its fragments, and all fragments in that plane stay at the node. What is left goes,
-// cut where necessary, to the two sides. A region without fragments is a leaf.
+// Idea: the first nodes are the planes of the input's bounding box, so that what lies beside it is
+// cut off, and an opening that is flush with the box (a cup, half a body) has a plane that can
+// close it. Then a region with many fragments is cut across an axis where that separates them; a
+// small one is cut by the plane of one of its fragments, and all fragments in that plane stay at
+// the node. What is left goes, cut where necessary, to the two sides. A region without fragments is
+// a leaf.
 //
 // Invariants:
-// - Fragments of a region lie in its closure and have their interior in its interior: those in the plane of
-//   an ancestor stayed there. So every plane chosen from a fragment cuts the region properly, and so does
-//   a spatial cut with fragments strictly on both sides.
-// - The fragments of one triangle inside one region are one convex polygon, so a triangle is named at most
+// - Fragments of a region lie in its closure and have their interior in its interior: those in the
+// plane of
+//   an ancestor stayed there. So every plane chosen from a fragment cuts the region properly, and
+//   so does a spatial cut with fragments strictly on both sides.
+// - The fragments of one triangle inside one region are one convex polygon, so a triangle is named
+// at most
 //   once at a node.
 // - An explicit stack replaces recursion: depth is not bounded by the machine's stack.
-#include <bsp/build_tree.h>
-
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <bsp/build_tree.h>
 #include <bsp/error.h>
 
 #include "candidate_planes.h"
@@ -41,16 +46,41 @@ struct Region {
   std::size_t depth = 0;
 };
 
+struct BoxPlane {
+  PlaneId plane;
+  bool inside_is_front = false;
+};
+
+// The sides of the bounding box; one for each axis on which it is flat.
+std::vector<BoxPlane> planes_of_bounding_box(CleanSoup& soup) {
+  std::vector<BoxPlane> sides;
+  if (soup.triangles.empty()) return sides;
+  const GridBox box = bounding_box(soup);
+  const std::array<std::int32_t, 3> low = {box.low.x, box.low.y, box.low.z};
+  const std::array<std::int32_t, 3> high = {box.high.x, box.high.y, box.high.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<std::int64_t, 3> normal{};
+    normal[axis] = 1;
+    sides.push_back({soup.planes.intern(make_plane(normal, -Int128{low[axis]})).id, true});
+    if (low[axis] == high[axis]) continue;
+    sides.push_back({soup.planes.intern(make_plane(normal, -Int128{high[axis]})).id, false});
+  }
+  return sides;
+}
+
 class TreeBuilder {
  public:
   TreeBuilder(CleanSoup soup, const BuildTreeOptions& options, BuildTreeReport& report)
-      : options_(options), report_(report), tree_{std::move(soup), {}, {}, {}, {}},
+      : options_(options),
+        report_(report),
+        tree_{std::move(soup), {}, {}, {}, {}},
+        box_planes_(planes_of_bounding_box(tree_.input)),
         pool_(tree_.input) {}
 
   Tree run() {
     for (std::size_t i = 0; i < pool_.size(); ++i) stack_.push_back(FragmentId(i));
     total_ = std::max<std::size_t>(stack_.size(), 1);
-    regions_.push_back({});
+    divide_by_bounding_box();
     while (!regions_.empty()) {
       const Region region = regions_.back();
       regions_.pop_back();
@@ -70,6 +100,23 @@ class TreeBuilder {
   }
 
  private:
+  // Leaves one region on the stack, the inside of the box, or what is left of it when the box is
+  // flat.
+  void divide_by_bounding_box() {
+    Region inside;
+    for (const BoxPlane& box_plane : box_planes_) {
+      distribute(inside, box_plane.plane);
+      add_node(inside, box_plane.plane);
+      // add_node() left both children; the outer one has no fragments.
+      const Region front = regions_.back();
+      const Region back = regions_[regions_.size() - 2];
+      regions_.clear();
+      inside = box_plane.inside_is_front ? front : back;
+      attach(box_plane.inside_is_front ? back : front, TreeRef(tree_.leaves.push_back({})));
+    }
+    regions_.push_back(inside);
+  }
+
   std::span<const FragmentId> fragments(const Region& region) const {
     return {stack_.data() + region.begin, stack_.size() - region.begin};
   }
@@ -134,7 +181,8 @@ class TreeBuilder {
     regions_.push_back({id, 0, front_begin, region.depth + 1});
   }
 
-  // Done is what has left the stack; fragments born from cuts make it grow again, hence the maximum.
+  // Done is what has left the stack; fragments born from cuts make it grow again, hence the
+  // maximum.
   void tell_progress() {
     if (options_.progress == nullptr || ++ticks_ % 1024 != 0) return;
     if (options_.progress->cancelled()) throw Cancelled();
@@ -146,6 +194,7 @@ class TreeBuilder {
   BuildTreeOptions options_;
   BuildTreeReport& report_;
   Tree tree_;
+  std::vector<BoxPlane> box_planes_;  // interned before the pool copies the planes
   FragmentPool pool_;
   std::vector<FragmentId> stack_;
   std::vector<Region> regions_;

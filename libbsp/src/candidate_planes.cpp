@@ -8,7 +8,8 @@
 namespace meshrepair::internal {
 namespace {
 
-// Corners nearer to a plane than this many grid steps are taken to be on it. A choice of speed alone.
+// Corners nearer to a plane than this many grid steps are taken to be on it. A choice of speed
+// alone.
 constexpr double kNear = 1e-3;
 
 struct Tally {

@@ -9,8 +9,9 @@
 
 namespace meshrepair::internal {
 
-// The plane of the fragment that cuts few others and leaves the sides in balance, found on samples. Judged
-// by rounded distances: a wrong guess makes the tree larger, never wrong. `fragments` is not empty.
+// The plane of the fragment that cuts few others and leaves the sides in balance, found on samples.
+// Judged by rounded distances: a wrong guess makes the tree larger, never wrong. `fragments` is not
+// empty.
 [[nodiscard]] PlaneId choose_fragment_plane(const FragmentPool& pool,
                                             std::span<const FragmentId> fragments,
                                             const BuildTreeOptions& options);

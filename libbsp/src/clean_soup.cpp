@@ -1,10 +1,9 @@
-#include <bsp/clean_soup.h>
-
 #include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include <bsp/clean_soup.h>
 #include <bsp/error.h>
 #include <bsp/hash_index.h>
 
@@ -16,7 +15,8 @@ using internal::hash_of;
 using internal::HashIndex;
 using Corners = std::array<PointId, 3>;
 
-// Which points are corners of triangles whose three corners are finite; throws on indices out of range.
+// Which points are corners of triangles whose three corners are finite; throws on indices out of
+// range.
 std::vector<char> used_points(const TriangleSoup& soup, std::vector<char>& finite_triangle) {
   std::vector<char> finite(soup.points.size());
   for (std::size_t i = 0; i < soup.points.size(); ++i) finite[i] = soup.points[i].allFinite();
@@ -157,14 +157,19 @@ CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report) {
   return clean;
 }
 
-GridBox outer_box(const CleanSoup& soup) {
-  if (soup.grid_points.empty()) return {{-1, -1, -1}, {1, 1, 1}};
+GridBox bounding_box(const CleanSoup& soup) {
+  if (soup.grid_points.empty()) return {};
   GridPoint low = soup.grid_points[PointId(0u)];
   GridPoint high = low;
   for (const GridPoint& p : soup.grid_points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  return {low, high};
+}
+
+GridBox outer_box(const CleanSoup& soup) {
+  const auto [low, high] = bounding_box(soup);
   const std::int32_t extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   const std::int32_t margin = extent / 16 + 1;
   return {{low.x - margin, low.y - margin, low.z - margin},

@@ -1,6 +1,6 @@
-#include <bsp/edge_table.h>
-
 #include <algorithm>
+
+#include <bsp/edge_table.h>
 
 namespace meshrepair {
 

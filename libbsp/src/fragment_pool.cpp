@@ -8,8 +8,8 @@
 namespace meshrepair::internal {
 namespace {
 
-// Edge k of the input triangle is written as kOriginalEdge + k until its plane is needed: most fragments
-// are never cut.
+// Edge k of the input triangle is written as kOriginalEdge + k until its plane is needed: most
+// fragments are never cut.
 constexpr std::uint32_t kOriginalEdge = 0xFFFFFFF0u;
 
 bool is_original(PlaneId edge) { return edge.value >= kOriginalEdge; }
@@ -56,10 +56,12 @@ FragmentPool::Pieces FragmentPool::split(FragmentId id, PlaneId by) {
     const std::uint32_t j = i + 1 < f.count ? i + 1 : 0;
     Corner& here = corners_[f.first + i];
     const Corner& next = corners_[f.first + j];
-    // A corner on the plane belongs to both; on the piece that the polygon leaves there, the edge that
-    // starts at it is the cut.
-    if (sides_[i] >= 0) front_.push_back({here.point, sides_[i] == 0 && sides_[j] < 0 ? by : here.edge});
-    if (sides_[i] <= 0) back_.push_back({here.point, sides_[i] == 0 && sides_[j] > 0 ? by : here.edge});
+    // A corner on the plane belongs to both; on the piece that the polygon leaves there, the edge
+    // that starts at it is the cut.
+    if (sides_[i] >= 0)
+      front_.push_back({here.point, sides_[i] == 0 && sides_[j] < 0 ? by : here.edge});
+    if (sides_[i] <= 0)
+      back_.push_back({here.point, sides_[i] == 0 && sides_[j] > 0 ? by : here.edge});
     if (sides_[i] * sides_[j] < 0) {
       const Point cut = cut_edge(f, here, next, by);
       front_.push_back({cut, sides_[i] > 0 ? by : here.edge});

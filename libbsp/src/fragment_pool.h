@@ -12,7 +12,8 @@ namespace meshrepair::internal {
 
 using FragmentId = Id<struct FragmentTag>;
 
-// A corner and the edge from it to the next corner; the edge lies in the fragment's plane and in `edge`.
+// A corner and the edge from it to the next corner; the edge lies in the fragment's plane and in
+// `edge`.
 struct Corner {
   Point point;
   PlaneId edge;  // kOriginalEdge + k: edge k of the input triangle, whose plane is made when needed
@@ -36,8 +37,8 @@ class FragmentPool {
     FragmentId front, back;  // invalid where there is none; both invalid: lost
   };
 
-  // Cuts by a plane of planes() that is not the fragment's own; a fragment that is not cut keeps its id,
-  // one that is cut is given back and replaced by two new ones.
+  // Cuts by a plane of planes() that is not the fragment's own; a fragment that is not cut keeps
+  // its id, one that is cut is given back and replaced by two new ones.
   Pieces split(FragmentId id, PlaneId by);
 
   // Forgets a fragment whose place is final.
@@ -47,8 +48,8 @@ class FragmentPool {
   [[nodiscard]] const Corner* corners(const Fragment& f) const { return &corners_[f.first]; }
   [[nodiscard]] std::size_t size() const { return fragments_.size(); }
 
-  // The planes that fragments refer to: those of the soup under their own ids, then planes of edges and
-  // whatever add_plane() was given.
+  // The planes that fragments refer to: those of the soup under their own ids, then planes of edges
+  // and whatever add_plane() was given.
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
   PlaneId add_plane(const Plane& plane) { return planes_.append(plane); }
 
@@ -62,9 +63,9 @@ class FragmentPool {
   const CleanSoup& soup_;
   PlaneTable planes_;
   std::vector<std::array<PlaneId, 3>> edge_planes_;  // by triangle; made when first needed
-  std::vector<Fragment> fragments_;
+  TrivialVector<Fragment> fragments_;
   std::vector<FragmentId> free_fragments_;
-  std::vector<Corner> corners_;
+  TrivialVector<Corner> corners_;
   std::vector<std::vector<std::uint32_t>> free_blocks_;  // by number of corners
   std::vector<int> sides_;                               // scratch
   std::vector<Corner> front_, back_;                     // scratch

@@ -1,16 +1,20 @@
-#include <bsp/grid.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <bsp/grid.h>
 
 namespace meshrepair {
 namespace {
 
-// The centre of [low, high], rounded to a multiple of the unit. Halving first keeps it finite.
+// The centre of [low, high], rounded to a multiple of the unit. Halving first keeps it finite. Ties
+// go up, not to the even multiple, so that a box moved by an odd number of steps gets an origin
+// moved by as many.
 double rounded_centre(double low, double high, double unit) {
   const double centre = 0.5 * low + 0.5 * high;
   const double steps = centre / unit;
-  return std::isfinite(steps) ? std::nearbyint(steps) * unit : centre;
+  if (!std::isfinite(steps)) return centre;
+  const double whole = std::floor(steps);
+  return (steps - whole >= 0.5 ? whole + 1 : whole) * unit;
 }
 
 std::int32_t nearest_step(double distance, double unit) {
@@ -37,7 +41,9 @@ Grid make_grid(const Vec3d& lowest, const Vec3d& highest) {
   }
   int exponent = 0;
   // A single point has no extent; its own size gives a unit that doubles can tell apart from it.
-  const double size = half_extent > 0 ? half_extent : std::max(largest, 0x1p-1000);
+  // Half of the smallest extent that doubles know is rounded to 0, and gives the smallest unit.
+  const double without_extent = lowest == highest ? std::max(largest, 0x1p-1000) : 0x1p-1074;
+  const double size = half_extent > 0 ? half_extent : without_extent;
   std::frexp(size, &exponent);  // size < 2^exponent
   // One bit of room: rounding the origin to a multiple of the unit moves it by up to half a unit.
   Grid grid;

@@ -1,6 +1,6 @@
-#include <bsp/plane.h>
-
 #include <numeric>
+
+#include <bsp/plane.h>
 
 namespace meshrepair {
 
@@ -31,19 +31,25 @@ Plane plane_along_axis(const GridPoint& a, const GridPoint& b, int axis) {
                      uz = std::int64_t{b.z} - a.z;
   std::array<std::int64_t, 3> n{};
   switch (axis) {
-    case 0: n = {0, uz, -uy}; break;
-    case 1: n = {-uz, 0, ux}; break;
-    default: n = {uy, -ux, 0}; break;
+    case 0:
+      n = {0, uz, -uy};
+      break;
+    case 1:
+      n = {-uz, 0, ux};
+      break;
+    default:
+      n = {uy, -ux, 0};
+      break;
   }
   return make_plane(n, -(Int128{n[0]} * a.x + Int128{n[1]} * a.y + Int128{n[2]} * a.z));
 }
 
 int dominant_axis(const Plane& plane) {
-  int best = 0;
-  for (int axis = 1; axis < 3; ++axis) {
+  std::size_t best = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis) {
     if (std::abs(plane.normal[axis]) > std::abs(plane.normal[best])) best = axis;
   }
-  return best;
+  return static_cast<int>(best);
 }
 
 bool make_canonical(Plane& plane) {

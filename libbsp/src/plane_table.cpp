@@ -1,7 +1,7 @@
-#include <bsp/plane_table.h>
-
 #include <algorithm>
 #include <bit>
+
+#include <bsp/plane_table.h>
 
 namespace meshrepair {
 namespace {

@@ -1,17 +1,17 @@
 // Points as intersections of planes, and the side of a point.
 //
-// Sizes: coordinates differ by at most 2^26, so a normal's component is below 2^53 + 2^53 = 2^54 and an
-// offset below 3 * 2^54 * 2^25 < 2^81. With three such planes,
+// Sizes: coordinates differ by at most 2^26, so a normal's component is below 2^53 + 2^53 = 2^54
+// and an offset below 3 * 2^54 * 2^25 < 2^81. With three such planes,
 //   a component of n1 x n2     < 2 * 2^108          = 2^109   (128 bits),
 //   denominator n3 . (n1 x n2) < 3 * 2^54 * 2^109   < 2^165   (256 bits),
 //   numerator                  < 3 * 2^81 * 2^109   < 2^192   (256 bits),
 //   side                       < 3 * 2^54 * 2^192 + 2^81 * 2^165 < 2^249   (256 bits).
 // Nothing overflows, so no sign is ever a guess.
-#include <bsp/predicates.h>
-
 #include <algorithm>
 #include <limits>
 #include <utility>
+
+#include <bsp/predicates.h>
 
 #include "predicates_internal.h"
 
@@ -56,10 +56,11 @@ int side_exactly(const Homogeneous& point, const Plane& plane) {
   return value.sign() * point.denominator.sign();
 }
 
-// With e = 2^-53: components of unit normals carry 2e beyond a common scale (which moves no point), so a
-// component of a cross product is off by at most 2 (4e + e) + e = 11e, the determinant by 3 (11 + 2 + 1)e
-// + 3e < 50e, a numerator (offsets below 2^26, carrying 3e) by 2^26 * 3 (11 + 3 + 2)e + ... < 2^26 * 60e.
-// Divided, with |position| < 2^26: (60 + 50 + 1) 2^26 e / |det| < 2^-20 / |det|.
+// With e = 2^-53: components of unit normals carry 2e beyond a common scale (which moves no point),
+// so a component of a cross product is off by at most 2 (4e + e) + e = 11e, the determinant by 3
+// (11 + 2 + 1)e
+// + 3e < 50e, a numerator (offsets below 2^26, carrying 3e) by 2^26 * 3 (11 + 3 + 2)e + ... < 2^26
+// * 60e. Divided, with |position| < 2^26: (60 + 50 + 1) 2^26 e / |det| < 2^-20 / |det|.
 Approximation meet_approximately(const Plane& a, const Plane& b, const Plane& c) {
   const auto& u = a.unit;
   const auto& v = b.unit;
@@ -167,8 +168,8 @@ std::array<double, 3> accurate_position(const Point& point, const PlaneTable& pl
 namespace {
 
 int side_of_meet(const Point& point, const Plane& plane, const PlaneTable& planes) {
-  const Homogeneous exact = internal::meet_exactly(
-      planes[point.planes[0]], planes[point.planes[1]], planes[point.planes[2]]);
+  const Homogeneous exact = internal::meet_exactly(planes[point.planes[0]], planes[point.planes[1]],
+                                                   planes[point.planes[2]]);
   return internal::side_exactly(exact, plane);
 }
 

@@ -19,7 +19,8 @@ struct Homogeneous {
 // Sign of normal . position + offset in 256 bits. The denominator is not 0.
 [[nodiscard]] int side_exactly(const Homogeneous& point, const Plane& plane);
 
-// Cramer's rule in doubles. `error` bounds each coordinate's error; it is infinite where nothing is known.
+// Cramer's rule in doubles. `error` bounds each coordinate's error; it is infinite where nothing is
+// known.
 struct Approximation {
   std::array<double, 3> position;
   double error;

@@ -8,8 +8,8 @@ namespace meshrepair::internal {
 namespace {
 
 constexpr std::size_t kBins = 32;
-// In grid steps. The bounds are rounded to float (an error of at most 2 steps), so a cut a bin's width away
-// from both ends has corners strictly on both sides, and cuts the region properly.
+// In grid steps. The bounds are rounded to float (an error of at most 2 steps), so a cut a bin's
+// width away from both ends has corners strictly on both sides, and cuts the region properly.
 constexpr float kThinnestBin = 16;
 
 struct Bounds {

@@ -11,8 +11,8 @@
 
 namespace meshrepair::internal {
 
-// The best cut at a half-integer coordinate, so that no grid point lies on it; nothing when no cut separates
-// the fragments well enough for the options.
+// The best cut at a half-integer coordinate, so that no grid point lies on it; nothing when no cut
+// separates the fragments well enough for the options.
 [[nodiscard]] std::optional<Plane> find_spatial_cut(const FragmentPool& pool,
                                                     std::span<const FragmentId> fragments,
                                                     const BuildTreeOptions& options);

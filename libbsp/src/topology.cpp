@@ -1,11 +1,10 @@
-#include <bsp/topology.h>
-
 #include <numeric>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <bsp/disjoint_sets.h>
+#include <bsp/topology.h>
 
 namespace meshrepair {
 namespace {
@@ -15,8 +14,8 @@ void count_edge(std::span<const IndexTriangle> triangles, std::span<const std::u
   ++topology.edges;
   topology.open_edges += sides.size() == 1;
   topology.nonmanifold_edges += sides.size() > 2;
-  topology.inconsistent_edges += sides.size() == 2 && side_start(triangles, sides[0]) ==
-                                                          side_start(triangles, sides[1]);
+  topology.inconsistent_edges +=
+      sides.size() == 2 && side_start(triangles, sides[0]) == side_start(triangles, sides[1]);
 }
 
 // Joins the two pairs of corners that the triangles on both sides of an edge have in common.

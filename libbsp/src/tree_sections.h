@@ -40,7 +40,8 @@ class SectionWriter {
   std::size_t checksum_at_;
 };
 
-// Walks through the bytes of a file. Every failure is an InputError that names the file and the section.
+// Walks through the bytes of a file. Every failure is an InputError that names the file and the
+// section.
 class SectionReader {
  public:
   SectionReader(std::string_view bytes, std::string name) : rest_(bytes), file_(std::move(name)) {}
@@ -49,8 +50,8 @@ class SectionReader {
   void skip(std::string_view expected, const std::string& otherwise);
   std::uint32_t header_number();
 
-  // Enters the next section, which must have this name and item size, and returns the number of its items. The
-  // section's bytes are all there and its checksum is right.
+  // Enters the next section, which must have this name and item size, and returns the number of its
+  // items. The section's bytes are all there and its checksum is right.
   std::size_t enter(std::string_view name, std::uint32_t item_bytes);
   template <class Number>
   Number get() {

@@ -1,11 +1,9 @@
-#include <extract/build_cells.h>
-
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <bsp/error.h>
-
+#include <extract/build_cells.h>
 #include <extract/check_complex.h>
 
 namespace meshrepair {
@@ -70,8 +68,9 @@ class CellBuilder {
     Facet& f = complex_.facets[FacetId(facet)];
     f.first_triangle = static_cast<std::uint32_t>(pool.size());
     f.triangle_count = node.triangle_count;
-    const auto first = tree_.node_triangles.begin() + node.first_triangle;
-    pool.insert(pool.end(), first, first + node.triangle_count);
+    for (std::uint32_t i = 0; i < node.triangle_count; ++i) {
+      pool.push_back(tree_.node_triangles[node.first_triangle + i]);
+    }
   }
 
   void tell_progress() {

@@ -1,8 +1,7 @@
-#include <extract/cell_complex.h>
-
 #include <cmath>
 
-#include <bsp/assert.h>
+#include <bsp/error.h>
+#include <extract/cell_complex.h>
 
 #include "complex_edit.h"
 
@@ -28,8 +27,7 @@ Position area_vector(const CellComplex& complex, FacetId facet) {
   Position sum{};
   Position previous{};
   complex.for_each_use(facet, [&](UseId use) {
-    const Position here =
-        minus(complex.vertices[complex.origin(complex.uses[use])].position, base);
+    const Position here = minus(complex.vertices[complex.origin(complex.uses[use])].position, base);
     const Position part = cross(previous, here);
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += part[axis];
     previous = here;
@@ -54,8 +52,7 @@ UseId CellComplex::mate(UseId use, CellId cell) const {
   for (UseId u = edges[uses[use].edge].first_use; u.valid(); u = uses[u].next_around) {
     if (u != use && bounds(uses[u].facet, cell)) return u;
   }
-  MESHREPAIR_ASSERT(!"every edge of a cell has two facets");
-  return {};
+  throw InternalError("internal error: an edge of a cell has only one facet");
 }
 
 double facet_area(const CellComplex& complex, FacetId facet) {
@@ -69,7 +66,8 @@ double cell_volume(const CellComplex& complex, CellId cell) {
   double sum = 0;
   complex.for_each_facet(cell, [&](FacetId f) {
     const Facet& facet = complex.facets[f];
-    const Position& on_it = complex.vertices[complex.origin(complex.uses[facet.first_use])].position;
+    const Position& on_it =
+        complex.vertices[complex.origin(complex.uses[facet.first_use])].position;
     const double part = dot(area_vector(complex, f), minus(on_it, base));
     sum += facet.below == cell ? part : -part;
   });

@@ -1,11 +1,10 @@
-#include <extract/check_complex.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <bsp/error.h>
+#include <extract/check_complex.h>
 
 namespace meshrepair {
 namespace {
@@ -30,7 +29,8 @@ void collect_facet(const CellComplex& complex, CellId cell, FacetId facet, CellE
     const Use& use = complex.uses[u];
     require(use.facet == facet, "a use names another facet than its loop", cell);
     require(complex.uses[use.next].previous == u, "a loop is not linked both ways", cell);
-    require(complex.target(use) == complex.origin(complex.uses[use.next]), "a loop has a gap", cell);
+    require(complex.target(use) == complex.origin(complex.uses[use.next]), "a loop has a gap",
+            cell);
     loop.push_back(complex.origin(use));
     all.directed_edges.emplace_back(use.edge, outward ? use.reversed : 1 - use.reversed);
   });
@@ -48,7 +48,8 @@ std::size_t count_distinct(std::vector<Value>& values) {
   return values.size();
 }
 
-// All facets can be reached from the first one across edges: V - E + F = 2 alone allows a sphere and a torus.
+// All facets can be reached from the first one across edges: V - E + F = 2 alone allows a sphere
+// and a torus.
 void require_connected(const CellComplex& complex, CellId cell, std::size_t facets) {
   std::vector<FacetId> reached = {complex.cells[cell].first_facet};
   for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -67,7 +68,8 @@ void check_cell(const CellComplex& complex, CellId cell) {
   complex.for_each_facet(cell, [&](FacetId f) { collect_facet(complex, cell, f, all); });
   require(all.facets >= 2, "there are fewer than two facets", cell);
   const std::size_t uses = all.directed_edges.size();
-  require(count_distinct(all.directed_edges) == uses, "an edge is passed twice in one direction", cell);
+  require(count_distinct(all.directed_edges) == uses, "an edge is passed twice in one direction",
+          cell);
   for (std::size_t i = 0; i + 1 < uses; i += 2) {
     require(all.directed_edges[i].first == all.directed_edges[i + 1].first,
             "an edge is passed in one direction only", cell);

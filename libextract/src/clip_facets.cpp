@@ -1,4 +1,5 @@
-// Facet clipping (WM 4.2.2): every facet with vertices on both sides is divided along vertices on the plane.
+// Facet clipping (WM 4.2.2): every facet with vertices on both sides is divided along vertices on
+// the plane.
 #include <algorithm>
 
 #include <extract/clip_cell.h>
@@ -10,8 +11,8 @@ namespace meshrepair {
 void Clipper::clip_facet(FacetId facet, PlaneId plane) {
   loop_.clear();
   complex_.for_each_use(facet, [&](UseId u) { loop_.push_back(u); });
-  // Count the groups: maximal runs of vertices on one side. Edges between the sides are split, so vertices
-  // on the plane separate them.
+  // Count the groups: maximal runs of vertices on one side. Edges between the sides are split, so
+  // vertices on the plane separate them.
   std::size_t above = 0;
   std::size_t below = 0;
   int previous = side_of(complex_.origin(complex_.uses[loop_.back()]));
@@ -63,7 +64,8 @@ void Clipper::split_into_star(FacetId facet, const std::vector<UseId>& loop, Pla
       spokes.push_back(loop[i]);
     }
   }
-  // The first link becomes two spokes when the centre is put into it; the others start at the centre.
+  // The first link becomes two spokes when the centre is put into it; the others start at the
+  // centre.
   const auto centre = facet_centre(complex_, facet);
   FacetId rest = split_and_share(facet, spokes[0], spokes[1], plane);
   const EdgeId link = complex_.uses[complex_.uses[spokes[1]].previous].edge;
@@ -108,8 +110,9 @@ void Clipper::share_triangles(FacetId a, FacetId b, PlaneId plane) {
       return engine_.side(lattice_point(soup.grid_points[p]), plane, complex_.planes) == wanted;
     });
   };
-  // In place: those for a alone, for both, for b alone; then the two ranges overlap and nothing is copied,
-  // unless both are there: then b gets a range of its own, so that later splits can sort each.
+  // In place: those for a alone, for both, for b alone; then the two ranges overlap and nothing is
+  // copied, unless both are there: then b gets a range of its own, so that later splits can sort
+  // each.
   triangles_.clear();
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < parent.triangle_count; ++i) {
@@ -122,7 +125,7 @@ void Clipper::share_triangles(FacetId a, FacetId b, PlaneId plane) {
   other.triangle_count = static_cast<std::uint32_t>(triangles_.size());
   if (kept > 0 && !triangles_.empty()) {
     other.first_triangle = static_cast<std::uint32_t>(pool.size());
-    pool.insert(pool.end(), triangles_.begin(), triangles_.end());
+    for (const TriangleId t : triangles_) pool.push_back(t);
   } else {
     std::copy(triangles_.begin(), triangles_.end(), pool.begin() + other.first_triangle);
   }

@@ -35,16 +35,17 @@ EdgeId box_edge(CellComplex& complex, std::array<std::array<EdgeId, 8>, 8>& made
                 std::uint32_t b, PlaneId p, PlaneId q) {
   EdgeId& edge = made[std::min(a, b)][std::max(a, b)];
   if (!edge.valid()) {
-    edge = complex.edges.push_back(
-        {{VertexId(std::min(a, b)), VertexId(std::max(a, b))}, {p, q}, {}});
+    edge =
+        complex.edges.push_back({{VertexId(std::min(a, b)), VertexId(std::max(a, b))}, {p, q}, {}});
   }
   return edge;
 }
 
 }  // namespace
 
-// Corner k of the box is high on axis a where bit a of k is set. Facet 2a is the low side on axis a, facet
-// 2a+1 the high one; both planes' normals point along +a, so the box is above the low and below the high.
+// Corner k of the box is high on axis a where bit a of k is set. Facet 2a is the low side on axis
+// a, facet 2a+1 the high one; both planes' normals point along +a, so the box is above the low and
+// below the high.
 void make_box(CellComplex& complex, const GridBox& box) {
   const std::array<std::array<std::int32_t, 3>, 2> bounds = {
       {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}}};
@@ -74,7 +75,8 @@ void make_box(CellComplex& complex, const GridBox& box) {
     for (std::uint32_t i = 0; i < 4; ++i) {
       const std::uint32_t a = loop[i];
       const std::uint32_t b = loop[(i + 1) % 4];
-      // The side facet that shares the edge a b: the axis on which neither the edge nor this facet runs.
+      // The side facet that shares the edge a b: the axis on which neither the edge nor this facet
+      // runs.
       const std::uint32_t across = i % 2 == 0 ? (axis + 2) % 3 : (axis + 1) % 3;
       const PlaneId other = plane[2 * across + ((a >> across) & 1)];
       const EdgeId edge = box_edge(complex, made, a, b, plane[side], other);
@@ -114,8 +116,8 @@ FacetId split_facet(CellComplex& complex, FacetId facet, UseId from, UseId to, P
   const EdgeId edge = complex.edges.push_back({{a, b}, {old.plane, by}, {}});
   const FacetId added = complex.facets.push_back(old);
 
-  const UseId back = new_use(complex, facet, edge, 1);    // b to a, closes from ... before_to
-  const UseId forth = new_use(complex, added, edge, 0);   // a to b, closes to ... before_from
+  const UseId back = new_use(complex, facet, edge, 1);   // b to a, closes from ... before_to
+  const UseId forth = new_use(complex, added, edge, 0);  // a to b, closes to ... before_from
   link(complex, before_to, back);
   link(complex, back, from);
   link(complex, before_from, forth);
@@ -139,8 +141,9 @@ CellId separate_cell(CellComplex& complex, CellId cell, PlaneId by, std::span<co
   closing.below = split_off;
   const FacetId lid = complex.facets.push_back(closing);
 
-  // Seen from outside the part, the lid passes each edge against the direction of the part's own facet, and
-  // the whole curve in the opposite order. A facet with the part below is stored as seen from outside.
+  // Seen from outside the part, the lid passes each edge against the direction of the part's own
+  // facet, and the whole curve in the opposite order. A facet with the part below is stored as seen
+  // from outside.
   UseId first;
   UseId previous;
   for (std::size_t i = curve.size(); i-- > 0;) {

@@ -1,22 +1,23 @@
 // Coverage of facets.
 //
-// Idea: the triangles of a node ride on the facets that the node's plane made, so each facet has a short list
-// of triangles that may cover it. On a closed input the planes of neighbouring triangles have already cut
-// the facets along all edges, and each test says "full" or "none". Where it says "part" (triangles in one
-// plane, open borders) the facet is cut along an edge of such a triangle, and both halves are looked at
-// again with the triangles that are still undecided: a small partition of the plane, made on demand.
+// Idea: the triangles of a node ride on the facets that the node's plane made, so each facet has a
+// short list of triangles that may cover it. On a closed input the planes of neighbouring triangles
+// have already cut the facets along all edges, and each test says "full" or "none". Where it says
+// "part" (triangles in one plane, open borders) the facet is cut along an edge of such a triangle,
+// and both halves are looked at again with the triangles that are still undecided: a small
+// partition of the plane, made on demand.
 //
 // Invariant: an edge chosen for a cut crosses the facet and never crosses its parts, so it ends.
-#include <extract/cover_facets.h>
-
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <bsp/assert.h>
 #include <bsp/error.h>
 #include <bsp/predicates.h>
+#include <extract/cover_facets.h>
 
 #include "complex_edit.h"
 #include "prepared_triangle.h"
@@ -31,6 +32,8 @@ using internal::PreparedTriangle;
 // How many triangles offer their edges for a cut, and on how many each offer is judged.
 constexpr std::size_t kOffers = 6;
 constexpr std::size_t kJudged = 24;
+// Up to here every triangle is asked what it covers before the facet is cut.
+constexpr std::size_t kFew = 8;
 constexpr std::size_t kTicksPerProgress = 8192;
 
 class FacetCoverer {
@@ -69,13 +72,33 @@ class FacetCoverer {
     while (!pieces_.empty()) {
       Piece piece = std::move(pieces_.back());
       pieces_.pop_back();
-      decide(piece);
-      if (piece.undecided.empty()) continue;
-      const FacetId other = split(piece.facet, choose_cut(piece));
-      ++report_.split_facets;
-      pieces_.push_back({other, piece.undecided});
-      pieces_.push_back(std::move(piece));
+      // With many triangles the facet is cut first and asked about later: most of them will be
+      // elsewhere.
+      std::optional<Plane> cut;
+      if (piece.undecided.size() > kFew) cut = choose_cut(piece);
+      if (!cut) {
+        decide(piece);
+        if (piece.undecided.empty()) continue;
+        cut = choose_cut(piece);
+        MESHREPAIR_ASSERT(cut.has_value());
+      }
+      divide(std::move(piece), *cut);
     }
+  }
+
+  // Cuts a piece and gives each half the triangles that reach to its side.
+  void divide(Piece piece, const Plane& cut) {
+    const Halves halves = split(piece.facet, cut);
+    ++report_.split_facets;
+    Piece positive{halves.positive, {}};
+    Piece negative{halves.negative, {}};
+    for (const TriangleId t : piece.undecided) {
+      const Reach reach = reach_of(t, cut);
+      if (reach.positive) positive.undecided.push_back(t);
+      if (reach.negative) negative.undecided.push_back(t);
+    }
+    if (!negative.undecided.empty()) pieces_.push_back(std::move(negative));
+    if (!positive.undecided.empty()) pieces_.push_back(std::move(positive));
   }
 
   // Applies the triangles that cover all of the facet and drops those that miss it.
@@ -93,12 +116,14 @@ class FacetCoverer {
     piece.undecided.resize(kept);
   }
 
-  // An edge that crosses the facet, cuts few of the undecided triangles and leaves both sides alike.
-  Plane choose_cut(const Piece& piece) {
+  // An edge that crosses the facet, cuts few of the undecided triangles and leaves both sides
+  // alike; nothing when none of the edges looked at crosses it. With few triangles all are looked
+  // at.
+  std::optional<Plane> choose_cut(const Piece& piece) {
     const auto& list = piece.undecided;
-    const std::size_t offers = std::min(kOffers, list.size());
+    const std::size_t offers = list.size() > kFew ? kOffers : list.size();
     std::size_t best_cost = std::numeric_limits<std::size_t>::max();
-    Plane best;
+    std::optional<Plane> best;
     for (std::size_t k = 0; k < offers; ++k) {
       const PreparedTriangle offered = prepared(list[k * list.size() / offers]);
       for (const Plane& edge : offered.edges) {
@@ -109,37 +134,48 @@ class FacetCoverer {
         }
       }
     }
-    MESHREPAIR_ASSERT(best_cost != std::numeric_limits<std::size_t>::max());
     return best;
   }
 
   std::size_t cost_of(const Plane& edge, const std::vector<TriangleId>& list) const {
     const std::size_t judged = std::min(kJudged, list.size());
-    std::size_t cut = 0, inside = 0, outside = 0;
+    std::size_t cut = 0, positive = 0, negative = 0;
     for (std::size_t j = 0; j < judged; ++j) {
-      const auto& corners = complex_.soup().triangles[list[j * list.size() / judged]].corners;
-      int above = 0, below = 0;
-      for (const PointId p : corners) {
-        const int s = side(complex_.soup().grid_points[p], edge);
-        above += s > 0;
-        below += s < 0;
-      }
-      (above > 0 && below > 0 ? cut : above > 0 ? inside : outside) += 1;
+      const Reach reach = reach_of(list[j * list.size() / judged], edge);
+      (reach.positive && reach.negative ? cut : reach.positive ? positive : negative) += 1;
     }
-    return 8 * cut + std::max(inside, outside) - std::min(inside, outside);
+    return 8 * cut + std::max(positive, negative) - std::min(positive, negative);
   }
 
+  struct Reach {
+    bool positive = false, negative = false;
+  };
+
+  Reach reach_of(TriangleId t, const Plane& plane) const {
+    Reach reach;
+    for (const PointId p : complex_.soup().triangles[t].corners) {
+      const int s = side(complex_.soup().grid_points[p], plane);
+      reach.positive |= s > 0;
+      reach.negative |= s < 0;
+    }
+    return reach;
+  }
+
+  struct Halves {
+    FacetId positive, negative;
+  };
+
   // Cuts the facet, which is convex, along a plane that crosses it.
-  FacetId split(FacetId facet, const Plane& along) {
+  Halves split(FacetId facet, const Plane& along) {
     const PlaneId plane = complex_.planes.append(along);
-    std::vector<UseId> crossed;
+    crossed_.clear();
     complex_.for_each_use(facet, [&](UseId u) {
       const Use& use = complex_.uses[u];
       if (side_of(complex_.origin(use), plane) * side_of(complex_.target(use), plane) < 0) {
-        crossed.push_back(u);
+        crossed_.push_back(u);
       }
     });
-    for (const UseId u : crossed) {
+    for (const UseId u : crossed_) {
       const Edge& edge = complex_.edges[complex_.uses[u].edge];
       const auto& a = complex_.vertices[edge.ends[0]].position;
       const auto& b = complex_.vertices[edge.ends[1]].position;
@@ -147,14 +183,15 @@ class FacetCoverer {
                             {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
       internal::split_edge(complex_, complex_.uses[u].edge, at);
     }
-    std::vector<UseId> ends;
+    ends_.clear();
     complex_.for_each_use(facet, [&](UseId u) {
-      if (side_of(complex_.origin(complex_.uses[u]), plane) == 0) ends.push_back(u);
+      if (side_of(complex_.origin(complex_.uses[u]), plane) == 0) ends_.push_back(u);
     });
-    MESHREPAIR_ASSERT(ends.size() == 2);
-    const FacetId added = internal::split_facet(complex_, facet, ends[0], ends[1], plane);
+    MESHREPAIR_ASSERT(ends_.size() == 2);
+    const int kept_side = side_of(complex_.target(complex_.uses[ends_[0]]), plane);
+    const FacetId added = internal::split_facet(complex_, facet, ends_[0], ends_[1], plane);
     cover_.push_back(cover_[facet]);
-    return added;
+    return kept_side > 0 ? Halves{facet, added} : Halves{added, facet};
   }
 
   int side_of(VertexId v, PlaneId plane) const {
@@ -182,6 +219,7 @@ class FacetCoverer {
   ProgressObserver* progress_;
   IdVector<FacetId, Cover> cover_;
   std::vector<Piece> pieces_;
+  std::vector<UseId> crossed_, ends_;  // scratch
   PreparedTriangle prepared_;
   TriangleId prepared_id_;
 };

@@ -1,15 +1,14 @@
 // Cutting at singular edges and vertices.
 //
-// Steps: pair the sides of polygons along each edge of the complex (two sides: with each other; more: with
-// the next boundary facet met when turning through solid cells). Join the corners that paired sides have in
-// common. Each class of corners is one fan, and becomes one vertex.
-#include <extract/cut_nonmanifold.h>
-
+// Steps: pair the sides of polygons along each edge of the complex (two sides: with each other;
+// more: with the next boundary facet met when turning through solid cells). Join the corners that
+// paired sides have in common. Each class of corners is one fan, and becomes one vertex.
 #include <algorithm>
 #include <utility>
 
 #include <bsp/assert.h>
 #include <bsp/disjoint_sets.h>
+#include <extract/cut_nonmanifold.h>
 
 namespace meshrepair {
 namespace {
@@ -82,7 +81,7 @@ class NonmanifoldCutter {
       mate_[s] = side;
       return;
     }
-    MESHREPAIR_ASSERT(!"a wedge of solid cells ends at a boundary facet");
+    throw InternalError("internal error: a wedge of solid cells does not end at a boundary facet");
   }
 
   [[nodiscard]] CellId solid_side(FacetId f) const {

@@ -1,9 +1,7 @@
-#include <extract/extract_surface.h>
-
 #include <bsp/predicates.h>
-
 #include <extract/boundary.h>
 #include <extract/cut_nonmanifold.h>
+#include <extract/extract_surface.h>
 #include <extract/triangulate.h>
 
 #include "input_points.h"

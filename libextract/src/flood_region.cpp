@@ -1,15 +1,15 @@
-// Region flooding and region processing (WM 4.2.3, Procedure 3), for when the signs are not those of a plane
-// and a convex cell.
+// Region flooding and region processing (WM 4.2.3, Procedure 3), for when the signs are not those
+// of a plane and a convex cell.
 //
-// Why the curve is always simple: the flooded part M is connected across edges. Were the boundary of a
-// region R outside it to touch itself at a vertex, R would have two fans there with M between them on both
-// sides; a closed path through R and that vertex would separate the two fans of M, which M, connected
-// across edges, does not allow. So each R is a disk, and so is everything else together.
+// Why the curve is always simple: the flooded part M is connected across edges. Were the boundary
+// of a region R outside it to touch itself at a vertex, R would have two fans there with M between
+// them on both sides; a closed path through R and that vertex would separate the two fans of M,
+// which M, connected across edges, does not allow. So each R is a disk, and so is everything else
+// together.
 #include <algorithm>
 #include <limits>
 
 #include <bsp/assert.h>
-
 #include <extract/clip_cell.h>
 
 namespace meshrepair {
@@ -32,7 +32,8 @@ FacetId Clipper::lowest_facet(PlaneId plane) const {
     complex_.for_each_use(f, [&](UseId u) {
       const VertexId v = complex_.origin(complex_.uses[u]);
       // Vertices that count as below come first, whatever their rounded distance.
-      const double distance = signed_distance(complex_.vertices[v].position, complex_.planes[plane]);
+      const double distance =
+          signed_distance(complex_.vertices[v].position, complex_.planes[plane]);
       const double key = side_of(v) < 0 ? std::min(distance, 0.0) - 0x1p60 : distance;
       if (key < depth) {
         depth = key;
@@ -61,7 +62,8 @@ void Clipper::flood_below(CellId cell, PlaneId plane) {
   }
 }
 
-// Region processing: of the connected regions that the flood left, the one of largest area is above.
+// Region processing: of the connected regions that the flood left, the one of largest area is
+// above.
 void Clipper::keep_largest_region(CellId cell, PlaneId plane) {
   std::size_t regions = 0;
   double largest = -1;

@@ -11,8 +11,8 @@ Plane turned(const Plane& p) {
   return make_plane({-p.normal[0], -p.normal[1], -p.normal[2]}, -p.offset);
 }
 
-// Two convex polygons in a plane are apart exactly if an edge of one of them separates them. This looks at
-// the facet's edges.
+// Two convex polygons in a plane are apart exactly if an edge of one of them separates them. This
+// looks at the facet's edges.
 bool separated_by_facet(const CellComplex& complex, FacetId facet, const PreparedTriangle& t) {
   bool separated = false;
   complex.for_each_use(facet, [&](UseId u) {

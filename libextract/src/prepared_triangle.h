@@ -1,4 +1,5 @@
-// A triangle with the planes through its edges, for asking what part of a facet in its plane it covers.
+// A triangle with the planes through its edges, for asking what part of a facet in its plane it
+// covers.
 #pragma once
 
 #include <array>
@@ -9,7 +10,8 @@ namespace meshrepair::internal {
 
 struct PreparedTriangle {
   std::array<Point, 3> corners;
-  std::array<Plane, 3> edges;  // across the triangle's plane; the triangle is on the positive side of each
+  std::array<Plane, 3>
+      edges;  // across the triangle's plane; the triangle is on the positive side of each
 };
 
 [[nodiscard]] PreparedTriangle prepare_triangle(const CleanSoup& soup, TriangleId id);

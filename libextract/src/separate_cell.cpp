@@ -1,9 +1,9 @@
 // Cell separation (WM 4.2.3).
 //
-// After facet clipping no edge joins the two sides. With right answers each facet is on one side, and the
-// edges between the sides form one simple closed curve; on a sphere such a curve leaves exactly two disks
-// (Jordan), so tracing it proves that the separation is sound and nothing more is needed. Otherwise the
-// paper's flooding decides.
+// After facet clipping no edge joins the two sides. With right answers each facet is on one side,
+// and the edges between the sides form one simple closed curve; on a sphere such a curve leaves
+// exactly two disks (Jordan), so tracing it proves that the separation is sound and nothing more is
+// needed. Otherwise the paper's flooding decides.
 #include <extract/clip_cell.h>
 
 #include "complex_edit.h"
@@ -30,8 +30,8 @@ void Clipper::sort_by_side() {
   for (const FacetId f : facets_) (facet_sides_[f] == kBelow ? below_ : above_).push_back(f);
 }
 
-// An edge between a facet below and one above has both ends on the plane, so it was there and seen while
-// classifying, or a facet's clipping made it.
+// An edge between a facet below and one above has both ends on the plane, so it was there and seen
+// while classifying, or a facet's clipping made it.
 void Clipper::collect_curve_from_clips(CellId cell) {
   curve_.clear();
   for (const UseId u : on_plane_) {
@@ -50,7 +50,8 @@ void Clipper::collect_curve_from_sides(CellId cell) {
   }
 }
 
-// Puts the curve in order, as facets below pass it seen from outside; false when it is not one simple loop.
+// Puts the curve in order, as facets below pass it seen from outside; false when it is not one
+// simple loop.
 bool Clipper::trace_curve(CellId cell) {
   ++curve_stamp_;
   const auto start_of = [&](UseId u) {

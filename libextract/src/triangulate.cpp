@@ -1,9 +1,9 @@
-// A polygon is split into two chains that are joined by a zigzag of diagonals. When one straight side carries
-// vertices, that side is one chain and everything else the other: a vertex inside the side is in line with no
-// other side, so no triangle with a corner there and one elsewhere is degenerate.
-#include <extract/triangulate.h>
-
+// A polygon is split into two chains that are joined by a zigzag of diagonals. When one straight
+// side carries vertices, that side is one chain and everything else the other: a vertex inside the
+// side is in line with no other side, so no triangle with a corner there and one elsewhere is
+// degenerate.
 #include <bsp/assert.h>
+#include <extract/triangulate.h>
 
 namespace meshrepair {
 namespace {
@@ -53,15 +53,17 @@ void zigzag(Polygon polygon, Triangles& triangles) {
   }
 }
 
-// Chain s: the side from s(0) to s(m). Chain t: from the same corner t(0) = s(0) the other way round to
-// t(k) = s(m).
+// Chain s: the side from s(0) to s(m). Chain t: from the same corner t(0) = s(0) the other way
+// round to t(k) = s(m).
 void join_side(Polygon polygon, const Side& side, Triangles& triangles) {
   const std::size_t n = polygon.size();
   const std::size_t m = side.straight + 1;
   const std::size_t k = n - m;
   MESHREPAIR_ASSERT(m >= 2 && k >= 2);
   const auto s = [&](std::size_t i) { return static_cast<std::uint32_t>((side.begin + i) % n); };
-  const auto t = [&](std::size_t j) { return static_cast<std::uint32_t>((side.begin + n - j) % n); };
+  const auto t = [&](std::size_t j) {
+    return static_cast<std::uint32_t>((side.begin + n - j) % n);
+  };
   triangles.push_back({s(0), s(1), t(1)});
   std::size_t i = 1;
   std::size_t j = 1;

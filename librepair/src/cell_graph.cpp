@@ -1,12 +1,13 @@
-#include <repair/cell_graph.h>
-
 #include <algorithm>
+
+#include <repair/cell_graph.h>
 
 namespace meshrepair {
 namespace {
 
-// Areas are weights. One that rounding made 0 or worse would cut its cells off the system, so none is
-// smaller than this; on a grid of 2^26 steps it is nothing beside any real facet. In square grid steps.
+// Areas are weights. One that rounding made 0 or worse would cut its cells off the system, so none
+// is smaller than this; on a grid of 2^26 steps it is nothing beside any real facet. In square grid
+// steps.
 constexpr double kLeastArea = 1e-6;
 
 }  // namespace

@@ -1,9 +1,8 @@
-#include <repair/inside_rule.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include <repair/flood.h>
+#include <repair/inside_rule.h>
 #include <repair/walk.h>
 
 namespace meshrepair {
@@ -18,10 +17,18 @@ class InsideDecider {
     report_.asked = report_.used = options_.rule;
     CellLabels labels;
     switch (options_.rule) {
-      case InsideRule::parity: labels = by_parity(); break;
-      case InsideRule::solidity: labels = by_solidity(); break;
-      case InsideRule::winding: labels = by_winding(winding()); break;
-      case InsideRule::automatic: labels = by_trust(); break;
+      case InsideRule::parity:
+        labels = by_parity();
+        break;
+      case InsideRule::solidity:
+        labels = by_solidity();
+        break;
+      case InsideRule::winding:
+        labels = by_winding(winding());
+        break;
+      case InsideRule::automatic:
+        labels = by_trust();
+        break;
     }
     if (report_.reason.empty()) report_.reason = "asked for";
     report_.solid_cells =
@@ -125,10 +132,14 @@ class InsideDecider {
 
 std::string_view rule_name(InsideRule rule) {
   switch (rule) {
-    case InsideRule::solidity: return "solidity";
-    case InsideRule::parity: return "parity";
-    case InsideRule::winding: return "winding";
-    case InsideRule::automatic: break;
+    case InsideRule::solidity:
+      return "solidity";
+    case InsideRule::parity:
+      return "parity";
+    case InsideRule::winding:
+      return "winding";
+    case InsideRule::automatic:
+      break;
   }
   return "auto";
 }

@@ -1,9 +1,8 @@
-#include <repair/orient_parts.h>
-
 #include <cmath>
 #include <vector>
 
 #include <bsp/edge_table.h>
+#include <repair/orient_parts.h>
 
 namespace meshrepair {
 namespace {
@@ -29,8 +28,8 @@ Neighbours find_neighbours(const std::vector<IndexTriangle>& triangles) {
 
 double area_of(const CleanSoup& soup, TriangleId t) {
   const auto& c = soup.triangles[t].corners;
-  const Plane plane = plane_through(soup.grid_points[c[0]], soup.grid_points[c[1]],
-                                    soup.grid_points[c[2]]);
+  const Plane plane =
+      plane_through(soup.grid_points[c[0]], soup.grid_points[c[1]], soup.grid_points[c[2]]);
   return std::hypot(static_cast<double>(plane.normal[0]), static_cast<double>(plane.normal[1]),
                     static_cast<double>(plane.normal[2]));
 }
@@ -56,7 +55,9 @@ class PartOrienter {
   }
 
  private:
-  enum : std::int8_t { kUnseen, kKeep, kTurn };
+  static constexpr std::int8_t kUnseen = 0;
+  static constexpr std::int8_t kKeep = 1;
+  static constexpr std::int8_t kTurn = 2;
 
   void orient_part_of(std::uint32_t seed) {
     ++report_.parts;

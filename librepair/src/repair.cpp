@@ -1,12 +1,10 @@
-#include <repair/repair.h>
-
 #include <algorithm>
 #include <utility>
 
 #include <bsp/error.h>
 #include <extract/build_cells.h>
-
 #include <repair/cell_graph.h>
+#include <repair/repair.h>
 
 namespace meshrepair {
 namespace {
@@ -67,7 +65,8 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   report.input = examine_topology(index_triangles(clean), clean.points.size());
   report.input_area = surface_area(soup);
   if (clean.triangles.empty()) {
-    throw NoSolidError("no triangle is left: all are degenerate or have coordinates that are not finite");
+    throw NoSolidError(
+        "no triangle is left: all are degenerate or have coordinates that are not finite");
   }
   meter.begin("tree");
   BuildTreeOptions tree_options = options.tree;

@@ -30,8 +30,8 @@ void number_rows(const CellGraph& graph, System& system) {
   }
 }
 
-// Half the derivative of the energy by x of this cell. The entries of one row are sorted, and those of links
-// to the same neighbour added up.
+// Half the derivative of the energy by x of this cell. The entries of one row are sorted, and those
+// of links to the same neighbour added up.
 void add_row(const CellGraph& graph, LinkTerm (*term)(const Link&), double outside, CellId cell,
              System& system, std::vector<std::pair<int, double>>& entries) {
   const int row = system.row_of_cell[cell.index()];

@@ -13,8 +13,9 @@ struct LinkTerm {
   double jump = 0;
 };
 
-// Minimises the sum of term(link) with x = `outside` in the unbounded cells. The matrix is symmetric and
-// positive definite because every cell is linked, through others, to an unbounded one.
+// Minimises the sum of term(link) with x = `outside` in the unbounded cells. The matrix is
+// symmetric and positive definite because every cell is linked, through others, to an unbounded
+// one.
 [[nodiscard]] std::vector<double> minimise(const CellGraph& graph, LinkTerm (*term)(const Link&),
                                            double outside, const SolveOptions& options,
                                            SolveReport& report);

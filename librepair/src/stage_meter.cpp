@@ -1,13 +1,11 @@
-#include <repair/stage_meter.h>
-
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <sys/resource.h>
 
 #include <bsp/error.h>
+#include <repair/stage_meter.h>
 
 namespace meshrepair {
 namespace {
@@ -31,8 +29,8 @@ struct FileCloser {
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
-// Linux keeps the peak of the resident memory and resets it on request, so that each stage has its own. Where
-// that is not allowed the peak is that of the process so far.
+// Linux keeps the peak of the resident memory and resets it on request, so that each stage has its
+// own. Where that is not allowed the peak is that of the process so far.
 void reset_peak() {
   if (const File file{std::fopen("/proc/self/clear_refs", "w")}) std::fputs("5", file.get());
 }

@@ -1,6 +1,6 @@
-#include <bsp/predicates.h>
-
 #include <gtest/gtest.h>
+
+#include <bsp/predicates.h>
 
 #include "../../libbsp/src/predicates_internal.h"
 #include "random_geometry.h"
@@ -38,8 +38,7 @@ TEST(WideInt, ProductsAndSumsAgreeWithDecompositions) {
     EXPECT_EQ(Int256::product(a + 1, b), Int256::product(a, b) + Int256(b));
     EXPECT_EQ(Int256::product(a, b).sign(), sign_of(a) * sign_of(b));
     EXPECT_EQ(Int256::product(-a, b), -Int256::product(a, b));
-    EXPECT_NEAR(Int256::product(a, b).to_double(),
-                static_cast<double>(a) * static_cast<double>(b),
+    EXPECT_NEAR(Int256::product(a, b).to_double(), static_cast<double>(a) * static_cast<double>(b),
                 1e-15 * std::abs(static_cast<double>(a) * static_cast<double>(b)));
   }
 }
@@ -125,10 +124,10 @@ TEST(Side, CoverageEveryStageDecides) {
     // A plane of the pencil through the line of a and b and therefore through the point.
     const Plane& u = table[a];
     const Plane& v = table[b];
-    const PlaneId pencil = add(
-        table, make_plane({u.normal[0] / 4 - v.normal[0] / 4, u.normal[1] / 4 - v.normal[1] / 4,
-                           u.normal[2] / 4 - v.normal[2] / 4},
-                          u.offset / 4 - v.offset / 4));
+    const PlaneId pencil =
+        add(table, make_plane({u.normal[0] / 4 - v.normal[0] / 4, u.normal[1] / 4 - v.normal[1] / 4,
+                               u.normal[2] / 4 - v.normal[2] / 4},
+                              u.offset / 4 - v.offset / 4));
     for (const PlaneId id : {a, pencil, add(table, random_plane(random))}) {
       const double distance = signed_distance(p.position, table[id]);
       const bool filtered =

@@ -1,10 +1,9 @@
-#include <extract/build_cells.h>
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include <bsp/build_tree.h>
+#include <extract/build_cells.h>
 #include <extract/check_complex.h>
 
 #include "shapes.h"
@@ -91,7 +90,8 @@ class UnreliableEngine final : public PredicateEngine {
     if (random_.chance(wrong_)) return random_.integer(-1, 1);
     return meshrepair::side(point, plane, planes);
   }
-  Point cross(const Point& a, const Point& b, PlaneId, PlaneId, PlaneId, const PlaneTable&) override {
+  Point cross(const Point& a, const Point& b, PlaneId, PlaneId, PlaneId,
+              const PlaneTable&) override {
     const double t = random_.real(0, 1);
     std::array<double, 3> at{};
     for (std::size_t i = 0; i < 3; ++i) at[i] = (1 - t) * a.position[i] + t * b.position[i];

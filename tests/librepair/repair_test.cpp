@@ -1,10 +1,9 @@
-#include <repair/repair.h>
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include <bsp/error.h>
+#include <repair/repair.h>
 
 #include "shapes.h"
 

@@ -1,5 +1,5 @@
-// Shapes for tests and benchmarks: closed, counter-clockwise seen from outside, unless their name says
-// otherwise. All deterministic.
+// Shapes for tests and benchmarks: closed, counter-clockwise seen from outside, unless their name
+// says otherwise. All deterministic.
 #pragma once
 
 #include <cmath>
@@ -63,7 +63,8 @@ inline TriangleSoup box(const Vec3d& low, const Vec3d& high) {
 inline TriangleSoup cube() { return box({0, 0, 0}, {1, 1, 1}); }
 
 // A grid of quads over two angles, with poles; about `triangles` triangles.
-inline TriangleSoup sphere(std::size_t triangles, double radius = 1, const Vec3d& centre = {0, 0, 0}) {
+inline TriangleSoup sphere(std::size_t triangles, double radius = 1,
+                           const Vec3d& centre = {0, 0, 0}) {
   const auto rings = std::max<std::uint32_t>(
       3, static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 4)) + 1);
   const std::uint32_t columns = 2 * (rings - 1);
@@ -79,7 +80,9 @@ inline TriangleSoup sphere(std::size_t triangles, double radius = 1, const Vec3d
   }
   soup.points.push_back(centre - Vec3d(0, 0, radius));
   const auto last = static_cast<std::uint32_t>(soup.points.size() - 1);
-  const auto at = [&](std::uint32_t r, std::uint32_t c) { return 1 + (r - 1) * columns + c % columns; };
+  const auto at = [&](std::uint32_t r, std::uint32_t c) {
+    return 1 + (r - 1) * columns + c % columns;
+  };
   for (std::uint32_t c = 0; c < columns; ++c) {
     soup.triangles.push_back({0, at(1, c), at(1, c + 1)});
     for (std::uint32_t r = 1; r + 1 < rings; ++r) {
@@ -102,7 +105,9 @@ inline TriangleSoup torus(std::uint32_t around, std::uint32_t across, double lar
       soup.points.emplace_back(r * std::cos(a), r * std::sin(a), small * std::sin(b));
     }
   }
-  const auto at = [&](std::uint32_t i, std::uint32_t j) { return (i % around) * across + j % across; };
+  const auto at = [&](std::uint32_t i, std::uint32_t j) {
+    return (i % around) * across + j % across;
+  };
   for (std::uint32_t i = 0; i < around; ++i) {
     for (std::uint32_t j = 0; j < across; ++j) {
       soup.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
@@ -124,12 +129,14 @@ inline Eigen::Matrix3d random_rotation(Random& random) {
   return q.normalized().toRotationMatrix();
 }
 
-// Turned cubes with centres in a unit cube and edges of 0.1 to 0.3.
+// Turned cubes with centres in a unit cube. Their edges shrink with their number, so that each
+// overlaps a few others however many there are.
 inline TriangleSoup random_cubes(std::size_t count, std::uint64_t seed) {
+  const double edge = 0.45 / std::cbrt(static_cast<double>(count));
   Random random(seed);
   TriangleSoup soup;
   for (std::size_t i = 0; i < count; ++i) {
-    const double half = 0.5 * random.real(0.1, 0.3);
+    const double half = 0.5 * edge * random.real(0.7, 1.3);
     const Vec3d centre(random.real(0, 1), random.real(0, 1), random.real(0, 1));
     append(soup, moved(transformed(box(Vec3d::Constant(-half), Vec3d::Constant(half)),
                                    random_rotation(random)),

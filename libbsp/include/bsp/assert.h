@@ -8,8 +8,8 @@
 namespace meshrepair {
 
 [[noreturn]] inline void assertion_failed(const char* condition, const char* file, int line) {
-  throw InternalError("internal error: " + std::string(condition) + " does not hold (" + file + ":" +
-                      std::to_string(line) + ")");
+  throw InternalError("internal error: " + std::string(condition) + " does not hold (" + file +
+                      ":" + std::to_string(line) + ")");
 }
 
 }  // namespace meshrepair

@@ -6,10 +6,10 @@
 
 namespace meshrepair {
 
-// Writes `bytes` to a temporary file in the folder of `path`, flushes it to the disk and renames it to
-// `path`, keeping the permissions of a file that was there. Devices, pipes and "-" (standard output) are
-// written directly. Throws OutputError, naming the path and the system's reason; the temporary file is
-// removed then and `path` is as it was.
+// Writes `bytes` to a temporary file in the folder of `path`, flushes it to the disk and renames it
+// to `path`, keeping the permissions of a file that was there. Devices, pipes and "-" (standard
+// output) are written directly. Throws OutputError, naming the path and the system's reason; the
+// temporary file is removed then and `path` is as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 // Removes the temporary file that is being written, if any. Safe to call from a signal handler.

@@ -12,12 +12,13 @@ namespace meshrepair {
 struct BuildTreeOptions {
   // Regions with more fragments than this are first tried with an axis-parallel cut.
   std::size_t spatial_cut_above = 64;
-  // A spatial cut is refused when both sides together hold more than this share of the fragments ...
+  // A spatial cut is refused when both sides together hold more than this share of the fragments
+  // ...
   double largest_total_share = 1.6;
   // ... or one side more than this.
   double largest_side_share = 0.95;
   // How many fragments offer their plane, and on how many fragments each offer is judged.
-  std::size_t candidates = 10;
+  std::size_t candidates = 6;
   std::size_t judged_fragments = 128;
   // An offer's cost is split_weight * (fragments cut) + |front - back|.
   std::size_t split_weight = 8;
@@ -33,8 +34,8 @@ struct BuildTreeReport {
   std::size_t lost_fragments = 0;  // that fell on no side of a plane; 0 with exact predicates
 };
 
-// Every triangle ends, in fragments, at nodes with its plane. The same soup gives the same tree; the
-// orientation of its triangles does not matter. Takes over the soup.
+// Every triangle ends, in fragments, at nodes with its plane. The same soup gives the same tree;
+// the orientation of its triangles does not matter. Takes over the soup.
 [[nodiscard]] Tree build_tree(CleanSoup soup, const BuildTreeOptions& options,
                               BuildTreeReport& report);
 

@@ -23,7 +23,7 @@ struct Triangle {
 
 struct CleanSoup {
   Grid grid;
-  IdVector<PointId, Vec3d> points;          // original coordinates, one for each grid point in use
+  IdVector<PointId, Vec3d> points;           // original coordinates, one for each grid point in use
   IdVector<PointId, GridPoint> grid_points;  // all different
   IdVector<TriangleId, Triangle> triangles;
   PlaneTable planes;
@@ -40,9 +40,9 @@ struct CleanReport {
   double grid_unit = 0;                 // in the input's units; points moved by at most half of it
 };
 
-// Rounds the points to the grid, joins those that fall on one grid point, drops and counts what cannot be
-// a triangle. The result may be without triangles. Linear time. Throws InputError when an index is out of
-// range.
+// Rounds the points to the grid, joins those that fall on one grid point, drops and counts what
+// cannot be a triangle. The result may be without triangles. Linear time. Throws InputError when an
+// index is out of range.
 [[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report);
 
 // An axis-parallel box with integer corners, inclusive.
@@ -50,8 +50,11 @@ struct GridBox {
   GridPoint low, high;
 };
 
-// The box that stands for all of space: the bounding box of the points with a margin on every side, so
-// that every input point is strictly inside.
+// The smallest box that holds all points; a point at the origin when there are none.
+[[nodiscard]] GridBox bounding_box(const CleanSoup& soup);
+
+// The box that stands for all of space: the bounding box of the points with a margin on every side,
+// so that every input point is strictly inside.
 [[nodiscard]] GridBox outer_box(const CleanSoup& soup);
 
 }  // namespace meshrepair

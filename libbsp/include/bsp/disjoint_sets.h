@@ -22,7 +22,8 @@ class DisjointSets {
     return member;
   }
 
-  // Path halving alone keeps this logarithmic; the lowest root wins so that results follow the input's order.
+  // Path halving alone keeps this logarithmic; the lowest root wins so that results follow the
+  // input's order.
   void join(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);

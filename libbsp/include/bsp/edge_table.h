@@ -10,8 +10,9 @@ namespace meshrepair {
 
 using IndexTriangle = std::array<std::uint32_t, 3>;
 
-// All edges of a list of triangles, sorted by their end points, each with the triangles' sides that run along
-// it. Side 3 t + k of triangle t runs from its corner k to corner k + 1. Sorting makes it n log n.
+// All edges of a list of triangles, sorted by their end points, each with the triangles' sides that
+// run along it. Side 3 t + k of triangle t runs from its corner k to corner k + 1. Sorting makes it
+// n log n.
 class EdgeTable {
  public:
   explicit EdgeTable(std::span<const IndexTriangle> triangles);

@@ -6,8 +6,8 @@
 
 namespace meshrepair {
 
-// Base of all. `what()` is one line without a trailing full stop or newline; it names the file and the
-// place where that is known.
+// Base of all. `what()` is one line without a trailing full stop or newline; it names the file and
+// the place where that is known.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}

@@ -1,8 +1,9 @@
 // The working grid: integers of 26 bits over the bounding box of the input.
 //
-// The unit is a power of two and the origin a multiple of it where doubles allow, so that coordinates
-// which are multiples of the unit (float32 data, round numbers) are represented without any error, and
-// scaling the input by two or moving it by multiples of the unit gives the same grid coordinates.
+// The unit is a power of two and the origin a multiple of it where doubles allow, so that
+// coordinates which are multiples of the unit (float32 data, round numbers) are represented without
+// any error, and scaling the input by two or moving it by multiples of the unit gives the same grid
+// coordinates.
 #pragma once
 
 #include <array>
@@ -25,7 +26,8 @@ struct Grid {
   Vec3d origin = Vec3d::Zero();  // the place of grid point (0, 0, 0), in the input's units
   double unit = 1;               // a power of two; the input's length of one grid step
 
-  // Rounds to the nearest grid point. `position` is finite and inside the box the grid was made for.
+  // Rounds to the nearest grid point. `position` is finite and inside the box the grid was made
+  // for.
   [[nodiscard]] GridPoint to_grid(const Vec3d& position) const;
   // The place of a point with (not necessarily integer) grid coordinates.
   [[nodiscard]] Vec3d from_grid(const std::array<double, 3>& coordinates) const {

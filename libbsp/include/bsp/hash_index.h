@@ -20,7 +20,8 @@ inline std::uint64_t hash_of(const GridPoint& p) {
   return hash_mix(h, static_cast<std::uint64_t>(p.z));
 }
 
-// Room for `expected` keys; at most half full then. Positions only; keys are compared by the caller.
+// Room for `expected` keys; at most half full then. Positions only; keys are compared by the
+// caller.
 class HashIndex {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -28,7 +29,8 @@ class HashIndex {
   explicit HashIndex(std::size_t expected)
       : slots_(std::bit_ceil(2 * expected + 16), kNone), mask_(slots_.size() - 1) {}
 
-  // The position for which `same(position)` holds among keys with this hash, or `fresh`, which is stored.
+  // The position for which `same(position)` holds among keys with this hash, or `fresh`, which is
+  // stored.
   template <class Same>
   std::uint32_t find_or_insert(std::uint64_t hash, std::uint32_t fresh, Same same) {
     std::size_t slot = (hash ^ (hash >> 32)) & mask_;

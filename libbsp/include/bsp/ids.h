@@ -1,14 +1,17 @@
 // Typed 32-bit ids and vectors that are indexed by them.
 //
-// An id is a position in one particular array. Making each kind its own type lets the compiler refuse
-// a facet where a cell is meant. The invalid id is all ones.
+// An id is a position in one particular array. Making each kind its own type lets the compiler
+// refuse a facet where a cell is meant. The invalid id is all ones.
 #pragma once
 
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
+
+#include <bsp/trivial_vector.h>
 
 namespace meshrepair {
 
@@ -33,10 +36,13 @@ using TriangleId = Id<struct TriangleTag>;  // a triangle of a soup
 using NodeId = Id<struct NodeTag>;          // an inner node of a tree
 using LeafId = Id<struct LeafTag>;          // a leaf of a tree
 
-// A std::vector indexed by one kind of id.
+// A vector indexed by one kind of id.
 template <class IdType, class Value>
 class IdVector {
  public:
+  using Storage = std::conditional_t<std::is_trivially_copyable_v<Value>, TrivialVector<Value>,
+                                     std::vector<Value>>;
+
   IdVector() = default;
   explicit IdVector(std::size_t count, const Value& value = Value()) : values_(count, value) {}
 
@@ -56,8 +62,8 @@ class IdVector {
   void resize(std::size_t count) { values_.resize(count); }
   void reserve(std::size_t count) { values_.reserve(count); }
   void clear() { values_.clear(); }
-  [[nodiscard]] const std::vector<Value>& raw() const { return values_; }
-  std::vector<Value>& raw() { return values_; }
+  [[nodiscard]] const Storage& raw() const { return values_; }
+  Storage& raw() { return values_; }
 
   auto begin() { return values_.begin(); }
   auto end() { return values_.end(); }
@@ -65,7 +71,7 @@ class IdVector {
   [[nodiscard]] auto end() const { return values_.end(); }
 
  private:
-  std::vector<Value> values_;
+  Storage values_;
 };
 
 }  // namespace meshrepair

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/Traits.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <bsp/soup.h>
 
@@ -25,8 +25,8 @@ using TriMesh = OpenMesh::TriMesh_ArrayKernelT<OpenMeshTraits>;
 // Points and faces of any mesh, deleted elements left out.
 [[nodiscard]] TriangleSoup from_openmesh(const TriMesh& mesh);
 
-// Reads OpenMesh's own binary format (.om), versions 1 and 2, little endian. Throws InputError for a file
-// that is not whole: there is no reading it in part.
+// Reads OpenMesh's own binary format (.om), versions 1 and 2, little endian. Throws InputError for
+// a file that is not whole: there is no reading it in part.
 [[nodiscard]] TriangleSoup read_om(const std::filesystem::path& path);
 
 }  // namespace meshrepair

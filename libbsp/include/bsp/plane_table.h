@@ -16,11 +16,12 @@ class PlaneTable {
     bool turned = false;  // the stored plane's normal points the other way
   };
 
-  // The id of the plane with these points, made canonical; a new one if it is not there yet. Ids count
-  // up from 0. `plane` has a normal that is not zero. Amortised constant time.
+  // The id of the plane with these points, made canonical; a new one if it is not there yet. Ids
+  // count up from 0. `plane` has a normal that is not zero. Amortised constant time.
   Interned intern(Plane plane);
 
-  // Adds a plane under a new id without looking whether it is there: for planes that are never compared.
+  // Adds a plane under a new id without looking whether it is there: for planes that are never
+  // compared.
   PlaneId append(const Plane& plane) { return planes_.push_back(plane); }
 
   const Plane& operator[](PlaneId id) const { return planes_[id]; }

@@ -10,12 +10,13 @@
 
 namespace meshrepair {
 
-// A lattice point (integer coordinates, stored exactly, error 0), or the one common point of three planes,
-// or a loose point: just coordinates, which is what an engine without exact arithmetic has.
+// A lattice point (integer coordinates, stored exactly, error 0), or the one common point of three
+// planes, or a loose point: just coordinates, which is what an engine without exact arithmetic has.
 struct Point {
   std::array<double, 3> position{};  // grid units
   float error = 0;                   // bound on the error of each coordinate of `position`
-  std::array<PlaneId, 3> planes{};   // all valid: their common point. Else lattice (error 0) or loose
+  std::array<PlaneId, 3>
+      planes{};  // all valid: their common point. Else lattice (error 0) or loose
 
   [[nodiscard]] bool is_lattice() const { return !planes[0].valid() && error == 0; }
   [[nodiscard]] bool is_loose() const { return !planes[0].valid() && error != 0; }
@@ -29,9 +30,9 @@ struct Point {
 [[nodiscard]] Point lattice_point(const GridPoint& at);
 [[nodiscard]] Point loose_point(const std::array<double, 3>& at);
 
-// The common point of three planes; a lattice point whenever its coordinates are integers, whatever the
-// planes. The order of the planes does not matter. When the planes have no single common point, or one
-// outside the grid's reach, returns a loose point at `fallback` instead.
+// The common point of three planes; a lattice point whenever its coordinates are integers, whatever
+// the planes. The order of the planes does not matter. When the planes have no single common point,
+// or one outside the grid's reach, returns a loose point at `fallback` instead.
 [[nodiscard]] Point meet(const PlaneTable& planes, PlaneId a, PlaneId b, PlaneId c,
                          const std::array<double, 3>& fallback);
 

@@ -1,9 +1,9 @@
 // The exact predicates: on which side of a plane does a point lie?
 //
-// Properties: side(p, P) is the sign of normal(P) . p + offset(P), without error, for lattice points and
-// points given by three planes. side(meet(A, B, C), A) == 0. Turning a plane round turns the sign. The
-// answer does not depend on which three planes stand for a point, nor on the approximation stored in it.
-// Loose points get the sign of their rounded distance.
+// Properties: side(p, P) is the sign of normal(P) . p + offset(P), without error, for lattice
+// points and points given by three planes. side(meet(A, B, C), A) == 0. Turning a plane round turns
+// the sign. The answer does not depend on which three planes stand for a point, nor on the
+// approximation stored in it. Loose points get the sign of their rounded distance.
 #pragma once
 
 #include <cmath>
@@ -13,10 +13,11 @@
 
 namespace meshrepair {
 
-// Bound on the rounding error of signed_distance() for a point with exact coordinates inside the working
-// box (|coordinate| < 2^25.2, so |x| < 2^26, and |offset| < 2^26 for every plane that meets the box).
-// With e = 2^-53, each unit normal component carries 2e beyond the common scale, its product e, the
-// offset 3e, the three additions e each on sums below 2^27: (3 + 3 + 6) 2^26 e < 2^-23.
+// Bound on the rounding error of signed_distance() for a point with exact coordinates inside the
+// working box (|coordinate| < 2^25.2, so |x| < 2^26, and |offset| < 2^26 for every plane that meets
+// the box). With e = 2^-53, each unit normal component carries 2e beyond the common scale, its
+// product e, the offset 3e, the three additions e each on sums below 2^27: (3 + 3 + 6) 2^26 e <
+// 2^-23.
 inline constexpr double kDistanceError = 0x1p-23;
 
 // Distance to the plane in grid units, positive on its positive side, rounded.

@@ -17,8 +17,8 @@ class ProgressObserver {
   virtual void stage(std::string_view /*name*/) {}
   // The current stage is done to this share, 0 to 1, not decreasing within a stage.
   virtual void advance(double /*share*/) {}
-  // Asked every few milliseconds; true makes the computation throw Cancelled. An observer may throw an
-  // exception of its own instead (LimitError, say).
+  // Asked every few milliseconds; true makes the computation throw Cancelled. An observer may throw
+  // an exception of its own instead (LimitError, say).
   virtual bool cancelled() { return false; }
 };
 

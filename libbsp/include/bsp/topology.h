@@ -13,12 +13,13 @@ namespace meshrepair {
 struct Topology {
   std::size_t triangles = 0;
   std::size_t edges = 0;
-  std::size_t open_edges = 0;           // one triangle
-  std::size_t nonmanifold_edges = 0;    // more than two
-  std::size_t inconsistent_edges = 0;   // two that pass it in the same direction
-  std::size_t nonmanifold_vertices = 0; // more than one fan of triangles joined at edges with two triangles
-  std::size_t repeated_corners = 0;     // triangles with two equal corners
-  std::size_t parts = 0;                // connected through edges
+  std::size_t open_edges = 0;          // one triangle
+  std::size_t nonmanifold_edges = 0;   // more than two
+  std::size_t inconsistent_edges = 0;  // two that pass it in the same direction
+  std::size_t nonmanifold_vertices =
+      0;  // more than one fan of triangles joined at edges with two triangles
+  std::size_t repeated_corners = 0;  // triangles with two equal corners
+  std::size_t parts = 0;             // connected through edges
 
   [[nodiscard]] bool closed() const { return triangles > 0 && open_edges == 0; }
   [[nodiscard]] bool manifold() const {
@@ -31,8 +32,8 @@ struct Topology {
 [[nodiscard]] Topology examine_topology(std::span<const IndexTriangle> triangles,
                                         std::size_t points);
 
-// Signed volume (positive when the triangles are counter-clockwise seen from outside) and area, in the
-// input's units.
+// Signed volume (positive when the triangles are counter-clockwise seen from outside) and area, in
+// the input's units.
 [[nodiscard]] double signed_volume(const TriangleSoup& soup);
 [[nodiscard]] double surface_area(const TriangleSoup& soup);
 

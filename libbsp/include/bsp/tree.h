@@ -45,11 +45,13 @@ enum class Label : std::uint8_t { unknown = 0, empty = 1, solid = 2 };
 
 struct Leaf {
   Label label = Label::unknown;
-  float confidence = 0;  // |s| of the solidity, or the distance of the winding from 1/2, doubled; 0 to 1
+  float confidence =
+      0;  // |s| of the solidity, or the distance of the winding from 1/2, doubled; 0 to 1
 };
 
-// Invariants: every node and every leaf is referred to exactly once (by a parent or as the root), parents
-// stand before their children, and each plane cuts the region of its node into two parts with volume.
+// Invariants: every node and every leaf is referred to exactly once (by a parent or as the root),
+// parents stand before their children, and each plane cuts the region of its node into two parts
+// with volume.
 struct Tree {
   CleanSoup input;  // its plane table holds the planes of the nodes as well
   TreeRef root;

@@ -9,8 +9,8 @@
 //   4 bytes   name
 //   u32       bytes of one item
 //   u64       number of items
-//   u64       checksum of the items' bytes (64-bit FNV-1a over 8-byte words, the last filled up with zeros)
-//   items
+//   u64       checksum of the items' bytes (64-bit FNV-1a over 8-byte words, the last filled up
+//   with zeros) items
 //
 //   "GRID"  1 item    f64 origin x, y, z; f64 unit
 //   "PNTS"  points    f64 original x, y, z; i32 grid x, y, z
@@ -21,9 +21,9 @@
 //   "NTRI"  triangles at nodes, u32
 //   "LEAF"  leaves    u32 label (0 unknown, 1 empty, 2 solid); f32 confidence
 //
-// The root is node 0, or leaf 0 where there are no nodes. Item sizes are fixed by the version. Limits: 2^31
-// of each kind. Rejected: offsets to sections (one more number to lie), variable-length integers (the
-// planes' coefficients fill their words), text (four times the size).
+// The root is node 0, or leaf 0 where there are no nodes. Item sizes are fixed by the version.
+// Limits: 2^31 of each kind. Rejected: offsets to sections (one more number to lie),
+// variable-length integers (the planes' coefficients fill their words), text (four times the size).
 #pragma once
 
 #include <filesystem>
@@ -37,9 +37,9 @@ namespace meshrepair {
 // The bytes of the file. The same tree gives the same bytes.
 [[nodiscard]] std::string format_tree(const Tree& tree);
 
-// The tree of a file's bytes; `name` is used in messages. Trusts nothing: counts are held against the bytes
-// that are there, every index and every invariant of the structure is checked. Throws InputError naming
-// the section.
+// The tree of a file's bytes; `name` is used in messages. Trusts nothing: counts are held against
+// the bytes that are there, every index and every invariant of the structure is checked. Throws
+// InputError naming the section.
 [[nodiscard]] Tree parse_tree(std::string_view bytes, const std::string& name);
 
 // Whether the bytes begin like a .bsp file.

@@ -1,11 +1,13 @@
 // Signed integers of 128 and 256 bits, as far as the exact predicates need them.
 //
-// Int128 is the compiler's own. Int256 is two's complement in four 64-bit words, lowest first; all its
-// operations are exact as long as the true result fits, which the callers prove (see predicates.cpp).
+// Int128 is the compiler's own. Int256 is two's complement in four 64-bit words, lowest first; all
+// its operations are exact as long as the true result fits, which the callers prove (see
+// predicates.cpp).
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace meshrepair {
@@ -35,7 +37,8 @@ class Int256 {
     const Uint128 high = Uint128{x1} * y1;
     Int256 r;
     r.words_[0] = static_cast<std::uint64_t>(low);
-    Uint128 sum = (low >> 64) + static_cast<std::uint64_t>(mid_a) + static_cast<std::uint64_t>(mid_b);
+    Uint128 sum =
+        (low >> 64) + static_cast<std::uint64_t>(mid_a) + static_cast<std::uint64_t>(mid_b);
     r.words_[1] = static_cast<std::uint64_t>(sum);
     sum = (sum >> 64) + (mid_a >> 64) + (mid_b >> 64) + static_cast<std::uint64_t>(high);
     r.words_[2] = static_cast<std::uint64_t>(sum);
@@ -50,7 +53,7 @@ class Int256 {
     const std::uint64_t y = static_cast<std::uint64_t>(magnitude(factor));
     Int256 r;
     Uint128 carry = 0;
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       carry += Uint128{x.words_[i]} * y;
       r.words_[i] = static_cast<std::uint64_t>(carry);
       carry >>= 64;
@@ -61,7 +64,7 @@ class Int256 {
   constexpr Int256 operator-() const {
     Int256 r;
     Uint128 carry = 1;
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       carry += static_cast<std::uint64_t>(~words_[i]);
       r.words_[i] = static_cast<std::uint64_t>(carry);
       carry >>= 64;
@@ -72,7 +75,7 @@ class Int256 {
   friend constexpr Int256 operator+(const Int256& a, const Int256& b) {
     Int256 r;
     Uint128 carry = 0;
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       carry += Uint128{a.words_[i]} + b.words_[i];
       r.words_[i] = static_cast<std::uint64_t>(carry);
       carry >>= 64;
@@ -91,11 +94,11 @@ class Int256 {
   // The nearest double to within one unit in the last place.
   [[nodiscard]] double to_double() const {
     const Int256 x = sign() < 0 ? -*this : *this;
-    int top = 3;
+    std::size_t top = 3;
     while (top > 0 && x.words_[top] == 0) --top;
     // Two words hold at least 65 significant bits, or all there are.
     double value = static_cast<double>(x.words_[top]);
-    int exponent = 64 * top;
+    int exponent = 64 * static_cast<int>(top);
     if (top > 0) {
       const Uint128 pair = (Uint128{x.words_[top]} << 64) | x.words_[top - 1];
       value = static_cast<double>(pair);

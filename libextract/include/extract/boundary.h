@@ -8,8 +8,8 @@
 
 namespace meshrepair {
 
-// Polygon p has the sides first[p] to first[p + 1] - 1, in order, counter-clockwise seen from the empty side.
-// Side i runs along edge use[i] of the complex, starting at corner i.
+// Polygon p has the sides first[p] to first[p + 1] - 1, in order, counter-clockwise seen from the
+// empty side. Side i runs along edge use[i] of the complex, starting at corner i.
 struct Boundary {
   std::vector<FacetId> facet;
   std::vector<std::uint32_t> first = {0};

@@ -3,7 +3,6 @@
 
 #include <bsp/progress.h>
 #include <bsp/tree.h>
-
 #include <extract/cell_complex.h>
 #include <extract/clip_cell.h>
 
@@ -17,9 +16,9 @@ struct BuildCellsOptions {
   ProgressObserver* progress = nullptr;
 };
 
-// One cell for each leaf: cell i is not leaf i, but cells[i].leaf names it. `tree` must outlive the complex.
-// Throws InputError when the engine is exact and a node's plane does not cut its region, which can only be
-// so for a tree that build_tree() did not make.
+// One cell for each leaf: cell i is not leaf i, but cells[i].leaf names it. `tree` must outlive the
+// complex. Throws InputError when the engine is exact and a node's plane does not cut its region,
+// which can only be so for a tree that build_tree() did not make.
 [[nodiscard]] CellComplex build_cells(const Tree& tree, const BuildCellsOptions& options,
                                       ClipReport& report);
 

@@ -1,9 +1,10 @@
 // The cell complex: convex cells, the facets between them, their edges and vertices.
 //
-// Notation: every facet lies in a plane and is a simple loop of uses. A use is one facet's passage along one
-// edge, in a direction; the uses around an edge form a ring list. A facet is counter-clockwise seen from
-// where its plane's normal points; the cell there is `above`, the other `below` (invalid: outside the
-// box). All elements live in pools, are named by 32-bit ids, and are never removed.
+// Notation: every facet lies in a plane and is a simple loop of uses. A use is one facet's passage
+// along one edge, in a direction; the uses around an edge form a ring list. A facet is
+// counter-clockwise seen from where its plane's normal points; the cell there is `above`, the other
+// `below` (invalid: outside the box). All elements live in pools, are named by 32-bit ids, and are
+// never removed.
 #pragma once
 
 #include <array>
@@ -35,7 +36,7 @@ struct Use {
   EdgeId edge;
   std::uint32_t reversed = 0;  // 1: from ends[1] to ends[0]
   UseId next, previous;        // in the facet's loop
-  UseId next_around;           // the next use of the same edge; the last is followed by an invalid id
+  UseId next_around;  // the next use of the same edge; the last is followed by an invalid id
 };
 
 struct Facet {
@@ -55,13 +56,12 @@ struct Cell {
 
 class CellComplex {
  public:
-  // A single cell: the box. `soup` must outlive the complex; its planes are copied and keep their ids.
+  // A single cell: the box. `soup` must outlive the complex; its planes are copied and keep their
+  // ids.
   CellComplex(const CleanSoup& soup, const GridBox& box);
 
   [[nodiscard]] const CleanSoup& soup() const { return *soup_; }
-  [[nodiscard]] VertexId origin(const Use& use) const {
-    return edges[use.edge].ends[use.reversed];
-  }
+  [[nodiscard]] VertexId origin(const Use& use) const { return edges[use.edge].ends[use.reversed]; }
   [[nodiscard]] VertexId target(const Use& use) const {
     return edges[use.edge].ends[1 - use.reversed];
   }
@@ -107,13 +107,14 @@ class CellComplex {
   IdVector<UseId, Use> uses;
   IdVector<FacetId, Facet> facets;
   IdVector<CellId, Cell> cells;
-  std::vector<TriangleId> facet_triangles;
+  TrivialVector<TriangleId> facet_triangles;
 
  private:
   const CleanSoup* soup_;
 };
 
-// Area of a facet in grid units, from rounded coordinates: not negative, for weights, never for decisions.
+// Area of a facet in grid units, from rounded coordinates: not negative, for weights, never for
+// decisions.
 [[nodiscard]] double facet_area(const CellComplex& complex, FacetId facet);
 
 // Volume of a cell in grid units, from rounded coordinates.

@@ -4,14 +4,14 @@
 #include <cstddef>
 
 #include <bsp/progress.h>
-
 #include <extract/cell_complex.h>
 
 namespace meshrepair {
 
 // What lies on a facet. A facet is covered in full by a triangle or not at all.
 struct Cover {
-  TriangleId triangle;       // the lowest id of the triangles that cover it; invalid: none, it is transparent
+  TriangleId
+      triangle;  // the lowest id of the triangles that cover it; invalid: none, it is transparent
   std::int32_t winding = 0;  // sum over them of their orientation against the facet's normal
 
   [[nodiscard]] bool opaque() const { return triangle.valid(); }
@@ -22,11 +22,11 @@ struct CoverReport {
   std::size_t split_facets = 0;  // how many cuts it took until no facet was covered in part
 };
 
-// Decides by predicates on the edges of triangles and facets, never by areas. A facet that a triangle covers
-// in part (coplanar triangles, open borders) is split along the triangle's edges; its new vertices go into
-// the neighbouring facets too, so the complex stays conforming. Frees the facets' lists of triangles.
-// `winding` is how each triangle is turned against the normal of its plane (Triangle::winding, or that of
-// another orientation of the soup).
+// Decides by predicates on the edges of triangles and facets, never by areas. A facet that a
+// triangle covers in part (coplanar triangles, open borders) is split along the triangle's edges;
+// its new vertices go into the neighbouring facets too, so the complex stays conforming. Frees the
+// facets' lists of triangles. `winding` is how each triangle is turned against the normal of its
+// plane (Triangle::winding, or that of another orientation of the soup).
 [[nodiscard]] IdVector<FacetId, Cover> cover_facets(
     CellComplex& complex, const IdVector<TriangleId, std::int32_t>& winding, CoverReport& report,
     ProgressObserver* progress = nullptr);

@@ -17,8 +17,9 @@ struct ExtractReport {
   std::size_t middle_vertices = 0;  // put into edges at which solids touch along their whole length
 };
 
-// `solid` has one entry for each cell. Points of the input keep their original coordinates bit for bit; new
-// points are rounded from their exact place. The surface has no triangle when nothing is solid.
+// `solid` has one entry for each cell. Points of the input keep their original coordinates bit for
+// bit; new points are rounded from their exact place. The surface has no triangle when nothing is
+// solid.
 [[nodiscard]] Surface extract_surface(const CellComplex& complex,
                                       const IdVector<FacetId, Cover>& cover,
                                       const std::vector<char>& solid, ExtractReport& report);

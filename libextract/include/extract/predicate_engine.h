@@ -17,7 +17,8 @@ class PredicateEngine {
 
   // -1 below, 0 on, +1 above the plane.
   virtual int side(const Point& point, PlaneId plane, const PlaneTable& planes) = 0;
-  // The point where the edge from `a` to `b`, on the common line of planes p and q, passes through `plane`.
+  // The point where the edge from `a` to `b`, on the common line of planes p and q, passes through
+  // `plane`.
   virtual Point cross(const Point& a, const Point& b, PlaneId p, PlaneId q, PlaneId plane,
                       const PlaneTable& planes) = 0;
 };

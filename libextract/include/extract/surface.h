@@ -8,13 +8,13 @@
 
 namespace meshrepair {
 
-// Triangles counter-clockwise seen from outside the solid. As an indexed mesh it is closed and 2-manifold: each
-// edge has two triangles that pass it in opposite directions, each vertex one fan. Points of parts that only
-// touch have equal coordinates and different indices.
+// Triangles counter-clockwise seen from outside the solid. As an indexed mesh it is closed and
+// 2-manifold: each edge has two triangles that pass it in opposite directions, each vertex one fan.
+// Points of parts that only touch have equal coordinates and different indices.
 struct Surface {
   TriangleSoup mesh;
-  // For each triangle the index of the input triangle that it lies in, or kNoSource where the optimisation
-  // closed a gap.
+  // For each triangle the index of the input triangle that it lies in, or kNoSource where the
+  // optimisation closed a gap.
   static constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
   std::vector<std::uint32_t> source;
 };

@@ -13,8 +13,8 @@ struct PolygonCorner {
   bool straight = false;             // its two neighbours and it are in a line
 };
 
-// Appends n - 2 triangles (indices into `polygon`, in its orientation) without a degenerate one. At least
-// three corners are not straight. Linear time.
+// Appends n - 2 triangles (indices into `polygon`, in its orientation) without a degenerate one. At
+// least three corners are not straight. Linear time.
 void triangulate_convex(std::span<const PolygonCorner> polygon,
                         std::vector<std::array<std::uint32_t, 3>>& triangles);
 

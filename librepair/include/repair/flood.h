@@ -7,8 +7,8 @@
 
 namespace meshrepair {
 
-// 1 for the cells that cannot be reached from outside the box through cells with `empty` set, without passing
-// an opaque link: the inside.
+// 1 for the cells that cannot be reached from outside the box through cells with `empty` set,
+// without passing an opaque link: the inside.
 [[nodiscard]] std::vector<char> flood_from_infinity(const CellGraph& graph,
                                                     const std::vector<char>& empty);
 

@@ -23,18 +23,19 @@ enum class InsideRule {
 struct InsideOptions {
   InsideRule rule = InsideRule::automatic;
   SolveOptions solve;
-  // `automatic` trusts the winding when its values are this near to integers (mean over the cells, weighted by
-  // the area of their facets) ...
+  // `automatic` trusts the winding when its values are this near to integers (mean over the cells,
+  // weighted by the area of their facets) ...
   double trusted_distance = 0.1;
-  // ... and at most this share of the covered area is passed with another change than its triangles say.
+  // ... and at most this share of the covered area is passed with another change than its triangles
+  // say.
   double trusted_contradiction = 0.05;
 };
 
 struct InsideReport {
   InsideRule asked = InsideRule::automatic;
   InsideRule used = InsideRule::automatic;
-  std::string reason;              // why `used`, for the user
-  bool exact = false;              // the walk from infinity met no contradiction, nothing was solved
+  std::string reason;  // why `used`, for the user
+  bool exact = false;  // the walk from infinity met no contradiction, nothing was solved
   std::size_t contradictions = 0;  // links at which it did
   SolveReport solve;               // all 0 when nothing was solved
   double winding_distance = 0;     // as in the options; only where a winding was looked at

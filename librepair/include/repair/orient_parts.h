@@ -8,13 +8,14 @@
 namespace meshrepair {
 
 struct OrientReport {
-  std::size_t parts = 0;            // connected through edges with exactly two triangles
+  std::size_t parts = 0;  // connected through edges with exactly two triangles
   std::size_t turned_triangles = 0;
   std::size_t unorientable_parts = 0;  // one-sided like a Moebius strip: left as they are
 };
 
-// How each triangle is turned against its plane's normal after every part has been oriented consistently,
-// the way round that turns the smaller area. A soup that is consistent is not changed.
+// How each triangle is turned against its plane's normal after every part has been oriented
+// consistently, the way round that turns the smaller area. A soup that is consistent is not
+// changed.
 [[nodiscard]] IdVector<TriangleId, std::int32_t> orient_parts(const CleanSoup& soup,
                                                               OrientReport& report);
 

@@ -1,5 +1,5 @@
-// The whole pipeline, as one call and in its three steps. The steps in a row give the same bytes as the one
-// call.
+// The whole pipeline, as one call and in its three steps. The steps in a row give the same bytes as
+// the one call.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,6 @@
 #include <extract/cover_facets.h>
 #include <extract/extract_surface.h>
 #include <extract/surface.h>
-
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
 #include <repair/stage_meter.h>
@@ -33,8 +32,8 @@ struct RepairOptions {
 // Filled as far as the work came, also when it ended with an exception.
 struct RepairReport {
   CleanReport clean;
-  Topology input;             // of the clean soup
-  double input_area = 0;      // in the input's units, squared
+  Topology input;         // of the clean soup
+  double input_area = 0;  // in the input's units, squared
   BuildTreeReport tree;
   std::size_t cells = 0;
   std::size_t facets = 0;
@@ -45,7 +44,7 @@ struct RepairReport {
   InsideReport inside;
   ExtractReport extract;
   Topology output;
-  double output_volume = 0;   // in the input's units, cubed
+  double output_volume = 0;  // in the input's units, cubed
   double output_area = 0;
   std::vector<StageReport> stages;
 };
@@ -55,8 +54,8 @@ struct RepairResult {
   RepairReport report;
 };
 
-// Soup to boundary of a solid. Throws InputError when no triangle is left after cleaning, NoSolidError when
-// nothing is enclosed.
+// Soup to boundary of a solid. Throws InputError when no triangle is left after cleaning,
+// NoSolidError when nothing is enclosed.
 [[nodiscard]] RepairResult repair(const TriangleSoup& soup, const RepairOptions& options = {});
 // The same, leaving the report when it throws.
 [[nodiscard]] Surface repair(const TriangleSoup& soup, const RepairOptions& options,
@@ -67,7 +66,8 @@ struct RepairResult {
                              RepairReport& report);
 // Step 2: labels the leaves. Throws NoSolidError when no leaf is solid.
 void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report);
-// Step 3: labelled tree to mesh. Throws InputError when a leaf has no label, NoSolidError when none is solid.
+// Step 3: labelled tree to mesh. Throws InputError when a leaf has no label, NoSolidError when none
+// is solid.
 [[nodiscard]] Surface extract_mesh(const Tree& tree, const RepairOptions& options,
                                    RepairReport& report);
 

@@ -23,10 +23,11 @@ struct SolveReport {
 // s of each cell in [-1, 1], -1 outside: the minimum of
 //   sum over transparent links of A (s_i - s_j)^2 + sum over opaque links of A (s_i + s_j)^2.
 // Does not look at the triangles' orientation.
-[[nodiscard]] std::vector<double> solve_solidity(const CellGraph& graph, const SolveOptions& options,
-                                                 SolveReport& report);
+[[nodiscard]] std::vector<double> solve_solidity(const CellGraph& graph,
+                                                 const SolveOptions& options, SolveReport& report);
 
-// w of each cell, 0 outside: the minimum of the sum over links of A (w_below - w_above - winding)^2.
+// w of each cell, 0 outside: the minimum of the sum over links of A (w_below - w_above -
+// winding)^2.
 [[nodiscard]] std::vector<double> solve_winding(const CellGraph& graph, const SolveOptions& options,
                                                 SolveReport& report);
 

@@ -13,8 +13,8 @@ namespace meshrepair {
 struct StageReport {
   std::string name;
   double seconds = 0;
-  double cpu_seconds = 0;        // of all threads
-  std::size_t peak_bytes = 0;    // the process's resident memory at most, during the stage
+  double cpu_seconds = 0;      // of all threads
+  std::size_t peak_bytes = 0;  // the process's resident memory at most, during the stage
 };
 
 // Measures from begin() to the next begin() or end(). Tells the observer, if there is one.

@@ -10,16 +10,17 @@
 namespace meshrepair {
 
 struct Walk {
-  std::vector<std::int32_t> value;   // of each cell
-  std::size_t contradictions = 0;    // links whose ends do not differ as the link says
+  std::vector<std::int32_t> value;  // of each cell
+  std::size_t contradictions = 0;   // links whose ends do not differ as the link says
   [[nodiscard]] bool consistent() const { return contradictions == 0; }
 };
 
-// Parity: 0 outside, changing at every opaque link. Solidity's optimum is 2 * value - 1 when consistent.
+// Parity: 0 outside, changing at every opaque link. Solidity's optimum is 2 * value - 1 when
+// consistent.
 [[nodiscard]] Walk walk_parity(const CellGraph& graph);
 
-// Winding number: 0 outside, value(below) - value(above) = winding of the link. The winding optimum when
-// consistent.
+// Winding number: 0 outside, value(below) - value(above) = winding of the link. The winding optimum
+// when consistent.
 [[nodiscard]] Walk walk_winding(const CellGraph& graph);
 
 }  // namespace meshrepair

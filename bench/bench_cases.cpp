@@ -1,0 +1,70 @@
+#include "bench_cases.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <bsp/error.h>
+#include <bsp/soup_io.h>
+#include <repair/stage_meter.h>
+
+#include "shapes.h"
+
+namespace meshrepair::bench {
+namespace {
+
+Case generated(const std::string& argument) {
+  const std::size_t colon = argument.find(':');
+  const std::string kind = argument.substr(0, colon);
+  const std::size_t count = std::strtoul(argument.c_str() + colon + 1, nullptr, 10);
+  if (kind == "spheres") return {argument, testing::two_overlapping_spheres(count)};
+  if (kind == "cubes") return {argument, testing::random_cubes(count, 1)};
+  if (kind == "noisy") return {argument, testing::noisy_sphere(count, 0.02, 1)};
+  throw UsageError("no input is called " + argument);
+}
+
+bool is_generated(const std::string& argument) {
+  return argument.starts_with("spheres:") || argument.starts_with("cubes:") ||
+         argument.starts_with("noisy:");
+}
+
+}  // namespace
+
+std::vector<Case> cases_of(int argc, char** argv) {
+  std::vector<std::string> names(argv + 1, argv + argc);
+  if (names.empty()) {
+    names = {"spheres:1000", "spheres:10000", "spheres:100000",
+             "cubes:100",    "cubes:1000",    "noisy:20000"};
+  }
+  std::vector<Case> cases;
+  for (const std::string& name : names) {
+    cases.push_back(is_generated(name) ? generated(name) : Case{name, read_soup(name).soup});
+  }
+  return cases;
+}
+
+Measurement measure(const std::function<void()>& work) {
+  std::vector<StageReport> stages;
+  {
+    StageMeter meter(stages, nullptr);
+    meter.begin("before");
+    meter.begin("work");
+    work();
+  }
+  const std::size_t before = stages[0].peak_bytes;
+  const std::size_t peak = stages[1].peak_bytes;
+  return {stages[1].cpu_seconds, peak > before ? peak - before : 0};
+}
+
+void print_header(const std::string& what) {
+  std::printf("%s\n%-44s %10s %10s %10s\n", what.c_str(), "input", "triangles", "us/tri",
+              "bytes/tri");
+}
+
+void print_row(const Case& input, const Measurement& m, const std::string& note) {
+  const auto n = static_cast<double>(input.soup.triangles.size());
+  std::printf("%-44s %10zu %10.2f %10.0f  %s\n", input.name.c_str(), input.soup.triangles.size(),
+              1e6 * m.cpu_seconds / n, static_cast<double>(m.peak_bytes) / n, note.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace meshrepair::bench

@@ -1,0 +1,247 @@
+#include <limits>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <bsp/clean_soup.h>
+#include <bsp/error.h>
+#include <bsp/predicates.h>
+
+#include "degenerate_soups.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TriangleSoup one_triangle() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}; }
+
+void expect_consistent(const CleanSoup& clean, const CleanReport& report) {
+  EXPECT_EQ(clean.triangles.size() + report.dropped_not_finite + report.dropped_degenerate +
+                report.duplicates + report.opposite_duplicates,
+            report.triangles_in);
+  EXPECT_EQ(clean.points.size(), clean.grid_points.size());
+  const std::set<GridPoint> distinct(clean.grid_points.begin(), clean.grid_points.end());
+  EXPECT_EQ(distinct.size(), clean.grid_points.size());
+  std::set<std::set<PointId>> corner_sets;
+  std::uint32_t last_source = 0;
+  for (const Triangle& t : clean.triangles) {
+    const std::array<GridPoint, 3> at = {clean.grid_points[t.corners[0]],
+                                         clean.grid_points[t.corners[1]],
+                                         clean.grid_points[t.corners[2]]};
+    const Plane own = plane_through(at[0], at[1], at[2]);
+    EXPECT_FALSE(is_null(own));
+    for (const GridPoint& p : at) EXPECT_EQ(side(p, clean.planes[t.plane]), 0);
+    if (t.winding != 0) {
+      // `winding` says how the triangle's own normal stands to its plane's.
+      double dot = 0;
+      for (std::size_t i = 0; i < 3; ++i) dot += own.unit[i] * clean.planes[t.plane].unit[i];
+      EXPECT_NEAR(dot, t.winding, 1e-9);
+    }
+    EXPECT_TRUE(corner_sets.insert({t.corners.begin(), t.corners.end()}).second);
+    EXPECT_GE(t.source, last_source);
+    last_source = t.source;
+  }
+}
+
+TEST(CleanSoup, WhatIsKeptAndDroppedAddsUp) {
+  for (const SoupFamily& family : degenerate_families()) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      SCOPED_TRACE(family.name + " " + std::to_string(seed));
+      CleanReport report;
+      const CleanSoup clean = clean_soup(family.make(seed), report);
+      expect_consistent(clean, report);
+      EXPECT_EQ(report.grid_unit, clean.grid.unit);
+    }
+  }
+}
+
+TEST(CleanSoup, SoundTrianglesStayAsTheyAre) {
+  const TriangleSoup soup = sphere(300);
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  ASSERT_EQ(clean.triangles.size(), soup.triangles.size());
+  ASSERT_EQ(clean.points.size(), soup.points.size());
+  for (std::uint32_t p = 0; p < soup.points.size(); ++p) {
+    EXPECT_EQ(clean.points[PointId(p)], soup.points[p]);
+  }
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    const Triangle& triangle = clean.triangles[TriangleId(t)];
+    EXPECT_EQ(triangle.source, t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(triangle.corners[k].value, soup.triangles[t][k]);
+    }
+  }
+}
+
+TEST(CleanSoup, TrianglesThatAreNotFiniteAreDroppedAndDoNotBendTheGrid) {
+  TriangleSoup soup = one_triangle();
+  CleanReport before;
+  const Grid grid = clean_soup(soup, before).grid;
+  soup.points.emplace_back(kNan, 0, 0);
+  soup.points.emplace_back(0, kInfinity, 0);
+  soup.points.emplace_back(0, 0, -kInfinity);
+  soup.points.emplace_back(1e200, 0, 0);  // finite, but used with others that are not
+  soup.triangles.push_back({0, 1, 3});
+  soup.triangles.push_back({4, 6, 2});
+  soup.triangles.push_back({5, 5, 5});
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  EXPECT_EQ(report.dropped_not_finite, 3u);
+  EXPECT_EQ(clean.triangles.size(), 1u);
+  EXPECT_EQ(clean.points.size(), 3u);
+  EXPECT_EQ(clean.grid.unit, grid.unit);
+  EXPECT_EQ(clean.grid.origin, grid.origin);
+  expect_consistent(clean, report);
+}
+
+TEST(CleanSoup, DegenerateTrianglesAreDropped) {
+  TriangleSoup soup = one_triangle();
+  soup.points.emplace_back(2, 0, 0);
+  soup.points.emplace_back(0.5, 1e-12, 0);  // in a line with 0 and 1, once on the grid
+  soup.triangles.push_back({0, 0, 1});
+  soup.triangles.push_back({1, 1, 1});
+  soup.triangles.push_back({0, 1, 3});
+  soup.triangles.push_back({0, 1, 4});
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  EXPECT_EQ(report.dropped_degenerate, 4u);
+  EXPECT_EQ(clean.triangles.size(), 1u);
+  expect_consistent(clean, report);
+}
+
+TEST(CleanSoup, CopiesAreOneTriangle) {
+  TriangleSoup soup = one_triangle();
+  soup.triangles.push_back({1, 2, 0});
+  soup.triangles.push_back({2, 0, 1});
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  EXPECT_EQ(report.duplicates, 2u);
+  EXPECT_EQ(report.opposite_duplicates, 0u);
+  ASSERT_EQ(clean.triangles.size(), 1u);
+  EXPECT_NE(clean.triangles[TriangleId(0u)].winding, 0);
+}
+
+// A double wall has no outside: one copy is enough to know, and more of one kind do not outweigh
+// it.
+TEST(CleanSoup, OppositeCopiesHaveNoWinding) {
+  for (const std::array<std::uint32_t, 3> turned :
+       {std::array<std::uint32_t, 3>{0, 2, 1}, std::array<std::uint32_t, 3>{2, 1, 0},
+        std::array<std::uint32_t, 3>{1, 0, 2}}) {
+    TriangleSoup soup = one_triangle();
+    soup.triangles.push_back(turned);
+    soup.triangles.push_back({0, 1, 2});
+    CleanReport report;
+    const CleanSoup clean = clean_soup(soup, report);
+    EXPECT_EQ(report.duplicates, 1u);
+    EXPECT_EQ(report.opposite_duplicates, 1u);
+    ASSERT_EQ(clean.triangles.size(), 1u);
+    EXPECT_EQ(clean.triangles[TriangleId(0u)].winding, 0);
+  }
+}
+
+TEST(CleanSoup, NegativeZeroIsNoNewPoint) {
+  TriangleSoup soup = one_triangle();
+  soup.points.emplace_back(-0.0, 0.0, -0.0);
+  soup.points.emplace_back(0, 0, 1);
+  soup.triangles.push_back({3, 1, 4});
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  EXPECT_EQ(report.joined_points, 0u);
+  EXPECT_EQ(clean.points.size(), 4u);
+}
+
+TEST(CleanSoup, PointsOfOneGridPointAreJoined) {
+  TriangleSoup soup = one_triangle();
+  soup.points.emplace_back(1e-12, 0, 0);
+  soup.points.emplace_back(0, 0, 1);
+  soup.triangles.push_back({3, 1, 4});
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  EXPECT_EQ(report.joined_points, 1u);
+  ASSERT_EQ(clean.points.size(), 4u);
+  EXPECT_EQ(clean.points[PointId(0u)], Vec3d(0, 0, 0));
+  EXPECT_EQ(clean.triangles[TriangleId(1u)].corners[0], clean.triangles[TriangleId(0u)].corners[0]);
+}
+
+TEST(CleanSoup, UnusedPointsPlayNoPart) {
+  TriangleSoup soup = one_triangle();
+  soup.points.insert(soup.points.begin(), {{1e30, 0, 0}, {kNan, 0, 0}});
+  for (auto& corner : soup.triangles[0]) corner += 2;
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  CleanReport expected_report;
+  const CleanSoup expected = clean_soup(one_triangle(), expected_report);
+  EXPECT_EQ(clean.grid.unit, expected.grid.unit);
+  EXPECT_EQ(clean.grid_points.raw(), expected.grid_points.raw());
+}
+
+TEST(CleanSoup, IndexOutOfRangeIsRefusedByName) {
+  TriangleSoup soup = one_triangle();
+  soup.triangles.push_back({0, 3, 1});
+  CleanReport report;
+  try {
+    (void)clean_soup(soup, report);
+    FAIL() << "was not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("triangle 1"), std::string::npos) << error.what();
+  }
+  soup.triangles = {{0, 1, ~std::uint32_t{0}}};
+  EXPECT_THROW((void)clean_soup(soup, report), InputError);
+  EXPECT_THROW((void)clean_soup({{}, {{0, 0, 0}}}, report), InputError);
+}
+
+TEST(CleanSoup, NothingIsCleanedToNothing) {
+  for (const TriangleSoup& soup :
+       {TriangleSoup{}, TriangleSoup{{{1, 2, 3}}, {}}, TriangleSoup{{{1, 2, 3}}, {{0, 0, 0}}},
+        TriangleSoup{{{kNan, 2, 3}}, {{0, 0, 0}}}}) {
+    CleanReport report;
+    const CleanSoup clean = clean_soup(soup, report);
+    EXPECT_TRUE(clean.triangles.empty());
+    expect_consistent(clean, report);
+    const GridBox box = outer_box(clean);
+    EXPECT_LT(box.low.x, box.high.x);
+  }
+}
+
+TEST(CleanSoup, ExtremeCoordinatesStayOnTheGrid) {
+  const double most = std::numeric_limits<double>::max();
+  const double least = std::numeric_limits<double>::denorm_min();
+  for (const double size : {most, 1e300, 1e-300, 1e-310, least}) {
+    SCOPED_TRACE(size);
+    TriangleSoup soup = {{{-size, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}},
+                         {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+    CleanReport report;
+    const CleanSoup clean = clean_soup(soup, report);
+    EXPECT_EQ(clean.triangles.size(), 4u);
+    for (const GridPoint& p : clean.grid_points) {
+      for (const std::int32_t x : {p.x, p.y, p.z}) {
+        EXPECT_GE(x, -kGridRadius);
+        EXPECT_LE(x, kGridRadius);
+      }
+    }
+  }
+}
+
+TEST(OuterBox, HoldsEveryPointStrictly) {
+  for (const SoupFamily& family : degenerate_families()) {
+    SCOPED_TRACE(family.name);
+    const CleanSoup clean = [&] {
+      CleanReport report;
+      return clean_soup(family.make(3), report);
+    }();
+    const GridBox box = outer_box(clean);
+    for (const GridPoint& p : clean.grid_points) {
+      EXPECT_TRUE(box.low.x < p.x && p.x < box.high.x);
+      EXPECT_TRUE(box.low.y < p.y && p.y < box.high.y);
+      EXPECT_TRUE(box.low.z < p.z && p.z < box.high.z);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace meshrepair
