@@ -15,7 +15,7 @@ struct Options {
 };
 
 ExitCode label(Options& options, Run& run) {
-  check_files(options.input, options.output, run.options);
+  check_files(options.input, options.output, run);
   options.repair.progress = &run.progress;
   Findings findings(options.input, options.output);
   return with_findings(run, findings, [&] {

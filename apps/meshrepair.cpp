@@ -17,7 +17,7 @@ struct Options {
 };
 
 ExitCode repair_mesh(Options& options, Run& run) {
-  check_files(options.input, options.output, run.options);
+  check_files(options.input, options.output, run);
   const WriteOptions format = mesh_format(options.output, options.format);
   options.repair.progress = &run.progress;
   Findings findings(options.input, options.output);

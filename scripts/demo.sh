@@ -30,7 +30,7 @@ mkdir -p build/demo
 failures=0
 for mesh in "${meshes[@]}"; do
   name=$(basename -- "$mesh")
-  result=build/demo/repaired_$name
+  result=build/demo/repaired_${name%.*}.obj
   report=build/demo/${name%.*}.json
   echo
   echo "== $mesh"

@@ -1,9 +1,11 @@
 #include "common/common_options.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -39,6 +41,18 @@ class HelpFormatter : public CLI::Formatter {
     return option->get_description() + " (default: " + value + ")";
   }
 };
+
+std::string_view report_value(const std::vector<std::string_view>& arguments) {
+  for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
+    if (arguments[i].substr(0, kReportOption.size() + 1) == "--report=") {
+      return arguments[i].substr(kReportOption.size() + 1);
+    }
+    if (arguments[i] != kReportOption || i + 1 == arguments.size()) continue;
+    const std::string_view value = arguments[i + 1];
+    if (value == "-" || (!value.empty() && value.front() != '-')) return value;
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -93,17 +107,12 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
 }
 
 std::string find_report_option(int argc, const char* const* argv) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view argument = argv[i];
-    if (argument == "--") break;
-    if (argument.substr(0, kReportOption.size() + 1) == "--report=") {
-      return std::string(argument.substr(kReportOption.size() + 1));
-    }
-    if (argument != kReportOption || i + 1 == argc) continue;
-    const std::string_view value = argv[i + 1];
-    if (value == "-" || (!value.empty() && value.front() != '-')) return std::string(value);
-  }
-  return {};
+  const std::vector<std::string_view> arguments(argv + 1, argv + argc);
+  const std::string_view value = report_value(arguments);
+  const auto others = std::count(arguments.begin(), arguments.end(), value);
+  const bool is_own_argument =
+      std::find(arguments.begin(), arguments.end(), kReportOption) != arguments.end();
+  return others > (is_own_argument ? 1 : 0) ? std::string() : std::string(value);
 }
 
 }  // namespace meshrepair

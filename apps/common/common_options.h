@@ -31,7 +31,8 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 [[nodiscard]] bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
 // The value of --report found without parsing, so that a report can say what was wrong with the
-// command line; empty if there is none.
+// command line; empty if there is none, or if it is the value of another argument as well: the
+// report is not to replace the input.
 [[nodiscard]] std::string find_report_option(int argc, const char* const* argv);
 
 }  // namespace meshrepair

@@ -43,6 +43,10 @@ class JsonReport {
   // The stages with what the program measured of each; without it they are those of the progress.
   void set_stages(Json stages);
 
+  // The report is not to be written: its file is not one that may be replaced.
+  void withhold() { withheld_ = true; }
+  [[nodiscard]] bool withheld() const { return withheld_; }
+
   // The finished text. `failure` is what ended the run early, if anything did.
   [[nodiscard]] std::string text(ExitCode code, const std::optional<Failure>& failure,
                                  const ProgressBar& progress) const;
@@ -51,6 +55,7 @@ class JsonReport {
   Json head_;      // program to output
   Json sections_;  // the program's own
   Json stages_;    // null: those of the progress
+  bool withheld_ = false;
 };
 
 }  // namespace meshrepair

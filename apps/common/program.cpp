@@ -50,9 +50,8 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
   ExitCode code = ExitCode::done;
   std::exception_ptr error;
   try {
-    options_.report = find_report_option(argc, argv);
     add_common_options(command_line_, options_);
-    if (!parse_command_line(command_line_, argc, argv)) return ExitCode::done;
+    if (!parse(argc, argv)) return ExitCode::done;
     set_up_logging(command_line_.get_name(), options_.verbosity());
     progress.emplace(bar_options(options_));
     const auto thread_limit = limit_threads(options_.threads);
@@ -68,10 +67,20 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
   return code;
 }
 
+// After a mistake on the command line the report goes only where it can replace nothing else.
+bool Program::parse(int argc, const char* const* argv) {
+  try {
+    return parse_command_line(command_line_, argc, argv);
+  } catch (const UsageError&) {
+    options_.report = find_report_option(argc, argv);
+    throw;
+  }
+}
+
 // An error of the run outweighs one of its report.
 void Program::write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
                            const ProgressBar& progress) const {
-  if (options_.report.empty()) return;
+  if (options_.report.empty() || report.withheld()) return;
   std::optional<Failure> failure;
   if (error) failure = describe_failure(error);
   const std::string text = report.text(failure ? failure->code : code, failure, progress);

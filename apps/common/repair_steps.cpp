@@ -24,11 +24,14 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::is_character_file(a, error)) return false;
   if (fs::exists(a, error) && fs::exists(b, error)) return fs::equivalent(a, b, error);
-  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+  return fs::weakly_canonical(fs::absolute(a, error), error) ==
+         fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
-void check_report(const std::string& report, const std::string& file, const std::string& what) {
+void check_report(Run& run, const std::string& file, const std::string& what) {
+  const std::string& report = run.options.report;
   if (report.empty() || !is_same_file(report, file)) return;
+  run.report.withhold();
   throw UsageError("--report: " + report + " is the " + what + ", too");
 }
 
@@ -77,9 +80,9 @@ TreeFacts facts_of(const Tree& tree) {
   return facts;
 }
 
-void check_files(const std::string& input, const std::string& output, const CommonOptions& common) {
-  check_report(common.report, input, "input");
-  check_report(common.report, output, "output");
+void check_files(const std::string& input, const std::string& output, Run& run) {
+  if (input != "-") check_report(run, input, "input");
+  check_report(run, output, "output");
   if (output == "-") return;
   const fs::path folder = fs::path(output).parent_path();
   std::error_code error;
@@ -133,6 +136,7 @@ void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& 
                       Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
+  findings.output_points = surface.mesh.points.size();
   write_soup(surface.mesh, findings.output, options);
   run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
 }

@@ -42,12 +42,13 @@ struct Findings {
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
+  std::size_t output_points = 0;
 };
 
-// The files of a run. Throws UsageError where two of them that must differ are one, or where no
-// format can be told for a mesh; OutputError where the output cannot be: all of it before hours of
-// work.
-void check_files(const std::string& input, const std::string& output, const CommonOptions& common);
+// What can be said of the files before hours of work. Throws UsageError where the report is the
+// input or the output, too, and withholds it; OutputError where the output cannot be.
+void check_files(const std::string& input, const std::string& output, Run& run);
+// Throws UsageError where no format can be told.
 [[nodiscard]] WriteOptions mesh_format(const std::string& output,
                                        const std::optional<SoupFormat>& format);
 

@@ -104,12 +104,13 @@ Json section_of(const ExtractReport& extract) {
           {"middle_vertices", extract.middle_vertices}};
 }
 
-Json result_of(const RepairReport& repair) {
+Json result_of(const Findings& findings) {
+  const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
-  return {{"triangles", output.triangles}, {"parts", output.parts},
-          {"closed", output.closed()},     {"manifold", output.manifold()},
-          {"oriented", output.oriented()}, {"volume", repair.output_volume},
-          {"area", repair.output_area}};
+  return {{"triangles", output.triangles},  {"points", findings.output_points},
+          {"parts", output.parts},          {"closed", output.closed()},
+          {"manifold", output.manifold()},  {"oriented", output.oriented()},
+          {"volume", repair.output_volume}, {"area", repair.output_area}};
 }
 
 Json stages_of(const RepairReport& repair) {
@@ -138,7 +139,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));
   if (was_begun(repair, "inside")) report.set_section("inside", section_of(repair.inside));
   if (was_begun(repair, "extract")) report.set_section("extract", section_of(repair.extract));
-  if (was_begun(repair, "check")) report.set_section("result", result_of(repair));
+  if (was_begun(repair, "check")) report.set_section("result", result_of(findings));
   report.set_stages(stages_of(repair));
 }
 

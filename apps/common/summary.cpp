@@ -43,20 +43,23 @@ std::string reading_troubles(const ReadReport& read) {
   return joined(texts);
 }
 
-std::string useless_triangles(const CleanReport& clean) {
+std::string dropped_triangles(const CleanReport& clean) {
   std::vector<std::string> texts;
-  add_count(texts, clean.duplicates + clean.opposite_duplicates, "triangle",
-            "there more than once");
-  add_count(texts, clean.dropped_degenerate, "triangle", "without area");
-  add_count(texts, clean.dropped_not_finite, "triangle", "with coordinates that are no numbers");
-  return joined(texts);
+  const std::size_t copies = clean.duplicates + clean.opposite_duplicates;
+  if (copies > 0) texts.push_back(number_of(copies, "duplicate"));
+  if (clean.dropped_degenerate > 0)
+    texts.push_back(grouped(clean.dropped_degenerate) + " without area");
+  if (clean.dropped_not_finite > 0) {
+    texts.push_back(grouped(clean.dropped_not_finite) + " with coordinates that are no numbers");
+  }
+  return texts.empty() ? std::string() : "triangles dropped: " + joined(texts);
 }
 
 std::vector<std::string> troubles_of(const Findings& findings) {
   const Topology& input = findings.repair.input;
   std::vector<std::string> texts;
   texts.push_back(reading_troubles(*findings.mesh_read));
-  texts.push_back(useless_triangles(findings.repair.clean));
+  texts.push_back(dropped_triangles(findings.repair.clean));
   std::erase(texts, "");
   add_count(texts, input.open_edges, "open edge", "(gaps and holes)");
   add_count(texts, input.nonmanifold_edges, "edge", "with more than two triangles");
@@ -83,14 +86,17 @@ void describe_input(const Findings& findings, Lines& lines) {
   }
 }
 
-void describe_decision(const InsideReport& inside, Lines& lines) {
+void describe_decision(const RepairReport& repair, Lines& lines) {
+  const InsideReport& inside = repair.inside;
+  std::vector<std::string> remarks;
+  add_count(remarks, repair.orient.turned_triangles, "triangle", "turned like the neighbours");
+  if (!inside.exact) {
+    add_count(remarks, inside.contradictions, "contradiction", "left, the most likely solid taken");
+  }
   std::vector<std::string> texts = {
       fmt::format("decided by {}{}", rule_name(inside.used),
                   inside.asked == InsideRule::automatic ? ": " + inside.reason : ", as asked for")};
-  if (!inside.exact) {
-    texts.push_back(number_of(inside.contradictions, "contradiction") +
-                    " in the input: the most likely solid was taken");
-  }
+  if (!remarks.empty()) texts.push_back(joined(remarks));
   lines.add("inside", texts);
 }
 
@@ -131,7 +137,7 @@ std::string number_of(std::size_t count, std::string_view noun) {
 std::string summary_of(const Findings& findings, double seconds) {
   Lines lines;
   describe_input(findings, lines);
-  if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair.inside, lines);
+  if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair, lines);
   if (findings.tree_written) {
     describe_tree(findings, seconds, lines);
   } else {

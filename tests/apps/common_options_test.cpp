@@ -65,5 +65,11 @@ TEST(FindReportOption, TakesNoOptionForAFile) {
   EXPECT_EQ(report_of({"--reports", "r.json"}), "");
 }
 
+TEST(FindReportOption, TakesNoFileThatAnotherArgumentNames) {
+  EXPECT_EQ(report_of({"in", "out", "--report", "in"}), "");
+  EXPECT_EQ(report_of({"in", "out", "--report=out"}), "");
+  EXPECT_EQ(report_of({"-", "-", "--report", "-"}), "");
+}
+
 }  // namespace
 }  // namespace meshrepair

@@ -33,6 +33,16 @@ TEST(JsonReport, FrameIsCompleteAndInOrder) {
   EXPECT_GT(json["peak_memory_bytes"], 0);
 }
 
+TEST(JsonReport, StagesThatAreGivenReplaceThoseOfTheProgress) {
+  JsonReport report("test", {"test"});
+  const std::size_t peak = std::size_t{1} << 50;
+  report.set_stages({{{"name", "tree"}, {"seconds", 1.5}, {"peak_bytes", peak}}});
+  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  EXPECT_EQ(json["stages"].size(), 1);
+  EXPECT_EQ(json["stages"][0]["name"], "tree");
+  EXPECT_EQ(json["peak_memory_bytes"], peak);
+}
+
 TEST(JsonReport, FailureHasCodeAndMessage) {
   const JsonReport report("test", {"test"});
   const Failure failure = {ExitCode::no_solid, "in.stl: encloses nothing"};

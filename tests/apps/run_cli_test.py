@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a program in an empty folder and compares what it did with what was expected.
+"""Runs a program in a folder of its own and compares what it did with what was expected.
 
 Called by the CMake function cli_test (cmake/CliTest.cmake), which says what the options mean.
 """
@@ -9,6 +9,7 @@ import json
 import os
 import pty
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -25,7 +26,9 @@ def parse_arguments():
     parser.add_argument("--exit", type=int, default=0)
     parser.add_argument("--stdin", default="")
     parser.add_argument("--stdin-file")
-    for repeated in ("--stdout", "--stderr", "--exists", "--missing", "--json", "--signal"):
+    parser.add_argument("--signal-after")
+    for repeated in ("--copy", "--stdout", "--stderr", "--exists", "--missing", "--unchanged",
+                     "--json", "--signal"):
         parser.add_argument(repeated, action="append", default=[])
     parser.add_argument("--run-in-terminal", action="store_true")
     parser.add_argument("--closed-stdout", action="store_true")
@@ -57,6 +60,14 @@ def wait_until_asleep(process):
         time.sleep(0.01)
 
 
+def wait_until_printed(chunks, pattern):
+    deadline = time.monotonic() + TIMEOUT_SECONDS / 2
+    while time.monotonic() < deadline:
+        if re.search(pattern, b"".join(chunks).decode("utf-8", "replace")):
+            return
+        time.sleep(0.005)
+
+
 def run(options, folder):
     """Exit code, stdout and stderr (bytes) of the program."""
     stdin = options.stdin.encode()
@@ -76,11 +87,13 @@ def run(options, folder):
     out, err = [], []
     readers = [threading.Thread(target=read_all, args=(err_read, err))]
     if not options.closed_stdout:
-        if options.signal:
+        if options.signal and not options.signal_after:
             out.append(os.read(out_read, 65536))
         readers.append(threading.Thread(target=read_all, args=(out_read, out)))
     for reader in readers:
         reader.start()
+    if options.signal_after:
+        wait_until_printed(err, options.signal_after)
     for name in options.signal:
         wait_until_asleep(process)
         process.send_signal(signal.Signals["SIG" + name])
@@ -101,6 +114,17 @@ def run(options, folder):
     for reader in readers:
         reader.join()
     return process.returncode, b"".join(out), b"".join(err)
+
+
+def copies(options):
+    """Name in the folder and source of each file that is there from the start."""
+    for copy in options.copy:
+        yield copy.split("=", 1)
+
+
+def same_bytes(a, b):
+    with open(a, "rb") as first, open(b, "rb") as second:
+        return first.read() == second.read()
 
 
 def json_value(text, keys):
@@ -138,6 +162,9 @@ def complaints(options, folder, code, stdout, stderr):
     for name in options.missing:
         if os.path.exists(os.path.join(folder, name)):
             yield f"{name} was written"
+    for name, source in copies(options):
+        if name in options.unchanged and not same_bytes(os.path.join(folder, name), source):
+            yield f"{name} was changed"
     for check in options.json:
         try:
             complaint = check_json(check, folder, stdout)
@@ -150,6 +177,8 @@ def complaints(options, folder, code, stdout, stderr):
 def main():
     options = parse_arguments()
     with tempfile.TemporaryDirectory(prefix="cli_test_") as folder:
+        for name, source in copies(options):
+            shutil.copyfile(source, os.path.join(folder, name))
         try:
             code, stdout, stderr = run(options, folder)
         except OSError as error:

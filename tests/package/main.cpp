@@ -1,17 +1,24 @@
-// Uses the installed libraries: reads a mesh and takes it through OpenMesh.
+// Uses the installed libraries: repairs a cube, which changes nothing about it, and takes it
+// through OpenMesh.
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
 #include <bsp/openmesh.h>
 #include <bsp/soup_io.h>
+#include <repair/repair.h>
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   try {
-    const meshrepair::ReadResult result = meshrepair::read_soup(argv[1]);
-    const meshrepair::TriMesh mesh = meshrepair::to_openmesh(result.soup);
-    std::printf("%zu points, %zu triangles\n", mesh.n_vertices(), mesh.n_faces());
-    return mesh.n_faces() == result.soup.triangles.size() ? 0 : 1;
+    const meshrepair::ReadResult cube = meshrepair::read_soup(argv[1]);
+    const meshrepair::RepairResult result = meshrepair::repair(cube.soup);
+    const meshrepair::TriMesh mesh = meshrepair::to_openmesh(result.surface.mesh);
+    const double volume = result.report.output_volume;
+    std::printf("%zu points, %zu triangles, volume %g\n", mesh.n_vertices(), mesh.n_faces(),
+                volume);
+    const bool closed = result.report.output.closed() && result.report.output.manifold();
+    return closed && mesh.n_faces() >= 12 && std::abs(volume - 1) < 1e-12 ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

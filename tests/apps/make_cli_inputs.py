@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Makes the inputs that the tests of the programs need and that are not worth keeping.
+
+Usage: make_cli_inputs.py BSPBUILD MESH FOLDER   (trees are made of MESH by the program BSPBUILD)
+"""
+
+import pathlib
+import random
+import struct
+import subprocess
+import sys
+
+
+SINGLE_TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+def binary_stl(triangles, promised):
+    corners = [(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, float(i)) for i in range(triangles)]
+    facets = [struct.pack("<12fH", 0, 0, 0, *c, 0) for c in corners]
+    return b"cut".ljust(80) + struct.pack("<I", promised) + b"".join(facets)
+
+
+def tetrahedron(**replaced):
+    """OBJ text; replaced: lines by their name."""
+    lines = {"a": "v 0 0 0", "b": "v 1 0 0", "c": "v 0 1 0", "d": "v 0 0 1", "extra": "",
+             "f1": "f 1 3 2", "f2": "f 1 2 4", "f3": "f 2 3 4", "f4": "f 1 4 3"}
+    lines.update(replaced)
+    return "\n".join(lines.values()).encode() + b"\n"
+
+
+def random_triangles(count):
+    """Large triangles that all cross each other: about a minute of work for 1000 of them."""
+    chance = random.Random(1)
+    lines = ["OFF", f"{3 * count} {count} 0"]
+    for _ in range(3 * count):
+        lines.append(" ".join(f"{chance.uniform(-1, 1):.6f}" for _ in range(3)))
+    for i in range(0, 3 * count, 3):
+        lines.append(f"3 {i} {i + 1} {i + 2}")
+    return "\n".join(lines).encode() + b"\n"
+
+
+def tree_of(bspbuild, mesh):
+    return subprocess.run([bspbuild, "--quiet", "-", "-o", "-"], input=mesh, check=True,
+                          stdout=subprocess.PIPE).stdout
+
+
+def altered(tree):
+    middle = len(tree) // 2
+    return tree[:middle] + bytes([tree[middle] ^ 0xFF]) + tree[middle + 1:]
+
+
+def main():
+    bspbuild, mesh, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+    folder.mkdir(parents=True, exist_ok=True)
+    tree = tree_of(bspbuild, pathlib.Path(mesh).read_bytes())
+    files = {
+        "empty.stl": b"",
+        "cut.stl": binary_stl(triangles=7, promised=100),
+        "cut_to_nothing.stl": binary_stl(triangles=0, promised=100),
+        "text.ply": b"This is no mesh.\n",
+        "binary.obj": bytes(range(256)) * 4,
+        "unknown.xyz": b"Some words, and no mesh.\n",
+        "index_out_of_range.obj": tetrahedron(extra="f 1 2 9"),
+        "nan.obj": tetrahedron(extra="v nan nan nan", f1="f 1 3 2\nf 1 2 5"),
+        "not_finite.obj": tetrahedron(a="v nan 0 0", b="v inf 0 0", c="v 0 nan 0"),
+        "single_triangle.obj": SINGLE_TRIANGLE,
+        "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
+        "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
+        "much_work.off": random_triangles(1000),
+        "unlabelled.bsp": tree,
+        "flat.bsp": tree_of(bspbuild, SINGLE_TRIANGLE),
+        "cut.bsp": tree[:len(tree) // 2],
+        "altered.bsp": altered(tree),
+        "newer.bsp": tree[:8] + struct.pack("<I", 2) + tree[12:],
+    }
+    for name, data in files.items():
+        (folder / name).write_bytes(data)
+
+
+if __name__ == "__main__":
+    main()
