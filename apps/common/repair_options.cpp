@@ -31,6 +31,7 @@ template <class Choices, class Set>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& choices, Set set,
                         const std::string& description) {
   std::vector<std::string> names;
+  names.reserve(choices.size());
   for (const auto& choice : choices) names.emplace_back(choice.first);
   return app
       .add_option_function<std::string>(
