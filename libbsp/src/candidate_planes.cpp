@@ -87,7 +87,8 @@ std::optional<Plane> choose_edge_plane(const FragmentPool& pool, const CleanSoup
       const Plane offered = plane_along_axis(soup.grid_points[triangle.corners[e]],
                                              soup.grid_points[triangle.corners[(e + 1) % 3]], axis);
       const std::size_t cost = cost_of(pool, fragments, offered, PlaneId(), options, to_beat);
-      if (cost >= to_beat) continue;
+      const bool tie_won = best && cost == to_beat && comes_before(offered, *best);
+      if (cost >= to_beat && !tie_won) continue;
       to_beat = cost;
       best = offered;
     }

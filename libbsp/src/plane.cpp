@@ -67,4 +67,10 @@ bool make_canonical(Plane& plane) {
   return turned;
 }
 
+bool comes_before(Plane a, Plane b) {
+  make_canonical(a);
+  make_canonical(b);
+  return a.normal != b.normal ? a.normal < b.normal : a.offset < b.offset;
+}
+
 }  // namespace meshrepair

@@ -128,7 +128,8 @@ class FacetCoverer {
       const PreparedTriangle offered = prepared(list[k * list.size() / offers]);
       for (const Plane& edge : offered.edges) {
         const std::size_t cost = list.size() > 1 ? cost_of(edge, list) : 0;
-        if (cost < best_cost && internal::crosses(complex_, piece.facet, edge)) {
+        const bool tie_won = best && cost == best_cost && comes_before(edge, *best);
+        if ((cost < best_cost || tie_won) && internal::crosses(complex_, piece.facet, edge)) {
           best_cost = cost;
           best = edge;
         }
