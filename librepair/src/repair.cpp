@@ -34,15 +34,25 @@ IdVector<TriangleId, std::int32_t> chosen_windings(const Tree& tree, const Repai
                                                       : windings_of(tree.input);
 }
 
+bool lies_in_one_plane(const CleanSoup& soup) {
+  const PlaneId first = soup.triangles[TriangleId(0u)].plane;
+  return std::all_of(soup.triangles.begin(), soup.triangles.end(),
+                     [&](const Triangle& t) { return t.plane == first; });
+}
+
 CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
                       RepairReport& report, StageMeter& meter) {
   meter.begin("links");
   const CellGraph graph(covered.complex, covered.cover);
   report.links = graph.links().size();
   meter.begin("inside");
-  CellLabels labels = label_cells(graph, options.inside, report.inside);
+  InsideOptions inside_options = options.inside;
+  inside_options.solve.progress = options.progress;
+  CellLabels labels = label_cells(graph, inside_options, report.inside);
   if (report.inside.solid_cells == 0) {
-    throw NoSolidError("the triangles enclose nothing: no part of space is inside");
+    throw NoSolidError(lies_in_one_plane(covered.complex.soup())
+                           ? "all triangles lie in one plane, so they enclose nothing"
+                           : "the triangles enclose nothing: no part of space is inside");
   }
   return labels;
 }

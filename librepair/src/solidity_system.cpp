@@ -6,12 +6,30 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
+#include <bsp/error.h>
+
 namespace meshrepair::internal {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 constexpr int kFixed = -1;
+
+// The diagonal preconditioner, asked once in each iteration: the place to notice that nobody waits any more.
+class CancellablePreconditioner : public Eigen::DiagonalPreconditioner<double> {
+ public:
+  void observe(ProgressObserver* progress) { progress_ = progress; }
+
+  template <class Right>
+  Eigen::Solve<Eigen::DiagonalPreconditioner<double>, Right> solve(
+      const Eigen::MatrixBase<Right>& right) const {
+    if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
+    return Eigen::DiagonalPreconditioner<double>::solve(right);
+  }
+
+ private:
+  ProgressObserver* progress_ = nullptr;
+};
 
 struct System {
   std::vector<int> row_of_cell;
@@ -88,9 +106,8 @@ std::vector<double> minimise(const CellGraph& graph, LinkTerm (*term)(const Link
   const Eigen::Map<const Matrix> matrix(n, n, static_cast<Eigen::Index>(system.value.size()),
                                         system.first.data(), system.column.data(),
                                         system.value.data());
-  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper,
-                           Eigen::DiagonalPreconditioner<double>>
-      solver;
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, CancellablePreconditioner> solver;
+  solver.preconditioner().observe(options.progress);
   solver.setTolerance(options.tolerance);
   solver.setMaxIterations(options.max_iterations);
   solver.compute(matrix);

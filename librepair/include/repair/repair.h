@@ -54,14 +54,14 @@ struct RepairResult {
   RepairReport report;
 };
 
-// Soup to boundary of a solid. Throws InputError when no triangle is left after cleaning,
-// NoSolidError when nothing is enclosed.
+// Soup to boundary of a solid. Throws NoSolidError when no triangle is left after cleaning, or when
+// nothing is enclosed.
 [[nodiscard]] RepairResult repair(const TriangleSoup& soup, const RepairOptions& options = {});
 // The same, leaving the report when it throws.
 [[nodiscard]] Surface repair(const TriangleSoup& soup, const RepairOptions& options,
                              RepairReport& report);
 
-// Step 1: soup to tree, its leaves unknown. Throws InputError when no triangle is left.
+// Step 1: soup to tree, its leaves unknown. Throws NoSolidError when no triangle is left.
 [[nodiscard]] Tree make_tree(const TriangleSoup& soup, const RepairOptions& options,
                              RepairReport& report);
 // Step 2: labels the leaves. Throws NoSolidError when no leaf is solid.

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <bsp/progress.h>
+
 #include <repair/cell_graph.h>
 
 namespace meshrepair {
@@ -11,6 +13,7 @@ namespace meshrepair {
 struct SolveOptions {
   double tolerance = 1e-5;  // relative residual of the conjugate gradients
   int max_iterations = 5000;
+  ProgressObserver* progress = nullptr;  // asked in every iteration whether to go on
 };
 
 struct SolveReport {
