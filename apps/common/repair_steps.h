@@ -43,6 +43,7 @@ struct Findings {
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
   std::size_t output_points = 0;
+  std::optional<SoupFormat> output_format;
 };
 
 // What can be said of the files before hours of work. Throws UsageError where the report is the

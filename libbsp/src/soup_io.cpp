@@ -18,6 +18,7 @@
 #include "recognize_format.h"
 #include "stl_io.h"
 #include "text_scanner.h"
+#include "weld_points.h"
 
 namespace meshrepair {
 namespace {
@@ -149,6 +150,24 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
       break;
   }
   return format_ply_ascii(soup, comments);
+}
+
+TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {
+  if (format != SoupFormat::stl_binary && format != SoupFormat::stl_ascii) return soup;
+  TriangleSoup welded;
+  PointWelder welder(welded.points, soup.points.size());
+  std::vector<std::uint32_t> index;
+  index.reserve(soup.points.size());
+  for (const Vec3d& p : soup.points) {
+    index.push_back(welder.index_of(format == SoupFormat::stl_binary
+                                        ? Vec3d(p.cast<float>().cast<double>())
+                                        : p));
+  }
+  welded.triangles.reserve(soup.triangles.size());
+  for (const auto& t : soup.triangles) {
+    welded.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+  }
+  return welded;
 }
 
 }  // namespace meshrepair
