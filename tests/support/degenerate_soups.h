@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -145,6 +146,8 @@ struct SoupFamily {
   std::string name;
   std::function<TriangleSoup(std::uint64_t seed)> make;
 };
+
+inline void PrintTo(const SoupFamily& family, std::ostream* out) { *out << family.name; }
 
 inline const std::vector<SoupFamily>& degenerate_families() {
   static const std::vector<SoupFamily> kFamilies = {
