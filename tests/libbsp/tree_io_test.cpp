@@ -152,10 +152,10 @@ TEST(TreeIo, DamageUnderARightChecksumIsRefusedOrHarmless) {
   for (std::uint64_t seed = 0; seed < 6000; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    static const std::array<std::string, 3> kFiles = {
+    static const std::array<std::string, 3> files = {
         format_tree(labelled_tree(cube(), 7)), format_tree(labelled_tree(random_soup(12, 3, 3), 8)),
         format_tree(labelled_tree(random_soup(20, 1000000, 4), 9))};
-    std::string bytes = kFiles[seed % kFiles.size()];
+    std::string bytes = files[seed % files.size()];
     damage_section(bytes, random);
     const std::vector<char> exact(bytes.begin(), bytes.end());
     if (!refusal({exact.data(), exact.size()}).empty()) {

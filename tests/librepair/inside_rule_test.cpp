@@ -44,8 +44,8 @@ struct SphereVolumes {
 };
 
 const SphereVolumes& sphere_volumes() {
-  static const SphereVolumes kVolumes;
-  return kVolumes;
+  static const SphereVolumes volumes;
+  return volumes;
 }
 
 TEST(InsideRule, OverlappingSpheres) {
