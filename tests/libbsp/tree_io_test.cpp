@@ -13,6 +13,7 @@
 
 #include "shapes.h"
 #include "temporary_folder.h"
+#include "tree_bytes.h"
 #include "trees.h"
 
 namespace meshrepair {
@@ -20,59 +21,8 @@ namespace {
 
 using namespace testing;
 
-constexpr std::size_t kHeaderBytes = 16;
-constexpr std::size_t kSectionHeaderBytes = 24;
 constexpr std::array<std::string_view, 7> kNames = {"GRID", "PNTS", "TRIS", "PLNS",
                                                     "NODE", "NTRI", "LEAF"};
-
-template <class Number>
-Number number_at(std::string_view bytes, std::size_t at) {
-  Number number;
-  std::memcpy(&number, bytes.data() + at, sizeof(number));
-  return number;
-}
-
-template <class Number>
-void put_at(std::string& bytes, std::size_t at, Number number) {
-  std::memcpy(bytes.data() + at, &number, sizeof(number));
-}
-
-// The rule of tree_io.h, written down a second time on purpose.
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  for (std::size_t i = 0; i < bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
-    hash = (hash ^ word) * 0x100000001B3u;
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
-struct Section {
-  std::size_t header = 0;  // position of its header
-  std::size_t begin = 0, end = 0;
-};
-
-// Where the sections of an intact file are.
-std::vector<Section> sections_of(std::string_view bytes) {
-  std::vector<Section> sections;
-  std::size_t at = kHeaderBytes;
-  while (at < bytes.size()) {
-    Section s;
-    s.header = at;
-    s.begin = at + kSectionHeaderBytes;
-    s.end = s.begin + number_at<std::uint32_t>(bytes, at + 4) *
-                          static_cast<std::size_t>(number_at<std::uint64_t>(bytes, at + 8));
-    sections.push_back(s);
-    at = s.end;
-  }
-  return sections;
-}
-
-void mend_checksum(std::string& bytes, const Section& s) {
-  put_at(bytes, s.header + 16, checksum(std::string_view(bytes).substr(s.begin, s.end - s.begin)));
-}
 
 Tree labelled_tree(const TriangleSoup& soup, std::uint64_t seed) {
   Random random(seed);
@@ -202,20 +152,11 @@ TEST(TreeIo, DamageUnderARightChecksumIsRefusedOrHarmless) {
   for (std::uint64_t seed = 0; seed < 6000; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    static const std::array<std::string, 3> kFiles = {
+    static const std::array<std::string, 3> files = {
         format_tree(labelled_tree(cube(), 7)), format_tree(labelled_tree(random_soup(12, 3, 3), 8)),
         format_tree(labelled_tree(random_soup(20, 1000000, 4), 9))};
-    std::string bytes = kFiles[seed % kFiles.size()];
-    const std::vector<Section> sections = sections_of(bytes);
-    const Section& s = sections[static_cast<std::size_t>(random.integer(0, 6))];
-    for (std::int32_t flips = random.integer(1, 3); flips > 0; --flips) {
-      const auto at = s.begin + static_cast<std::size_t>(random.integer(
-                                    0, static_cast<std::int32_t>(s.end - s.begin) - 1));
-      const char old = bytes[at];
-      bytes[at] = random.chance(0.5) ? static_cast<char>(old ^ (1 << random.integer(0, 7)))
-                                     : static_cast<char>(random.integer(-128, 127));
-    }
-    mend_checksum(bytes, s);
+    std::string bytes = files[seed % files.size()];
+    damage_section(bytes, random);
     const std::vector<char> exact(bytes.begin(), bytes.end());
     if (!refusal({exact.data(), exact.size()}).empty()) {
       ++refused;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -146,8 +147,10 @@ struct SoupFamily {
   std::function<TriangleSoup(std::uint64_t seed)> make;
 };
 
+inline void PrintTo(const SoupFamily& family, std::ostream* out) { *out << family.name; }
+
 inline const std::vector<SoupFamily>& degenerate_families() {
-  static const std::vector<SoupFamily> kFamilies = {
+  static const std::vector<SoupFamily> families = {
       {"Coplanar", [](std::uint64_t s) { return coplanar_soup(20 + 10 * (s % 5), s); }},
       {"Coincident", [](std::uint64_t s) { return with_copies(random_soup(30, 3, s), 0.7, s); }},
       {"Folded", [](std::uint64_t s) { return folded_soup(10 + 5 * (s % 5), s); }},
@@ -159,7 +162,7 @@ inline const std::vector<SoupFamily>& degenerate_families() {
       {"SmallGrid", [](std::uint64_t s) { return random_soup(20 + 10 * (s % 6), 3, s); }},
       {"LargeGrid", [](std::uint64_t s) { return random_soup(20 + 5 * (s % 6), 1 << 24, s); }},
   };
-  return kFamilies;
+  return families;
 }
 
 }  // namespace meshrepair::testing

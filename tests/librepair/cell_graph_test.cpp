@@ -1,0 +1,102 @@
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <repair/cell_graph.h>
+
+#include "degenerate_soups.h"
+#include "graphs.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+TEST(CellGraph, EveryLinkIsListedAtBothItsEnds) {
+  for (const SoupFamily& family : degenerate_families()) {
+    SCOPED_TRACE(family.name);
+    const Graph g = graph_of(family.make(1));
+    const CellGraph& graph = g.graph;
+    ASSERT_EQ(graph.cells(), g.cells.complex.cells.size());
+    std::vector<int> listed(graph.links().size(), 0);
+    for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
+      for (const std::uint32_t l : graph.links_of(c)) {
+        const Link& link = graph.links()[l];
+        EXPECT_TRUE(link.below == c || link.above == c);
+        EXPECT_EQ(other_end(link, other_end(link, c)), c);
+        ++listed[l];
+      }
+    }
+    for (const int times : listed) EXPECT_EQ(times, 2);
+  }
+}
+
+TEST(CellGraph, LinksAreTheFacetsBetweenCells) {
+  for (const SoupFamily& family : degenerate_families()) {
+    SCOPED_TRACE(family.name);
+    const Graph g = graph_of(family.make(2));
+    std::set<CellId> unbounded;
+    std::size_t inner = 0, opaque = 0;
+    for (FacetId f(0u); f < g.cells.complex.facets.end_id(); ++f.value) {
+      const Facet& facet = g.cells.complex.facets[f];
+      if (facet.above.valid() && facet.below.valid()) {
+        const Link& link = g.graph.links()[inner++];
+        EXPECT_EQ(link.below, facet.below);
+        EXPECT_EQ(link.above, facet.above);
+        EXPECT_EQ(link.winding, g.cover[f].winding);
+        EXPECT_GT(link.area, 0);
+        opaque += link.opaque;
+      } else {
+        unbounded.insert(facet.above.valid() ? facet.above : facet.below);
+      }
+    }
+    EXPECT_EQ(inner, g.graph.links().size());
+    EXPECT_GT(opaque, 0u);
+    for (CellId c(0u); c.index() < g.graph.cells(); ++c.value) {
+      EXPECT_EQ(g.graph.unbounded(c), unbounded.contains(c));
+    }
+  }
+}
+
+TEST(CellGraph, EveryCellCanBeReachedFromOutside) {
+  for (const SoupFamily& family : degenerate_families()) {
+    SCOPED_TRACE(family.name);
+    const CellGraph graph = graph_of(family.make(3)).graph;
+    std::vector<CellId> queue;
+    std::vector<char> seen(graph.cells(), 0);
+    for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
+      if (!graph.unbounded(c)) continue;
+      seen[c.index()] = 1;
+      queue.push_back(c);
+    }
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      for (const std::uint32_t l : graph.links_of(queue[i])) {
+        const CellId next = other_end(graph.links()[l], queue[i]);
+        if (seen[next.index()] != 0) continue;
+        seen[next.index()] = 1;
+        queue.push_back(next);
+      }
+    }
+    EXPECT_EQ(queue.size(), graph.cells());
+  }
+}
+
+TEST(CellGraph, ACubeHasOneBoundedCellBehindTwelveTriangles) {
+  const Graph g = graph_of(cube());
+  std::size_t bounded = 0;
+  for (CellId c(0u); c.index() < g.graph.cells(); ++c.value) {
+    if (g.graph.unbounded(c)) continue;
+    ++bounded;
+    EXPECT_EQ(g.graph.links_of(c).size(), 12u);
+    for (const std::uint32_t l : g.graph.links_of(c)) {
+      const Link& link = g.graph.links()[l];
+      EXPECT_TRUE(link.opaque);
+      EXPECT_EQ(link.winding, link.below == c ? 1 : -1);
+    }
+  }
+  EXPECT_EQ(bounded, 1u);
+}
+
+}  // namespace
+}  // namespace meshrepair
