@@ -82,11 +82,10 @@ std::optional<Plane> choose_edge_plane(const FragmentPool& pool, const CleanSoup
   std::optional<Plane> best;
   for (std::size_t k = 0; k < offers; ++k) {
     const Triangle& triangle = soup.triangles[pool[fragments[k * count / offers]].triangle];
-    const auto corners = triangle.sorted_corners();
     const int axis = dominant_axis(pool.planes()[triangle.plane]);
     for (std::size_t e = 0; e < 3; ++e) {
-      const Plane offered = plane_along_axis(soup.grid_points[corners[e]],
-                                             soup.grid_points[corners[(e + 1) % 3]], axis);
+      const Plane offered = plane_along_axis(soup.grid_points[triangle.corners[e]],
+                                             soup.grid_points[triangle.corners[(e + 1) % 3]], axis);
       const std::size_t cost = cost_of(pool, fragments, offered, PlaneId(), options, to_beat);
       const bool tie_won = best && cost == to_beat && comes_before(offered, *best);
       if (cost >= to_beat && !tie_won) continue;

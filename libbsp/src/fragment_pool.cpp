@@ -8,8 +8,8 @@
 namespace meshrepair::internal {
 namespace {
 
-// Edge k of the input triangle, its corners sorted, is written as kOriginalEdge + k until its plane
-// is needed: most fragments are never cut.
+// Edge k of the input triangle is written as kOriginalEdge + k until its plane is needed: most
+// fragments are never cut.
 constexpr std::uint32_t kOriginalEdge = 0xFFFFFFF0u;
 
 bool is_original(PlaneId edge) { return edge.value >= kOriginalEdge; }
@@ -31,9 +31,9 @@ FragmentPool::FragmentPool(const CleanSoup& soup)
     f.plane = triangle.plane;
     f.first = static_cast<std::uint32_t>(corners_.size());
     f.count = 3;
-    const auto sorted = triangle.sorted_corners();
     for (std::uint32_t k = 0; k < 3; ++k) {
-      corners_.push_back({lattice_point(soup.grid_points[sorted[k]]), PlaneId(kOriginalEdge + k)});
+      corners_.push_back(
+          {lattice_point(soup.grid_points[triangle.corners[k]]), PlaneId(kOriginalEdge + k)});
     }
     set_bounds(f);
     fragments_.push_back(f);
@@ -91,9 +91,8 @@ PlaneId FragmentPool::plane_of_edge(TriangleId triangle, PlaneId edge) {
   PlaneId& made = edge_planes_[triangle.index()][k];
   if (!made.valid()) {
     const Triangle& t = soup_.triangles[triangle];
-    const auto sorted = t.sorted_corners();
-    made = planes_.append(plane_along_axis(soup_.grid_points[sorted[k]],
-                                           soup_.grid_points[sorted[(k + 1) % 3]],
+    made = planes_.append(plane_along_axis(soup_.grid_points[t.corners[k]],
+                                           soup_.grid_points[t.corners[(k + 1) % 3]],
                                            dominant_axis(planes_[t.plane])));
   }
   return made;

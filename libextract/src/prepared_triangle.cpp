@@ -34,14 +34,11 @@ bool separated_by_facet(const CellComplex& complex, FacetId facet, const Prepare
 PreparedTriangle prepare_triangle(const CleanSoup& soup, TriangleId id) {
   const Triangle& triangle = soup.triangles[id];
   const int axis = dominant_axis(soup.planes[triangle.plane]);
-  // In an order that does not depend on how the triangle is turned: of edges that are as good as
-  // each other the first is cut along.
-  const auto corners = triangle.sorted_corners();
   PreparedTriangle prepared;
   for (std::size_t k = 0; k < 3; ++k) {
-    const GridPoint& a = soup.grid_points[corners[k]];
-    const GridPoint& b = soup.grid_points[corners[(k + 1) % 3]];
-    const GridPoint& opposite = soup.grid_points[corners[(k + 2) % 3]];
+    const GridPoint& a = soup.grid_points[triangle.corners[k]];
+    const GridPoint& b = soup.grid_points[triangle.corners[(k + 1) % 3]];
+    const GridPoint& opposite = soup.grid_points[triangle.corners[(k + 2) % 3]];
     prepared.corners[k] = lattice_point(a);
     prepared.edges[k] = plane_along_axis(a, b, axis);
     if (side(opposite, prepared.edges[k]) < 0) prepared.edges[k] = turned(prepared.edges[k]);

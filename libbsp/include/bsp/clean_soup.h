@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include <bsp/grid.h>
 #include <bsp/ids.h>
@@ -20,15 +19,6 @@ struct Triangle {
   // How its copies are turned: +1 all along the plane's normal, -1 all against it, 0 both kinds.
   std::int32_t winding = 0;
   std::uint32_t source = 0;  // index of the first copy in the soup that was given
-
-  // The same corners by ascending id: for what must not depend on how the triangle is turned.
-  [[nodiscard]] std::array<PointId, 3> sorted_corners() const {
-    std::array<PointId, 3> sorted = corners;
-    if (sorted[1] < sorted[0]) std::swap(sorted[0], sorted[1]);
-    if (sorted[2] < sorted[1]) std::swap(sorted[1], sorted[2]);
-    if (sorted[1] < sorted[0]) std::swap(sorted[0], sorted[1]);
-    return sorted;
-  }
 };
 
 struct CleanSoup {
