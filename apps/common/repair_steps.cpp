@@ -168,8 +168,9 @@ ExitCode certify(const Findings& findings) {
   if (!surface.oriented()) missing += ", not consistently oriented";
   if (missing.empty()) return ExitCode::done;
   const bool stl = findings.output_format && is_stl(*findings.output_format);
-  spdlog::error("{}: written, but{}{}", findings.output_name(), missing.substr(1),
-                stl ? " once STL has rounded and joined its corners; OBJ, OFF and PLY keep them" : "");
+  spdlog::error(
+      "{}: written, but{}{}", findings.output_name(), missing.substr(1),
+      stl ? " once STL has rounded and joined its corners; OBJ, OFF and PLY keep them" : "");
   return ExitCode::not_certified;
 }
 

@@ -159,9 +159,8 @@ TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {
   std::vector<std::uint32_t> index;
   index.reserve(soup.points.size());
   for (const Vec3d& p : soup.points) {
-    index.push_back(welder.index_of(format == SoupFormat::stl_binary
-                                        ? Vec3d(p.cast<float>().cast<double>())
-                                        : p));
+    index.push_back(welder.index_of(
+        format == SoupFormat::stl_binary ? Vec3d(p.cast<float>().cast<double>()) : p));
   }
   welded.triangles.reserve(soup.triangles.size());
   for (const auto& t : soup.triangles) {

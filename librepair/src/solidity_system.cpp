@@ -15,7 +15,8 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 constexpr int kFixed = -1;
 
-// The diagonal preconditioner, asked once in each iteration: the place to notice that nobody waits any more.
+// The diagonal preconditioner, asked once in each iteration: the place to notice that nobody waits
+// any more.
 class CancellablePreconditioner : public Eigen::DiagonalPreconditioner<double> {
  public:
   void observe(ProgressObserver* progress) { progress_ = progress; }

@@ -49,8 +49,8 @@ struct Plane {
 // so that equal planes have equal coefficients. Returns whether the normal was turned round.
 bool make_canonical(Plane& plane);
 
-// A total order of planes that does not depend on how they are turned or scaled: for breaking ties in a way
-// that the orientation of the input cannot change.
+// A total order of planes that does not depend on how they are turned or scaled: for breaking ties
+// in a way that the orientation of the input cannot change.
 [[nodiscard]] bool comes_before(Plane a, Plane b);
 
 }  // namespace meshrepair

@@ -79,9 +79,9 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
 [[nodiscard]] std::string format_soup(const TriangleSoup& soup, SoupFormat format,
                                       const std::vector<std::string>& comments = {});
 
-// The soup that a reader gets back from a file in this format: STL has no indices, so corners with equal
-// coordinates become one point, and binary STL rounds coordinates to float32 before. For the other
-// formats it is the soup itself.
+// The soup that a reader gets back from a file in this format: STL has no indices, so corners with
+// equal coordinates become one point, and binary STL rounds coordinates to float32 before. For the
+// other formats it is the soup itself.
 [[nodiscard]] TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format);
 
 }  // namespace meshrepair

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <bsp/progress.h>
-
 #include <repair/cell_graph.h>
 
 namespace meshrepair {
