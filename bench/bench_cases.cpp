@@ -36,6 +36,7 @@ std::vector<Case> cases_of(int argc, char** argv) {
              "cubes:100",    "cubes:1000",    "noisy:20000"};
   }
   std::vector<Case> cases;
+  cases.reserve(names.size());
   for (const std::string& name : names) {
     cases.push_back(is_generated(name) ? generated(name) : Case{name, read_soup(name).soup});
   }

@@ -82,12 +82,12 @@ class FacetCoverer {
         cut = choose_cut(piece);
         MESHREPAIR_ASSERT(cut.has_value());
       }
-      divide(std::move(piece), *cut);
+      divide(piece, *cut);
     }
   }
 
   // Cuts a piece and gives each half the triangles that reach to its side.
-  void divide(Piece piece, const Plane& cut) {
+  void divide(const Piece& piece, const Plane& cut) {
     const Halves halves = split(piece.facet, cut);
     ++report_.split_facets;
     Piece positive{halves.positive, {}};
