@@ -49,7 +49,7 @@ CellComplex::CellComplex(const CleanSoup& soup, const GridBox& box)
 }
 
 UseId CellComplex::mate(UseId use, CellId cell) const {
-  for (UseId u = edges[uses[use].edge].first_use; u.valid(); u = uses[u].next_around) {
+  for (UseId u = edges[uses[use].edge()].first_use; u.valid(); u = uses[u].next_around) {
     if (u != use && bounds(uses[u].facet, cell)) return u;
   }
   throw InternalError("internal error: an edge of a cell has only one facet");

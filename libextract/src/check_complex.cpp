@@ -32,7 +32,7 @@ void collect_facet(const CellComplex& complex, CellId cell, FacetId facet, CellE
     require(complex.target(use) == complex.origin(complex.uses[use.next]), "a loop has a gap",
             cell);
     loop.push_back(complex.origin(use));
-    all.directed_edges.emplace_back(use.edge, outward ? use.reversed : 1 - use.reversed);
+    all.directed_edges.emplace_back(use.edge(), outward ? use.reversed() : 1 - use.reversed());
   });
   all.vertices.insert(all.vertices.end(), loop.begin(), loop.end());
   require(loop.size() >= 2, "a loop has fewer than two vertices", cell);
@@ -73,13 +73,12 @@ void require_sound_references(const CellComplex& complex) {
     require_all(complex.uses.contains(e.first_use), "an edge is in no facet");
   }
   for (const Use& u : complex.uses) {
-    require_all(complex.facets.contains(u.facet) && complex.edges.contains(u.edge),
+    require_all(complex.facets.contains(u.facet) && complex.edges.contains(u.edge()),
                 "a use is of no facet or no edge");
     require_all(complex.uses.contains(u.next) && complex.uses.contains(u.previous),
                 "a loop is not closed");
     require_all(!u.next_around.valid() || complex.uses.contains(u.next_around),
                 "a ring goes on to no use");
-    require_all(u.reversed <= 1, "a use has no direction");
   }
   for (const Facet& f : complex.facets) {
     require_all(complex.uses.contains(f.first_use), "a facet has no loop");
@@ -101,7 +100,7 @@ void require_rings(const CellComplex& complex) {
   std::size_t around = 0;
   for (EdgeId e(0u); e < complex.edges.end_id(); ++e.value) {
     for (UseId u = complex.edges[e].first_use; u.valid(); u = complex.uses[u].next_around) {
-      require(complex.uses[u].edge == e, "a use is in the ring of another edge", CellId(0u));
+      require(complex.uses[u].edge() == e, "a use is in the ring of another edge", CellId(0u));
       require(++around <= complex.uses.size(), "a ring does not end", CellId(0u));
     }
   }

@@ -68,7 +68,7 @@ void Clipper::split_into_star(FacetId facet, const std::vector<UseId>& loop, Pla
   // centre.
   const auto centre = facet_centre(complex_, facet);
   FacetId rest = split_and_share(facet, spokes[0], spokes[1], plane);
-  const EdgeId link = complex_.uses[complex_.uses[spokes[1]].previous].edge;
+  const EdgeId link = complex_.uses[complex_.uses[spokes[1]].previous].edge();
   const VertexId hub = internal::split_edge(complex_, link, loose_point(centre));
   ++report_.loose_points;
   vertex_marks_.push_back({stamp_, 0, {}, 0});

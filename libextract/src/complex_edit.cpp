@@ -9,7 +9,7 @@ namespace meshrepair::internal {
 namespace {
 
 void add_around(CellComplex& complex, UseId use) {
-  Edge& edge = complex.edges[complex.uses[use].edge];
+  Edge& edge = complex.edges[complex.uses[use].edge()];
   complex.uses[use].next_around = edge.first_use;
   edge.first_use = use;
 }
@@ -20,7 +20,7 @@ void link(CellComplex& complex, UseId before, UseId after) {
 }
 
 UseId new_use(CellComplex& complex, FacetId facet, EdgeId edge, std::uint32_t reversed) {
-  const UseId use = complex.uses.push_back({facet, edge, reversed, {}, {}, {}});
+  const UseId use = complex.uses.push_back({facet, 2 * edge.value + reversed, {}, {}, {}});
   add_around(complex, use);
   return use;
 }
@@ -95,8 +95,8 @@ VertexId split_edge(CellComplex& complex, EdgeId edge, const Point& at) {
   complex.edges[edge].ends[1] = vertex;
   for (UseId u = old.first_use; u.valid(); u = complex.uses[u].next_around) {
     const Use use = complex.uses[u];
-    const UseId added = new_use(complex, use.facet, rest, use.reversed);
-    if (use.reversed != 0) {
+    const UseId added = new_use(complex, use.facet, rest, use.reversed());
+    if (use.reversed() != 0) {
       link(complex, use.previous, added);
       link(complex, added, u);
     } else {
@@ -149,8 +149,8 @@ CellId separate_cell(CellComplex& complex, CellId cell, PlaneId by, std::span<co
   for (std::size_t i = curve.size(); i-- > 0;) {
     const Use passed = complex.uses[curve[i]];
     const bool stored_outward = complex.facets[passed.facet].below == cell;
-    const std::uint32_t reversed = stored_outward ? 1 - passed.reversed : passed.reversed;
-    const UseId use = new_use(complex, lid, passed.edge, reversed);
+    const std::uint32_t reversed = stored_outward ? 1 - passed.reversed() : passed.reversed();
+    const UseId use = new_use(complex, lid, passed.edge(), reversed);
     if (previous.valid()) {
       link(complex, previous, use);
     } else {

@@ -35,6 +35,7 @@ constexpr std::size_t kJudged = 24;
 // Up to here every triangle is asked what it covers before the facet is cut.
 constexpr std::size_t kFew = 8;
 constexpr std::size_t kTicksPerProgress = 8192;
+constexpr std::size_t kTicksPerQuestion = 256;
 
 class FacetCoverer {
  public:
@@ -72,6 +73,10 @@ class FacetCoverer {
     while (!pieces_.empty()) {
       Piece piece = std::move(pieces_.back());
       pieces_.pop_back();
+      // One facet with very many overlapping triangles may fall into millions of pieces.
+      if (++ticks_ % kTicksPerQuestion == 0 && progress_ != nullptr && progress_->cancelled()) {
+        throw Cancelled();
+      }
       // With many triangles the facet is cut first and asked about later: most of them will be
       // elsewhere.
       std::optional<Plane> cut;
@@ -177,12 +182,12 @@ class FacetCoverer {
       }
     });
     for (const UseId u : crossed_) {
-      const Edge& edge = complex_.edges[complex_.uses[u].edge];
+      const Edge& edge = complex_.edges[complex_.uses[u].edge()];
       const auto& a = complex_.vertices[edge.ends[0]].position;
       const auto& b = complex_.vertices[edge.ends[1]].position;
       const Point at = meet(complex_.planes, edge.planes[0], edge.planes[1], plane,
                             {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
-      internal::split_edge(complex_, complex_.uses[u].edge, at);
+      internal::split_edge(complex_, complex_.uses[u].edge(), at);
     }
     ends_.clear();
     complex_.for_each_use(facet, [&](UseId u) {
@@ -223,6 +228,7 @@ class FacetCoverer {
   std::vector<UseId> crossed_, ends_;  // scratch
   PreparedTriangle prepared_;
   TriangleId prepared_id_;
+  std::size_t ticks_ = 0;
 };
 
 }  // namespace

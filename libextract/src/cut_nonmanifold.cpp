@@ -32,7 +32,7 @@ class NonmanifoldCutter {
 
  private:
   [[nodiscard]] EdgeId edge_of(std::uint32_t side) const {
-    return complex_.uses[boundary_.use[side]].edge;
+    return complex_.uses[boundary_.use[side]].edge();
   }
 
   // first_side_[edge] starts a list through next_side_.

@@ -36,7 +36,7 @@ void Clipper::classify_vertices(CellId cell, PlaneId plane) {
       const int next_side = side_of(v);
       above |= next_side > 0;
       below |= next_side < 0;
-      if (side * next_side < 0) to_split_.push_back(use.edge);
+      if (side * next_side < 0) to_split_.push_back(use.edge());
       if ((side | next_side) == 0) on_plane_.push_back(u);
       side = next_side;
       u = use.next;

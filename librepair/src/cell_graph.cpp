@@ -21,7 +21,8 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
     } else if (!facet.below.valid()) {
       unbounded_[facet.above.index()] = 1;
     } else {
-      links_.push_back({facet.below, facet.above, std::max(facet_area(complex, f), kLeastArea),
+      links_.push_back({facet.below, facet.above,
+                        static_cast<float>(std::max(facet_area(complex, f), kLeastArea)),
                         cover[f].winding, cover[f].opaque()});
       ++first_[facet.below.index() + 1];
       ++first_[facet.above.index() + 1];

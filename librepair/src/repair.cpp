@@ -132,10 +132,14 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
-  const Tree tree = make_tree(soup, options, report, meter);
+  Tree tree = make_tree(soup, options, report, meter);
   meter.begin("orient");
   const auto winding = chosen_windings(tree, options, report);
   const CoveredCells covered = make_cells(tree, winding, options, report, meter);
+  // From here on only the input is needed, not the partition.
+  tree.nodes = {};
+  tree.node_triangles = {};
+  tree.leaves = {};
   const CellLabels labels = find_solid(covered, options, report, meter);
   return find_surface(covered, labels.solid, report, meter);
 }

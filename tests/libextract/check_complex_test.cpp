@@ -30,17 +30,17 @@ FacetId inner_facet(const CellComplex& complex) {
 }
 
 EdgeId inner_edge(const CellComplex& complex) {
-  return complex.uses[complex.facets[inner_facet(complex)].first_use].edge;
+  return complex.uses[complex.facets[inner_facet(complex)].first_use].edge();
 }
 
 std::vector<Damage> damages() {
   return {
       {"UseReversed",
-       [](CellComplex& c) { c.uses[c.facets[inner_facet(c)].first_use].reversed ^= 1; }},
+       [](CellComplex& c) { c.uses[c.facets[inner_facet(c)].first_use].directed_edge ^= 1; }},
       {"UseOfAnotherEdge",
        [](CellComplex& c) {
          Use& use = c.uses[c.facets[inner_facet(c)].first_use];
-         use.edge = c.uses[use.next].edge;
+         use.directed_edge = c.uses[use.next].directed_edge;
        }},
       {"UseOfAnotherFacet",
        [](CellComplex& c) { c.uses[c.facets[inner_facet(c)].first_use].facet = FacetId(0u); }},

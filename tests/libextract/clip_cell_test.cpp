@@ -37,7 +37,7 @@ class ClipCube : public ::testing::Test {
     std::set<EdgeId> edges;
     complex_.for_each_facet(cell, [&](FacetId f) {
       ++c.facets;
-      complex_.for_each_use(f, [&](UseId u) { edges.insert(complex_.uses[u].edge); });
+      complex_.for_each_use(f, [&](UseId u) { edges.insert(complex_.uses[u].edge()); });
     });
     c.vertices = vertices_of(complex_, cell).size();
     c.edges = edges.size();

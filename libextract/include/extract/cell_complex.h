@@ -33,10 +33,14 @@ struct Edge {
 
 struct Use {
   FacetId facet;
-  EdgeId edge;
-  std::uint32_t reversed = 0;  // 1: from ends[1] to ends[0]
-  UseId next, previous;        // in the facet's loop
-  UseId next_around;  // the next use of the same edge; the last is followed by an invalid id
+  // Twice the edge's number, plus 1 when it is passed from ends[1] to ends[0]. Uses are most of a
+  // complex's memory, hence the packing.
+  std::uint32_t directed_edge = ~std::uint32_t{0};
+  UseId next, previous;  // in the facet's loop
+  UseId next_around;     // the next use of the same edge; the last is followed by an invalid id
+
+  [[nodiscard]] EdgeId edge() const { return EdgeId(directed_edge >> 1); }
+  [[nodiscard]] std::uint32_t reversed() const { return directed_edge & 1; }
 };
 
 struct Facet {
@@ -61,9 +65,11 @@ class CellComplex {
   CellComplex(const CleanSoup& soup, const GridBox& box);
 
   [[nodiscard]] const CleanSoup& soup() const { return *soup_; }
-  [[nodiscard]] VertexId origin(const Use& use) const { return edges[use.edge].ends[use.reversed]; }
+  [[nodiscard]] VertexId origin(const Use& use) const {
+    return edges[use.edge()].ends[use.reversed()];
+  }
   [[nodiscard]] VertexId target(const Use& use) const {
-    return edges[use.edge].ends[1 - use.reversed];
+    return edges[use.edge()].ends[1 - use.reversed()];
   }
   [[nodiscard]] bool bounds(FacetId facet, CellId cell) const {
     return facets[facet].above == cell || facets[facet].below == cell;
@@ -74,7 +80,7 @@ class CellComplex {
   }
   // The other plane of the edge: with the facet's own it gives the edge's line.
   [[nodiscard]] PlaneId side_plane(const Use& use) const {
-    const Edge& edge = edges[use.edge];
+    const Edge& edge = edges[use.edge()];
     return edge.planes[0] == facets[use.facet].plane ? edge.planes[1] : edge.planes[0];
   }
   // The use of the same edge by the cell's other facet.

@@ -13,7 +13,7 @@ namespace meshrepair {
 // A facet between two cells.
 struct Link {
   CellId below, above;
-  double area = 0;           // grid units, from rounded coordinates: a weight
+  float area = 0;            // grid units, from rounded coordinates: a weight
   std::int32_t winding = 0;  // of the cover, against the direction from below to above
   bool opaque = false;       // covered by input
 };
