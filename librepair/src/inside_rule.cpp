@@ -87,24 +87,32 @@ class InsideDecider {
   CellLabels by_trust() {
     std::vector<double> w = winding();
     measure_trust(w);
-    const bool near_integers = report_.winding_distance <= options_.trusted_distance;
-    const bool respected = report_.winding_contradiction <= options_.trusted_contradiction;
-    if (near_integers && respected) {
-      // A part that is inside out as a whole has negative windings; it is as solid as the others.
+    const std::string doubt = why_not_winding(w);
+    if (doubt.empty()) {
+      // A soup that is inside out as a whole has negative windings; it is as solid as any other.
       for (double& x : w) x = std::abs(x);
-      CellLabels labels = by_winding(w);
-      if (std::count(labels.solid.begin(), labels.solid.end(), 1) > 0) {
-        report_.used = InsideRule::winding;
-        report_.reason = report_.exact ? "the orientation is consistent everywhere"
-                                       : "the winding numbers are near integers";
-        return labels;
-      }
+      report_.used = InsideRule::winding;
+      report_.reason = report_.exact ? "the orientation is consistent everywhere"
+                                     : "the winding numbers are near integers";
+      return by_winding(w);
     }
     report_.used = InsideRule::solidity;
-    report_.reason = near_integers && respected ? "the winding numbers enclose nothing"
-                     : near_integers            ? "the orientation contradicts itself"
-                                                : "the winding numbers are far from integers";
+    report_.reason = doubt;
     return by_solidity();
+  }
+
+  [[nodiscard]] std::string why_not_winding(const std::vector<double>& w) const {
+    if (report_.winding_distance > options_.trusted_distance) {
+      return "the winding numbers are far from integers";
+    }
+    if (report_.winding_contradiction > options_.trusted_contradiction) {
+      return "the orientation contradicts itself";
+    }
+    const bool positive = std::any_of(w.begin(), w.end(), [](double x) { return x > 0.5; });
+    const bool negative = std::any_of(w.begin(), w.end(), [](double x) { return x < -0.5; });
+    // Where a part that is inside out crosses another, their windings cancel.
+    if (positive && negative) return "some parts are inside out";
+    return positive || negative ? "" : "the winding numbers enclose nothing";
   }
 
   void measure_trust(const std::vector<double>& w) {

@@ -34,10 +34,14 @@ IdVector<TriangleId, std::int32_t> chosen_windings(const Tree& tree, const Repai
                                                       : windings_of(tree.input);
 }
 
-bool lies_in_one_plane(const CleanSoup& soup) {
+// Known before any work, and worth asking: overlaps in one plane fall into very many pieces.
+void require_space(const CleanSoup& soup) {
+  if (soup.triangles.empty()) return;
   const PlaneId first = soup.triangles[TriangleId(0u)].plane;
-  return std::all_of(soup.triangles.begin(), soup.triangles.end(),
-                     [&](const Triangle& t) { return t.plane == first; });
+  if (std::all_of(soup.triangles.begin(), soup.triangles.end(),
+                  [&](const Triangle& t) { return t.plane == first; })) {
+    throw NoSolidError("all triangles lie in one plane, so they enclose nothing");
+  }
 }
 
 CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
@@ -50,9 +54,7 @@ CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
   inside_options.solve.progress = options.progress;
   CellLabels labels = label_cells(graph, inside_options, report.inside);
   if (report.inside.solid_cells == 0) {
-    throw NoSolidError(lies_in_one_plane(covered.complex.soup())
-                           ? "all triangles lie in one plane, so they enclose nothing"
-                           : "the triangles enclose nothing: no part of space is inside");
+    throw NoSolidError("the triangles enclose nothing: no part of space is inside");
   }
   return labels;
 }
@@ -76,7 +78,9 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   report.input_area = surface_area(soup);
   if (clean.triangles.empty()) {
     throw NoSolidError(
-        "no triangle is left: all are degenerate or have coordinates that are not finite");
+        "no triangle is left: all are degenerate, or smaller than the working grid of 2^26 steps "
+        "over "
+        "their bounding box, or have coordinates that are not finite");
   }
   meter.begin("tree");
   BuildTreeOptions tree_options = options.tree;
@@ -113,6 +117,7 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
 
 void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
+  require_space(tree.input);
   meter.begin("orient");
   const auto winding = chosen_windings(tree, options, report);
   const CoveredCells covered = make_cells(tree, winding, options, report, meter);
@@ -133,6 +138,7 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
   Tree tree = make_tree(soup, options, report, meter);
+  require_space(tree.input);
   meter.begin("orient");
   const auto winding = chosen_windings(tree, options, report);
   const CoveredCells covered = make_cells(tree, winding, options, report, meter);
