@@ -51,6 +51,26 @@ std::size_t cost_of(const FragmentPool& pool, std::span<const FragmentId> fragme
          std::min(tally.front, tally.back);
 }
 
+// Offers the planes through an edge of each of two triangles with a corner in common, from that
+// corner. Around the tip of a cone such a plane cuts no triangle, and its base only along a chord:
+// chords between chords cross each triangle of the base a logarithmic number of times, radii would
+// cross it linearly often.
+template <class Offer>
+void offer_planes_of_fan(const CleanSoup& soup, const Triangle& a, const Triangle& b, Offer offer) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (a.corners[i] != b.corners[j]) continue;
+      const GridPoint& tip = soup.grid_points[a.corners[i]];
+      for (std::size_t k = 1; k < 3; ++k) {
+        for (std::size_t l = 1; l < 3; ++l) {
+          offer(plane_through(tip, soup.grid_points[a.corners[(i + k) % 3]],
+                              soup.grid_points[b.corners[(j + l) % 3]]));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 FragmentPlane choose_fragment_plane(const FragmentPool& pool, std::span<const FragmentId> fragments,
@@ -80,17 +100,30 @@ std::optional<Plane> choose_edge_plane(const FragmentPool& pool, const CleanSoup
   const std::size_t count = fragments.size();
   const std::size_t offers = std::min(options.candidates, count);
   std::optional<Plane> best;
+  const auto offer = [&](const Plane& offered) {
+    if (is_null(offered)) return;
+    const std::size_t cost = cost_of(pool, fragments, offered, PlaneId(), options, to_beat);
+    const bool tie_won = best && cost == to_beat && comes_before(offered, *best);
+    if (cost >= to_beat && !tie_won) return;
+    to_beat = cost;
+    best = offered;
+  };
+  const auto triangle_offering = [&](std::size_t k) -> const Triangle& {
+    return soup.triangles[pool[fragments[k * count / offers]].triangle];
+  };
   for (std::size_t k = 0; k < offers; ++k) {
-    const Triangle& triangle = soup.triangles[pool[fragments[k * count / offers]].triangle];
+    for (std::size_t j = 0; j < k; ++j) {
+      offer_planes_of_fan(soup, triangle_offering(j), triangle_offering(k), offer);
+    }
+  }
+  // A plane of a fan that cuts almost nothing needs no rival.
+  if (best && to_beat <= std::min(options.judged_fragments, count) / 4) return best;
+  for (std::size_t k = 0; k < offers; ++k) {
+    const Triangle& triangle = triangle_offering(k);
     const int axis = dominant_axis(pool.planes()[triangle.plane]);
     for (std::size_t e = 0; e < 3; ++e) {
-      const Plane offered = plane_along_axis(soup.grid_points[triangle.corners[e]],
-                                             soup.grid_points[triangle.corners[(e + 1) % 3]], axis);
-      const std::size_t cost = cost_of(pool, fragments, offered, PlaneId(), options, to_beat);
-      const bool tie_won = best && cost == to_beat && comes_before(offered, *best);
-      if (cost >= to_beat && !tie_won) continue;
-      to_beat = cost;
-      best = offered;
+      offer(plane_along_axis(soup.grid_points[triangle.corners[e]],
+                             soup.grid_points[triangle.corners[(e + 1) % 3]], axis));
     }
   }
   return best;

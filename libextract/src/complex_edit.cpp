@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <bsp/assert.h>
+#include <bsp/error.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -105,6 +106,23 @@ VertexId split_edge(CellComplex& complex, EdgeId edge, const Point& at) {
     }
   }
   return vertex;
+}
+
+UseId find_mate(CellComplex& complex, UseId use, CellId cell) {
+  Edge& edge = complex.edges[complex.uses[use].edge()];
+  UseId before;
+  for (UseId u = edge.first_use; u.valid(); u = complex.uses[u].next_around) {
+    if (u != use && complex.bounds(complex.uses[u].facet, cell)) {
+      if (before.valid()) {
+        complex.uses[before].next_around = complex.uses[u].next_around;
+        complex.uses[u].next_around = edge.first_use;
+        edge.first_use = u;
+      }
+      return u;
+    }
+    before = u;
+  }
+  throw InternalError("internal error: an edge of a cell has only one facet");
 }
 
 FacetId split_facet(CellComplex& complex, FacetId facet, UseId from, UseId to, PlaneId by) {

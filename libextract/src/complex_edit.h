@@ -14,6 +14,10 @@ void make_box(CellComplex& complex, const GridBox& box);
 // facets around it follow.
 VertexId split_edge(CellComplex& complex, EdgeId edge, const Point& at);
 
+// CellComplex::mate(), which it also moves to the front of the ring around the edge. Thousands of
+// facets may share an edge, but those of the cells that are cut now are asked for again and again.
+UseId find_mate(CellComplex& complex, UseId use, CellId cell);
+
 // Splits a facet by an edge from the origin of `from` to the origin of `to`, uses of its loop that
 // are not neighbours. The facet keeps the part that starts with `from`; the part that starts with
 // `to` becomes the new facet, which is returned. The line of the new edge is that of the facet's

@@ -30,6 +30,10 @@ void Clipper::sort_by_side() {
   for (const FacetId f : facets_) (facet_sides_[f] == kBelow ? below_ : above_).push_back(f);
 }
 
+FacetId Clipper::across(UseId use, CellId cell) {
+  return complex_.uses[internal::find_mate(complex_, use, cell)].facet;
+}
+
 // An edge between a facet below and one above has both ends on the plane, so it was there and seen
 // while classifying, or a facet's clipping made it.
 void Clipper::collect_curve_from_clips(CellId cell) {

@@ -30,6 +30,13 @@ TEST(Repair, CubeStaysACube) {
   EXPECT_DOUBLE_EQ(result.report.output_volume, 1);
 }
 
+// Radii through the tip of a cone would cut each triangle of its base into very many pieces.
+TEST(Repair, BaseOfAConeFallsIntoFewPieces) {
+  const RepairResult result = repair(cone(2000));
+  expect_solid(result);
+  EXPECT_LT(result.report.cover.split_facets, 12000u);
+}
+
 TEST(Repair, NothingEnclosedIsNoSolid) {
   TriangleSoup soup;
   soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

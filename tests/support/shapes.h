@@ -94,6 +94,21 @@ inline TriangleSoup sphere(std::size_t triangles, double radius = 1,
   return soup;
 }
 
+// A cone of height 1 on a disk of radius 1, the disk a fan from one point of its rim.
+inline TriangleSoup cone(std::uint32_t sides) {
+  TriangleSoup soup;
+  soup.points.emplace_back(0, 0, 1);
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    soup.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+  }
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    soup.triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
+  }
+  for (std::uint32_t i = 1; i + 1 < sides; ++i) soup.triangles.push_back({1, 2 + i, 1 + i});
+  return soup;
+}
+
 inline TriangleSoup torus(std::uint32_t around, std::uint32_t across, double large = 2,
                           double small = 0.7) {
   TriangleSoup soup;

@@ -64,9 +64,7 @@ class Clipper {
   void force_farthest_above(PlaneId plane);
 
   [[nodiscard]] int side_of(VertexId v) const { return vertex_marks_[v].side; }
-  [[nodiscard]] FacetId across(UseId use, CellId cell) const {
-    return complex_.uses[complex_.mate(use, cell)].facet;
-  }
+  [[nodiscard]] FacetId across(UseId use, CellId cell);
   [[nodiscard]] FacetId lowest_facet(PlaneId plane) const;
 
   struct VertexMark {
