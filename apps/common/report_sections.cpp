@@ -99,6 +99,9 @@ Json section_of(const InsideReport& inside) {
 
 Json section_of(const ExtractReport& extract) {
   return {{"boundary_facets", extract.boundary_facets},
+          {"unmerged_triangles", extract.unmerged_triangles},
+          {"regions", extract.regions},
+          {"untouched_triangles", extract.untouched_triangles},
           {"singular_edges", extract.singular_edges},
           {"singular_vertices", extract.singular_vertices},
           {"middle_vertices", extract.middle_vertices}};

@@ -15,53 +15,70 @@ namespace {
 
 constexpr std::uint32_t kNone = ManifoldCorners::kNone;
 
-class NonmanifoldCutter {
+// The sides of polygons, listed by the edge of the complex that they run along.
+class SidesByEdge {
  public:
-  NonmanifoldCutter(const CellComplex& complex, const Boundary& boundary,
-                    const std::vector<char>& solid)
-      : complex_(complex), boundary_(boundary), solid_(solid), fans_(boundary.sides()) {}
-
-  ManifoldCorners run() {
-    list_sides_by_edge();
-    pair_sides();
-    join_corners();
-    number_vertices();
-    separate_common_edges();
-    return std::move(result_);
-  }
-
- private:
-  [[nodiscard]] EdgeId edge_of(std::uint32_t side) const {
-    return complex_.uses[boundary_.use[side]].edge();
-  }
-
-  // first_side_[edge] starts a list through next_side_.
-  void list_sides_by_edge() {
-    first_side_.assign(complex_.edges.size(), kNone);
-    next_side_.assign(boundary_.sides(), kNone);
-    for (auto s = static_cast<std::uint32_t>(boundary_.sides()); s-- > 0;) {
-      std::uint32_t& first = first_side_[edge_of(s)];
-      next_side_[s] = first;
+  SidesByEdge(const CellComplex& complex, const Boundary& boundary)
+      : first_(complex.edges.size(), kNone), next_(boundary.sides(), kNone) {
+    for (auto s = static_cast<std::uint32_t>(boundary.sides()); s-- > 0;) {
+      std::uint32_t& first = first_[complex.uses[boundary.use[s]].edge()];
+      next_[s] = first;
       first = s;
     }
   }
 
+  // For each edge the first of its sides; kNone for edges without.
+  [[nodiscard]] const IdVector<EdgeId, std::uint32_t>& first() const { return first_; }
+  [[nodiscard]] std::uint32_t next(std::uint32_t side) const { return next_[side]; }
+  // More than two sides?
+  [[nodiscard]] bool singular(std::uint32_t first) const {
+    return first != kNone && next_[next_[first]] != kNone;
+  }
+
+ private:
+  IdVector<EdgeId, std::uint32_t> first_;
+  std::vector<std::uint32_t> next_;
+};
+
+class NonmanifoldCutter {
+ public:
+  NonmanifoldCutter(const CellComplex& complex, const Boundary& boundary,
+                    const std::vector<char>& solid)
+      : complex_(complex),
+        boundary_(boundary),
+        solid_(solid),
+        sides_(complex, boundary),
+        fans_(boundary.sides()) {}
+
+  ManifoldCorners run() {
+    pair_sides();
+    join_corners();
+    number_vertices();
+    mark_ends_of_singular_edges();
+    return std::move(result_);
+  }
+
+ private:
   void pair_sides() {
-    mate_.assign(boundary_.sides(), kNone);
-    for (const std::uint32_t first : first_side_) {
+    result_.mate.assign(boundary_.sides(), kNone);
+    for (const std::uint32_t first : sides_.first()) {
       if (first == kNone) continue;
-      const std::uint32_t second = next_side_[first];
+      const std::uint32_t second = sides_.next(first);
       MESHREPAIR_ASSERT(second != kNone);
-      if (next_side_[second] == kNone) {
-        mate_[first] = second;
-        mate_[second] = first;
+      if (!sides_.singular(first)) {
+        join(first, second);
         continue;
       }
       ++result_.singular_edges;
-      for (std::uint32_t s = first; s != kNone; s = next_side_[s]) {
-        if (mate_[s] == kNone) pair_through_solid(first, s);
+      for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
+        if (result_.mate[s] == kNone) pair_through_solid(first, s);
       }
     }
+  }
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    result_.mate[a] = b;
+    result_.mate[b] = a;
   }
 
   // Turns around the edge from a side's facet through its solid cell until the next boundary facet.
@@ -75,10 +92,9 @@ class NonmanifoldCutter {
       if (!beyond.valid() || solid_[beyond.index()] == 0) break;
       cell = beyond;
     }
-    for (std::uint32_t s = first; s != kNone; s = next_side_[s]) {
+    for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
       if (boundary_.use[s] != use) continue;
-      mate_[side] = s;
-      mate_[s] = side;
+      join(side, s);
       return;
     }
     throw InternalError("internal error: a wedge of solid cells does not end at a boundary facet");
@@ -92,47 +108,41 @@ class NonmanifoldCutter {
   void join_corners() {
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
       // A side starts where its mate ends.
-      fans_.join(s, boundary_.next(mate_[s]));
+      fans_.join(s, boundary_.next(result_.mate[s]));
     }
   }
 
   void number_vertices() {
     result_.vertex.resize(boundary_.sides());
-    std::vector<char> seen(complex_.vertices.size(), 0);
+    // For each vertex of the complex its first copy.
+    std::vector<std::uint32_t> copy(complex_.vertices.size(), kNone);
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
       const std::uint32_t r = fans_.root(s);
-      if (r == s) {
-        result_.vertex[s] = static_cast<std::uint32_t>(result_.vertex_corner.size());
-        result_.vertex_corner.push_back(s);
-        char& copies = seen[corner_vertex(complex_, boundary_, s, solid_).index()];
-        if (copies == 1) ++result_.singular_vertices;
-        if (copies < 2) ++copies;
-      } else {
+      if (r != s) {
         result_.vertex[s] = result_.vertex[r];
+        continue;
+      }
+      const auto added = static_cast<std::uint32_t>(result_.vertices());
+      result_.vertex[s] = added;
+      result_.vertex_corner.push_back(s);
+      std::uint32_t& first = copy[corner_vertex(complex_, boundary_, s, solid_).index()];
+      result_.singular.push_back(first != kNone ? 1 : 0);
+      if (first == kNone) {
+        first = added;
+      } else if (result_.singular[first] == 0) {
+        result_.singular[first] = 1;
+        ++result_.singular_vertices;
       }
     }
   }
 
-  // Two wedges at one edge whose ends are in the same fans: the edge would have four triangles.
-  void separate_common_edges() {
-    result_.middle.assign(boundary_.sides(), kNone);
+  void mark_ends_of_singular_edges() {
     if (result_.singular_edges == 0) return;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> seen;
-    for (const std::uint32_t first : first_side_) {
-      if (first == kNone || next_side_[next_side_[first]] == kNone) continue;
-      seen.clear();
-      for (std::uint32_t s = first; s != kNone; s = next_side_[s]) {
-        if (mate_[s] < s) continue;
-        const auto ends = std::minmax(result_.vertex[s], result_.vertex[boundary_.next(s)]);
-        const std::pair<std::uint32_t, std::uint32_t> key(ends.first, ends.second);
-        if (std::find(seen.begin(), seen.end(), key) == seen.end()) {
-          seen.push_back(key);
-          continue;
-        }
-        const auto middle = static_cast<std::uint32_t>(result_.vertices());
-        result_.middle_side.push_back(s);
-        result_.middle[s] = middle;
-        result_.middle[mate_[s]] = middle;
+    for (const std::uint32_t first : sides_.first()) {
+      if (!sides_.singular(first)) continue;
+      for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
+        result_.singular[result_.vertex[s]] = 1;
+        result_.singular[result_.vertex[boundary_.next(s)]] = 1;
       }
     }
   }
@@ -140,9 +150,7 @@ class NonmanifoldCutter {
   const CellComplex& complex_;
   const Boundary& boundary_;
   const std::vector<char>& solid_;
-  IdVector<EdgeId, std::uint32_t> first_side_;
-  std::vector<std::uint32_t> next_side_;
-  std::vector<std::uint32_t> mate_;
+  SidesByEdge sides_;
   DisjointSets fans_;
   ManifoldCorners result_;
 };
@@ -152,6 +160,35 @@ class NonmanifoldCutter {
 ManifoldCorners cut_nonmanifold(const CellComplex& complex, const Boundary& boundary,
                                 const std::vector<char>& solid) {
   return NonmanifoldCutter(complex, boundary, solid).run();
+}
+
+MiddleVertices separate_common_edges(const CellComplex& complex, const Boundary& boundary,
+                                     const ManifoldCorners& corners,
+                                     const std::vector<char>& dissolved) {
+  MiddleVertices middles;
+  if (corners.singular_edges == 0) return middles;
+  middles.of_side.assign(boundary.sides(), kNone);
+  const SidesByEdge sides(complex, boundary);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> taken;
+  for (const std::uint32_t first : sides.first()) {
+    if (!sides.singular(first)) continue;
+    taken.clear();
+    // Sides that dissolve come first: a diagonal of their polygon may take their place.
+    for (const bool dissolving : {true, false}) {
+      for (std::uint32_t s = first; s != kNone; s = sides.next(s)) {
+        if (corners.mate[s] < s || (dissolved[s] != 0) != dissolving) continue;
+        const auto ends = std::minmax(corners.vertex[s], corners.vertex[boundary.next(s)]);
+        const std::pair<std::uint32_t, std::uint32_t> key(ends.first, ends.second);
+        if (std::find(taken.begin(), taken.end(), key) == taken.end()) {
+          taken.push_back(key);
+        } else if (!dissolving) {
+          const auto middle = static_cast<std::uint32_t>(middles.count++);
+          middles.of_side[s] = middles.of_side[corners.mate[s]] = middle;
+        }
+      }
+    }
+  }
+  return middles;
 }
 
 }  // namespace meshrepair

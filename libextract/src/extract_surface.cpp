@@ -1,76 +1,141 @@
-#include <bsp/predicates.h>
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include <extract/boundary.h>
 #include <extract/cut_nonmanifold.h>
 #include <extract/extract_surface.h>
+#include <extract/merge_facets.h>
 #include <extract/triangulate.h>
 
 #include "input_points.h"
+#include "region_triangulator.h"
 
 namespace meshrepair {
 namespace {
+
+using internal::RegionTriangle;
+
+constexpr std::uint32_t kNone = ManifoldCorners::kNone;
 
 class SurfaceExtractor {
  public:
   SurfaceExtractor(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
                    const std::vector<char>& solid)
-      : complex_(complex), cover_(cover), solid_(solid) {}
+      : complex_(complex),
+        cover_(cover),
+        solid_(solid),
+        boundary_(find_boundary(complex, solid)),
+        corners_(cut_nonmanifold(complex, boundary_, solid)),
+        merged_(merge_facets(complex, cover, solid, boundary_, corners_)),
+        middles_(separate_common_edges(complex, boundary_, corners_, merged_.dissolved)),
+        input_points_(complex.soup()) {}
 
   Surface run(ExtractReport& report) {
-    boundary_ = find_boundary(complex_, solid_);
-    corners_ = cut_nonmanifold(complex_, boundary_, solid_);
-    place_vertices();
-    for (std::uint32_t p = 0; p < boundary_.polygons(); ++p) triangulate(p);
-    report = {boundary_.polygons(), corners_.singular_edges, corners_.singular_vertices,
-              corners_.middle_side.size()};
+    output_vertex_.assign(corners_.vertices(), kNone);
+    output_middle_.assign(middles_.count, kNone);
+    internal::RegionTriangulator triangulator(complex_, solid_, boundary_, corners_, merged_);
+    std::vector<RegionTriangle> triangles;
+    for (std::size_t region = 0; region < merged_.regions(); ++region) {
+      triangulator.run(region, triangles);
+      add(triangles, cover_[boundary_.facet[merged_.polygons_of(region)[0]]].triangle);
+    }
+    report.boundary_facets = boundary_.polygons();
+    report.regions = merged_.regions();
+    report.unmerged_triangles = triangulator.unmerged_triangles();
+    report.untouched_triangles = untouched_triangles_;
+    report.singular_edges = corners_.singular_edges;
+    report.singular_vertices = corners_.singular_vertices;
+    report.middle_vertices = middles_.count;
     return std::move(surface_);
   }
 
  private:
-  void place_vertices() {
-    const internal::InputPoints input(complex_.soup());
-    auto& points = surface_.mesh.points;
-    points.reserve(corners_.vertices());
-    for (const std::uint32_t side : corners_.vertex_corner) {
-      const Point& at = complex_.vertices[corner_vertex(complex_, boundary_, side, solid_)];
-      points.push_back(input.place(at, complex_.planes));
+  void add(std::vector<RegionTriangle>& triangles, TriangleId covering) {
+    std::uint32_t source = Surface::kNoSource;
+    if (covering.valid()) {
+      const Triangle& input = complex_.soup().triangles[covering];
+      source = input.source;
+      if (triangles.size() == 1 && turn_like(input, triangles[0])) ++untouched_triangles_;
     }
-    for (const std::uint32_t side : corners_.middle_side) {
-      points.push_back(0.5 * points[corners_.vertex[side]] +
-                       0.5 * points[corners_.vertex[boundary_.next(side)]]);
-    }
+    for (const RegionTriangle& t : triangles) add(t, source);
   }
 
-  void triangulate(std::uint32_t polygon) {
+  // If the triangle has the corners of the input triangle, makes it start at the same one.
+  bool turn_like(const Triangle& input, RegionTriangle& triangle) const {
+    const auto lies_at = [&](std::uint32_t vertex, PointId corner) {
+      const Point& at = point_of(vertex);
+      return at.is_lattice() && at.lattice() == complex_.soup().grid_points[corner];
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!lies_at(triangle.vertices[k], input.corners[0])) continue;
+      std::rotate(triangle.vertices.begin(), triangle.vertices.begin() + static_cast<long>(k),
+                  triangle.vertices.end());
+      std::rotate(triangle.sides.begin(), triangle.sides.begin() + static_cast<long>(k),
+                  triangle.sides.end());
+      return (lies_at(triangle.vertices[1], input.corners[1]) &&
+              lies_at(triangle.vertices[2], input.corners[2])) ||
+             (lies_at(triangle.vertices[1], input.corners[2]) &&
+              lies_at(triangle.vertices[2], input.corners[1]));
+    }
+    return false;
+  }
+
+  void add(const RegionTriangle& triangle, std::uint32_t source) {
     corner_list_.clear();
     vertex_list_.clear();
-    for (std::uint32_t s = boundary_.first[polygon]; s < boundary_.first[polygon + 1]; ++s) {
-      const Vec3d& at = surface_.mesh.points[corners_.vertex[s]];
-      corner_list_.push_back({{at.x(), at.y(), at.z()}, is_straight(polygon, s)});
-      vertex_list_.push_back(corners_.vertex[s]);
-      if (corners_.middle[s] == ManifoldCorners::kNone) continue;
-      const Vec3d& middle = surface_.mesh.points[corners_.middle[s]];
-      corner_list_.push_back({{middle.x(), middle.y(), middle.z()}, true});
-      vertex_list_.push_back(corners_.middle[s]);
+    bool has_middle = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      add_corner(output_vertex(triangle.vertices[k]), false);
+      const std::uint32_t s = triangle.sides[k];
+      if (middles_.count == 0 || s == kNone || middles_.of_side[s] == kNone) continue;
+      add_corner(output_middle(s), true);
+      has_middle = true;
     }
-    triangles_.clear();
-    triangulate_convex(corner_list_, triangles_);
-    const TriangleId covering = cover_[boundary_.facet[polygon]].triangle;
-    const std::uint32_t source =
-        covering.valid() ? complex_.soup().triangles[covering].source : Surface::kNoSource;
-    for (const auto& t : triangles_) {
+    pieces_.clear();
+    if (has_middle) {
+      triangulate_convex(corner_list_, pieces_);
+    } else {
+      pieces_.push_back({0, 1, 2});
+    }
+    for (const auto& t : pieces_) {
       surface_.mesh.triangles.push_back(
           {vertex_list_[t[0]], vertex_list_[t[1]], vertex_list_[t[2]]});
       surface_.source.push_back(source);
     }
   }
 
-  // Whether the corner at the start of side s lies on the straight line from its neighbours.
-  [[nodiscard]] bool is_straight(std::uint32_t polygon, std::uint32_t s) const {
-    const std::uint32_t before =
-        s > boundary_.first[polygon] ? s - 1 : boundary_.first[polygon + 1] - 1;
-    const PlaneId line = complex_.side_plane(complex_.uses[boundary_.use[before]]);
-    const VertexId after = corner_vertex(complex_, boundary_, boundary_.next(s), solid_);
-    return side(complex_.vertices[after], line, complex_.planes) == 0;
+  void add_corner(std::uint32_t output, bool straight) {
+    const Vec3d& at = surface_.mesh.points[output];
+    corner_list_.push_back({{at.x(), at.y(), at.z()}, straight});
+    vertex_list_.push_back(output);
+  }
+
+  // Vertices are numbered in the order in which triangles use them.
+  std::uint32_t output_vertex(std::uint32_t vertex) {
+    std::uint32_t& output = output_vertex_[vertex];
+    if (output == kNone) {
+      output = static_cast<std::uint32_t>(surface_.mesh.points.size());
+      surface_.mesh.points.push_back(input_points_.place(point_of(vertex), complex_.planes));
+    }
+    return output;
+  }
+
+  std::uint32_t output_middle(std::uint32_t side) {
+    std::uint32_t& output = output_middle_[middles_.of_side[side]];
+    if (output == kNone) {
+      const std::uint32_t a = output_vertex(corners_.vertex[side]);
+      const std::uint32_t b = output_vertex(corners_.vertex[boundary_.next(side)]);
+      output = static_cast<std::uint32_t>(surface_.mesh.points.size());
+      const Vec3d middle = 0.5 * surface_.mesh.points[a] + 0.5 * surface_.mesh.points[b];
+      surface_.mesh.points.push_back(middle);
+    }
+    return output;
+  }
+
+  [[nodiscard]] const Point& point_of(std::uint32_t vertex) const {
+    return complex_
+        .vertices[corner_vertex(complex_, boundary_, corners_.vertex_corner[vertex], solid_)];
   }
 
   const CellComplex& complex_;
@@ -78,10 +143,15 @@ class SurfaceExtractor {
   const std::vector<char>& solid_;
   Boundary boundary_;
   ManifoldCorners corners_;
+  MergedFacets merged_;
+  MiddleVertices middles_;
+  internal::InputPoints input_points_;
   Surface surface_;
+  std::size_t untouched_triangles_ = 0;
+  std::vector<std::uint32_t> output_vertex_, output_middle_;
   std::vector<PolygonCorner> corner_list_;
   std::vector<std::uint32_t> vertex_list_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::array<std::uint32_t, 3>> pieces_;
 };
 
 }  // namespace

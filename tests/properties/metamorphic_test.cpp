@@ -1,5 +1,6 @@
 // What a change of the input must do to the output.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 #include <string>
@@ -50,6 +51,22 @@ void expect_same_bits(const TriangleSoup& a, const TriangleSoup& b) {
           << "point " << i;
     }
   }
+}
+
+// The triangles by their coordinates, each from its lowest corner on, sorted.
+std::vector<std::array<std::array<double, 3>, 3>> triangles_by_place(const TriangleSoup& mesh) {
+  std::vector<std::array<std::array<double, 3>, 3>> all;
+  for (const auto& t : mesh.triangles) {
+    auto& triangle = all.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d& p = mesh.points[t[k]];
+      triangle[k] = {p.x(), p.y(), p.z()};
+    }
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                triangle.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 void expect_same_mesh(const std::optional<RepairResult>& a, const std::optional<RepairResult>& b) {
@@ -167,7 +184,8 @@ TEST_P(Metamorphic, FlippingAnySubsetGivesTheSameBytesBySolidity) {
   });
 }
 
-TEST_P(Metamorphic, RotatingCornersGivesTheSameBytes) {
+// A triangle that comes out whole starts at the corner at which it came in.
+TEST_P(Metamorphic, RotatingCornersGivesTheSameTriangles) {
   for_seeds(6, [](const TriangleSoup& soup, std::uint64_t seed) {
     TriangleSoup rotated = soup;
     Random random(seed);
@@ -175,7 +193,11 @@ TEST_P(Metamorphic, RotatingCornersGivesTheSameBytes) {
       std::rotate(t.begin(), t.begin() + random.integer(0, 2), t.end());
     }
     for (const InsideRule rule : {InsideRule::automatic, InsideRule::solidity}) {
-      expect_same_mesh(try_repair(soup, rule), try_repair(rotated, rule));
+      const auto a = try_repair(soup, rule);
+      const auto b = try_repair(rotated, rule);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (!a) continue;
+      EXPECT_EQ(triangles_by_place(a->surface.mesh), triangles_by_place(b->surface.mesh));
     }
   });
 }

@@ -22,6 +22,10 @@ struct Boundary {
     const std::uint32_t p = polygon[side];
     return side + 1 < first[p + 1] ? side + 1 : first[p];
   }
+  [[nodiscard]] std::uint32_t previous(std::uint32_t side) const {
+    const std::uint32_t p = polygon[side];
+    return side > first[p] ? side - 1 : first[p + 1] - 1;
+  }
 };
 
 // `solid` says for each cell whether it is part of the solid; what lies outside the box is empty.

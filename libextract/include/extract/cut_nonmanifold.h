@@ -11,22 +11,35 @@ namespace meshrepair {
 
 struct ManifoldCorners {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> mate;    // for each side the one it is joined to
   std::vector<std::uint32_t> vertex;  // output vertex of the corner at the start of each side
-  std::vector<std::uint32_t> middle;  // output vertex in the middle of each side, or kNone
-  std::vector<std::uint32_t> vertex_corner;  // for each output vertex a side that starts at it ...
-  std::vector<std::uint32_t> middle_side;    // ... then for each middle vertex a side it lies on
-  std::size_t singular_edges = 0;            // with more than two polygons
-  std::size_t singular_vertices = 0;         // that were copied, once for each fan
+  std::vector<std::uint32_t> vertex_corner;  // for each output vertex a side that starts at it
+  std::vector<char> singular;         // for each output vertex: do others lie at its place, or
+                                      // is it an end of an edge with more than two polygons?
+  std::size_t singular_edges = 0;     // with more than two polygons
+  std::size_t singular_vertices = 0;  // that were copied, once for each fan
 
-  [[nodiscard]] std::size_t vertices() const { return vertex_corner.size() + middle_side.size(); }
+  [[nodiscard]] std::size_t vertices() const { return vertex_corner.size(); }
 };
 
 // Around an edge the polygons that bound the same solid wedge are joined, so solids that only touch
-// are separated; around a vertex each fan of joined polygons gets a copy of its own. Where two
-// wedges at an edge would still share both end vertices, all but the first get a vertex in the
-// middle of the edge. The result is a closed 2-manifold, by construction. Linear, but for edges
-// with very many polygons.
+// are separated; around a vertex each fan of joined polygons gets a copy of its own. The result is
+// a closed 2-manifold of polygons, by construction; as an indexed mesh it still needs
+// separate_common_edges(). Linear, but for edges with very many polygons.
 [[nodiscard]] ManifoldCorners cut_nonmanifold(const CellComplex& complex, const Boundary& boundary,
                                               const std::vector<char>& solid);
+
+// Where two wedges at an edge share both end vertices, the edge would have four triangles in an
+// indexed mesh: says at which pairs of joined sides to put a vertex in the middle. `dissolved` says
+// for each side whether it will not be an edge of the mesh. Returns for each side the number of its
+// middle vertex, or kNone; mates have the same.
+struct MiddleVertices {
+  std::vector<std::uint32_t> of_side;  // empty when there are none
+  std::size_t count = 0;
+};
+[[nodiscard]] MiddleVertices separate_common_edges(const CellComplex& complex,
+                                                   const Boundary& boundary,
+                                                   const ManifoldCorners& corners,
+                                                   const std::vector<char>& dissolved);
 
 }  // namespace meshrepair

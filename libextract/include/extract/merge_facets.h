@@ -1,0 +1,40 @@
+// Which boundary facets become one polygon of the output, and which vertices go.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <extract/boundary.h>
+#include <extract/cover_facets.h>
+#include <extract/cut_nonmanifold.h>
+
+namespace meshrepair {
+
+// A region is a connected set of boundary facets that are covered by the same triangle of the
+// input, or that are not covered and lie in one plane. Its outline may have holes and may touch
+// itself at vertices.
+struct MergedFacets {
+  std::vector<std::uint32_t> region;        // of each polygon of the boundary
+  std::vector<std::uint32_t> first;         // region r has the polygons list[first[r]] ...
+  std::vector<std::uint32_t> list;          // ... to list[first[r + 1] - 1]
+  std::vector<std::uint32_t> kept_corners;  // of each region's outline
+  std::vector<char> kept;                   // of each vertex
+  std::vector<char> dissolved;              // of each side: both its polygons are in one region
+
+  [[nodiscard]] std::size_t regions() const { return kept_corners.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> polygons_of(std::size_t r) const {
+    return {list.data() + first[r], first[r + 1] - first[r]};
+  }
+};
+
+// Vertices inside a region go, and so does a vertex at which just two regions meet in a straight
+// line, unless other solids touch there. Regions are in the order of the input triangles that cover
+// them; those that are not covered come last. Combinatorial: no tolerance is involved.
+[[nodiscard]] MergedFacets merge_facets(const CellComplex& complex,
+                                        const IdVector<FacetId, Cover>& cover,
+                                        const std::vector<char>& solid, const Boundary& boundary,
+                                        const ManifoldCorners& corners);
+
+}  // namespace meshrepair

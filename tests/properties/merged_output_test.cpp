@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <repair/repair.h>
+
+#include "complexes.h"
+#include "degenerate_soups.h"
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+using Place = std::array<double, 3>;
+
+std::multiset<std::array<Place, 3>> triangles_of(const TriangleSoup& mesh) {
+  std::multiset<std::array<Place, 3>> all;
+  for (const auto& t : mesh.triangles) {
+    std::array<Place, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d& p = mesh.points[t[k]];
+      triangle[k] = {p.x(), p.y(), p.z()};
+    }
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                triangle.end());
+    all.insert(triangle);
+  }
+  return all;
+}
+
+RepairResult repaired(const TriangleSoup& soup) {
+  RepairResult result = repair(soup);
+  expect_closed_manifold(result.surface.mesh);
+  return result;
+}
+
+TEST(MergedOutput, SoundMeshesComeOutBitForBit) {
+  const Eigen::Matrix3d turned =
+      Eigen::AngleAxisd(0.7, Vec3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (const TriangleSoup& soup :
+       {cube(), sphere(500), torus(20, 12), cone(50), transformed(sphere(300), turned),
+        transformed(torus(13, 9), turned), moved(cube(), {1e3, 2e-3, 0.1})}) {
+    const RepairResult result = repaired(soup);
+    EXPECT_EQ(triangles_of(result.surface.mesh), triangles_of(soup));
+    EXPECT_EQ(result.report.extract.untouched_triangles, soup.triangles.size());
+  }
+}
+
+TEST(MergedOutput, TrianglesKeepTheirFirstCorner) {
+  const TriangleSoup soup = torus(9, 7);
+  const RepairResult result = repaired(soup);
+  for (std::size_t t = 0; t < result.surface.mesh.triangles.size(); ++t) {
+    const auto& from = soup.triangles[result.surface.source[t]];
+    const auto& to = result.surface.mesh.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(result.surface.mesh.points[to[k]], soup.points[from[k]]);
+    }
+  }
+}
+
+// Two boxes that share part of a side: what is left of each side is one polygon, with a notch or a
+// hole.
+TEST(MergedOutput, PolygonsMayHaveHoles) {
+  TriangleSoup soup = box({0, 0, 0}, {10, 10, 10});
+  append(soup, box({4, 4, 9}, {6, 6, 12}));
+  const RepairResult result = repaired(soup);
+  EXPECT_NEAR(signed_volume(result.surface.mesh), 1000 + 8, 1e-9);
+  // Whole: ten of the large box, two of the small one. The two with half a hole each have six
+  // corners and the places where the diagonals of the small box's sides arrive, two each: twelve
+  // triangles. Each side of the small box is a triangle and a quadrangle: twelve again.
+  EXPECT_EQ(result.report.extract.untouched_triangles, 12u);
+  EXPECT_EQ(result.surface.mesh.triangles.size(), 36u);
+}
+
+TEST(MergedOutput, OutputIsNoLargerThanTheArrangementAsksFor) {
+  TriangleSoup soup = sphere(2000);
+  append(soup, moved(sphere(2000), {0.7, 0.1, 0.2}));
+  const RepairResult result = repaired(soup);
+  EXPECT_LT(result.surface.mesh.triangles.size(), soup.triangles.size());
+  EXPECT_GT(result.report.extract.unmerged_triangles, 3 * result.surface.mesh.triangles.size());
+}
+
+// No triangle may vanish or turn round: areas add up to those of the facets.
+TEST(MergedOutput, AreaAndVolumeStay) {
+  for (const SoupFamily& family : degenerate_families()) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      SCOPED_TRACE(family.name + " " + std::to_string(seed));
+      Cells cells = cells_of(family.make(seed));
+      const auto cover = cover_of(cells);
+      Random random(seed);
+      std::vector<char> solid(cells.complex.cells.size(), 0);
+      for (char& s : solid) s = random.chance(0.5) ? 1 : 0;
+      ExtractReport report;
+      const Surface surface = extract_surface(cells.complex, cover, solid, report);
+      expect_closed_manifold(surface.mesh);
+      double area = 0, volume = 0;
+      const double unit = cells.complex.soup().grid.unit;
+      for (const Facet& f : cells.complex.facets) {
+        const auto is_solid = [&](CellId c) { return c.valid() && solid[c.index()] != 0; };
+        if (is_solid(f.above) != is_solid(f.below)) {
+          area += facet_area(
+                      cells.complex,
+                      FacetId(static_cast<std::size_t>(&f - cells.complex.facets.raw().data()))) *
+                  unit * unit;
+        }
+      }
+      for (CellId c(0u); c < cells.complex.cells.end_id(); ++c.value) {
+        if (solid[c.index()] != 0) volume += cell_volume(cells.complex, c) * unit * unit * unit;
+      }
+      EXPECT_NEAR(surface_area(surface.mesh), area, 1e-9 * area);
+      EXPECT_NEAR(signed_volume(surface.mesh), volume, 1e-9 * std::pow(area, 1.5));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace meshrepair
