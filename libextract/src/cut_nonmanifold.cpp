@@ -137,10 +137,12 @@ class NonmanifoldCutter {
   }
 
   void mark_ends_of_singular_edges() {
+    result_.singular_side.assign(boundary_.sides(), 0);
     if (result_.singular_edges == 0) return;
     for (const std::uint32_t first : sides_.first()) {
       if (!sides_.singular(first)) continue;
       for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
+        result_.singular_side[s] = 1;
         result_.singular[result_.vertex[s]] = 1;
         result_.singular[result_.vertex[boundary_.next(s)]] = 1;
       }
@@ -163,8 +165,7 @@ ManifoldCorners cut_nonmanifold(const CellComplex& complex, const Boundary& boun
 }
 
 MiddleVertices separate_common_edges(const CellComplex& complex, const Boundary& boundary,
-                                     const ManifoldCorners& corners,
-                                     const std::vector<char>& dissolved) {
+                                     const ManifoldCorners& corners) {
   MiddleVertices middles;
   if (corners.singular_edges == 0) return middles;
   middles.of_side.assign(boundary.sides(), kNone);
@@ -173,19 +174,16 @@ MiddleVertices separate_common_edges(const CellComplex& complex, const Boundary&
   for (const std::uint32_t first : sides.first()) {
     if (!sides.singular(first)) continue;
     taken.clear();
-    // Sides that dissolve come first: a diagonal of their polygon may take their place.
-    for (const bool dissolving : {true, false}) {
-      for (std::uint32_t s = first; s != kNone; s = sides.next(s)) {
-        if (corners.mate[s] < s || (dissolved[s] != 0) != dissolving) continue;
-        const auto ends = std::minmax(corners.vertex[s], corners.vertex[boundary.next(s)]);
-        const std::pair<std::uint32_t, std::uint32_t> key(ends.first, ends.second);
-        if (std::find(taken.begin(), taken.end(), key) == taken.end()) {
-          taken.push_back(key);
-        } else if (!dissolving) {
-          const auto middle = static_cast<std::uint32_t>(middles.count++);
-          middles.of_side[s] = middles.of_side[corners.mate[s]] = middle;
-        }
+    for (std::uint32_t s = first; s != kNone; s = sides.next(s)) {
+      if (corners.mate[s] < s) continue;
+      const auto ends = std::minmax(corners.vertex[s], corners.vertex[boundary.next(s)]);
+      const std::pair<std::uint32_t, std::uint32_t> key(ends.first, ends.second);
+      if (std::find(taken.begin(), taken.end(), key) == taken.end()) {
+        taken.push_back(key);
+        continue;
       }
+      const auto middle = static_cast<std::uint32_t>(middles.count++);
+      middles.of_side[s] = middles.of_side[corners.mate[s]] = middle;
     }
   }
   return middles;

@@ -28,7 +28,7 @@ class SurfaceExtractor {
         boundary_(find_boundary(complex, solid)),
         corners_(cut_nonmanifold(complex, boundary_, solid)),
         merged_(merge_facets(complex, cover, solid, boundary_, corners_)),
-        middles_(separate_common_edges(complex, boundary_, corners_, merged_.dissolved)),
+        middles_(separate_common_edges(complex, boundary_, corners_)),
         input_points_(complex.soup()) {}
 
   Surface run(ExtractReport& report) {

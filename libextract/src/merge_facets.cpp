@@ -4,6 +4,9 @@
 // regions. If the planes differ they lie in one line; if not, a predicate says whether they do.
 // They cannot fold back, as only ends of singular edges have two edges in one place, and these
 // stay.
+//
+// Where solids touch, edges and vertices stay on both: a vertex of one must not come to lie inside
+// a triangle of the other.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -42,6 +45,7 @@ class FacetMerger {
     DisjointSets joined(boundary_.polygons());
     result_.dissolved.assign(boundary_.sides(), 0);
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
+      if (corners_.singular_side[s] != 0) continue;
       const std::uint32_t p = boundary_.polygon[s];
       const std::uint32_t q = boundary_.polygon[corners_.mate[s]];
       if (!same_surface(p, q)) continue;
@@ -90,9 +94,11 @@ class FacetMerger {
     }
     result_.kept.resize(corners_.vertices());
     for (std::uint32_t v = 0; v < corners_.vertices(); ++v) {
-      const bool on_a_line =
-          sectors[v] == 2 && corners_.singular[v] == 0 && goes_straight_on(opening[v]);
-      result_.kept[v] = sectors[v] != 0 && !on_a_line ? 1 : 0;
+      const bool goes = sectors[v] == 0 || (sectors[v] == 2 && goes_straight_on(opening[v]));
+      result_.kept[v] = corners_.singular[v] != 0 || !goes ? 1 : 0;
+      if (sectors[v] == 0 && result_.kept[v] != 0) {
+        ++result_.kept_corners[result_.region[boundary_.polygon[corners_.vertex_corner[v]]]];
+      }
     }
   }
 

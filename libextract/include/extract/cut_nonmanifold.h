@@ -14,8 +14,9 @@ struct ManifoldCorners {
   std::vector<std::uint32_t> mate;    // for each side the one it is joined to
   std::vector<std::uint32_t> vertex;  // output vertex of the corner at the start of each side
   std::vector<std::uint32_t> vertex_corner;  // for each output vertex a side that starts at it
-  std::vector<char> singular;         // for each output vertex: do others lie at its place, or
-                                      // is it an end of an edge with more than two polygons?
+  std::vector<char> singular_side;           // of each side: its edge has more than two polygons
+  // Of each output vertex: others lie at its place, or it is an end of a singular side.
+  std::vector<char> singular;
   std::size_t singular_edges = 0;     // with more than two polygons
   std::size_t singular_vertices = 0;  // that were copied, once for each fan
 
@@ -30,16 +31,13 @@ struct ManifoldCorners {
                                               const std::vector<char>& solid);
 
 // Where two wedges at an edge share both end vertices, the edge would have four triangles in an
-// indexed mesh: says at which pairs of joined sides to put a vertex in the middle. `dissolved` says
-// for each side whether it will not be an edge of the mesh. Returns for each side the number of its
-// middle vertex, or kNone; mates have the same.
+// indexed mesh: says at which pairs of joined sides to put a vertex in the middle.
 struct MiddleVertices {
-  std::vector<std::uint32_t> of_side;  // empty when there are none
+  std::vector<std::uint32_t> of_side;  // its number, or kNone; empty when there are none
   std::size_t count = 0;
 };
 [[nodiscard]] MiddleVertices separate_common_edges(const CellComplex& complex,
                                                    const Boundary& boundary,
-                                                   const ManifoldCorners& corners,
-                                                   const std::vector<char>& dissolved);
+                                                   const ManifoldCorners& corners);
 
 }  // namespace meshrepair

@@ -13,15 +13,15 @@
 namespace meshrepair {
 
 // A region is a connected set of boundary facets that are covered by the same triangle of the
-// input, or that are not covered and lie in one plane. Its outline may have holes and may touch
-// itself at vertices.
+// input, or that are not covered and lie in one plane. Its outline may have holes, and may touch
+// itself at vertices and edges.
 struct MergedFacets {
   std::vector<std::uint32_t> region;        // of each polygon of the boundary
   std::vector<std::uint32_t> first;         // region r has the polygons list[first[r]] ...
   std::vector<std::uint32_t> list;          // ... to list[first[r + 1] - 1]
-  std::vector<std::uint32_t> kept_corners;  // of each region's outline
+  std::vector<std::uint32_t> kept_corners;  // of each region: on its outline, and inside it
   std::vector<char> kept;                   // of each vertex
-  std::vector<char> dissolved;              // of each side: both its polygons are in one region
+  std::vector<char> dissolved;              // of each side: inside a region, not on its outline
 
   [[nodiscard]] std::size_t regions() const { return kept_corners.size(); }
   [[nodiscard]] std::span<const std::uint32_t> polygons_of(std::size_t r) const {
@@ -30,8 +30,9 @@ struct MergedFacets {
 };
 
 // Vertices inside a region go, and so does a vertex at which just two regions meet in a straight
-// line, unless other solids touch there. Regions are in the order of the input triangles that cover
-// them; those that are not covered come last. Combinatorial: no tolerance is involved.
+// line; but edges and vertices at which solids touch stay. Regions are in the order of the input
+// triangles that cover them; those that are not covered come last. Combinatorial: no tolerance is
+// involved.
 [[nodiscard]] MergedFacets merge_facets(const CellComplex& complex,
                                         const IdVector<FacetId, Cover>& cover,
                                         const std::vector<char>& solid, const Boundary& boundary,
