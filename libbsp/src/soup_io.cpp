@@ -8,6 +8,7 @@
 #include <bsp/error.h>
 #include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
+#include <bsp/weld_points.h>
 
 #include "mapped_file.h"
 #include "mesh_source.h"
@@ -18,7 +19,6 @@
 #include "recognize_format.h"
 #include "stl_io.h"
 #include "text_scanner.h"
-#include "weld_points.h"
 
 namespace meshrepair {
 namespace {

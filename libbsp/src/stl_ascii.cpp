@@ -16,11 +16,12 @@
 #include <limits>
 #include <vector>
 
+#include <bsp/weld_points.h>
+
 #include "stl_io.h"
 #include "text_scanner.h"
 #include "text_writer.h"
 #include "triangulate_polygon.h"
-#include "weld_points.h"
 
 namespace meshrepair {
 namespace {

@@ -15,9 +15,9 @@
 #include <Eigen/Geometry>
 
 #include <bsp/error.h>
+#include <bsp/weld_points.h>
 
 #include "stl_io.h"
-#include "weld_points.h"
 
 namespace meshrepair {
 namespace {

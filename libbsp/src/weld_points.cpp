@@ -1,11 +1,10 @@
-#include "weld_points.h"
-
 #include <algorithm>
 #include <bit>
 #include <limits>
 
 #include <bsp/assert.h>
 #include <bsp/error.h>
+#include <bsp/weld_points.h>
 
 namespace meshrepair {
 namespace {

@@ -1,5 +1,3 @@
-#include "weld_points.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <bsp/weld_points.h>
 
 namespace meshrepair {
 namespace {

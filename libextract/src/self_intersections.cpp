@@ -1,0 +1,288 @@
+// The triangles' boxes are put into a tree, and the tree is compared with itself: two nodes whose
+// boxes meet, then their children, down to pairs of triangles, which are tested exactly. The upper
+// part of that walk becomes a list of tasks, the same whatever the number of threads. With a list
+// of triangles the tree holds these alone, and all the others are looked up in it.
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+#include <bsp/shared_progress.h>
+#include <extract/box_tree.h>
+#include <extract/self_intersections.h>
+
+#include "triangle_list.h"
+#include "triangle_pair.h"
+
+namespace meshrepair {
+namespace {
+
+using internal::CornerTriangle;
+using internal::Meeting;
+using internal::TriangleList;
+using Pair = std::array<std::uint32_t, 2>;
+
+// Enough that all threads end at about the same time.
+constexpr std::size_t kTasks = 1024;
+constexpr std::size_t kLookUpsPerTask = 4096;
+// A few hundred microseconds of work.
+constexpr std::size_t kStepsPerQuestion = 4096;
+
+// What one task has found: counts of all, and the lowest `most` pairs.
+class Findings {
+ public:
+  explicit Findings(std::size_t most) : most_(most) {}
+
+  void add(std::uint32_t a, std::uint32_t b, Meeting meeting) {
+    ++counts_[static_cast<std::size_t>(meeting)];
+    pairs_.push_back({std::min(a, b), std::max(a, b)});
+    if (pairs_.size() >= 2 * most_ + 64) keep_lowest();
+  }
+
+  void add_to(SelfIntersections& result) const {
+    result.pairs.insert(result.pairs.end(), pairs_.begin(), pairs_.end());
+    result.crossing += counts_[static_cast<std::size_t>(Meeting::crossing)];
+    result.touching += counts_[static_cast<std::size_t>(Meeting::touching)];
+    result.coplanar += counts_[static_cast<std::size_t>(Meeting::coplanar)];
+  }
+
+ private:
+  void keep_lowest() {
+    const auto middle = pairs_.begin() + static_cast<std::ptrdiff_t>(most_);
+    std::nth_element(pairs_.begin(), middle, pairs_.end());
+    pairs_.resize(most_);
+  }
+
+  std::size_t most_;
+  std::vector<Pair> pairs_;
+  std::array<std::size_t, 4> counts_{};
+};
+
+SelfIntersections gather(const std::vector<Findings>& tasks, std::size_t most) {
+  SelfIntersections result;
+  for (const Findings& findings : tasks) findings.add_to(result);
+  std::sort(result.pairs.begin(), result.pairs.end());
+  if (result.pairs.size() > most) result.pairs.resize(most);
+  result.count = result.crossing + result.touching + result.coplanar;
+  return result;
+}
+
+// Two nodes to be compared, or, if they are one, a node with itself.
+struct NodePair {
+  std::uint32_t a;
+  std::uint32_t b;
+};
+
+// The triangles of a list in the order of a tree's leaves, so that what is compared lies together.
+struct SortedTriangles {
+  SortedTriangles(const TriangleList& list, const BoxTree& box_tree) : tree(box_tree) {
+    triangles.reserve(list.size());
+    boxes.reserve(list.size());
+    ids.reserve(list.size());
+    for (const std::uint32_t item : tree.order()) {
+      triangles.push_back(list.triangles()[item]);
+      boxes.push_back(list.boxes()[item]);
+      ids.push_back(list.ids()[item]);
+    }
+  }
+
+  const BoxTree& tree;
+  std::vector<CornerTriangle> triangles;
+  std::vector<Box> boxes;
+  std::vector<std::uint32_t> ids;
+};
+
+// Calls visit(a, b) for each pair of children to be compared further.
+template <class Visit>
+void split(std::span<const BoxNode> nodes, NodePair pair, Visit visit) {
+  const auto [a, b] = pair;
+  if (a == b) {
+    visit(NodePair{a + 1, a + 1});
+    visit(NodePair{nodes[a].right, nodes[a].right});
+    visit(NodePair{a + 1, nodes[a].right});
+  } else if (nodes[b].is_leaf() || (!nodes[a].is_leaf() && nodes[a].count >= nodes[b].count)) {
+    visit(NodePair{a + 1, b});
+    visit(NodePair{nodes[a].right, b});
+  } else {
+    visit(NodePair{a, b + 1});
+    visit(NodePair{a, nodes[b].right});
+  }
+}
+
+bool both_are_leaves(std::span<const BoxNode> nodes, NodePair pair) {
+  return nodes[pair.a].is_leaf() && nodes[pair.b].is_leaf();
+}
+
+bool may_meet(std::span<const BoxNode> nodes, NodePair pair) {
+  return pair.a == pair.b || nodes[pair.a].box.meets(nodes[pair.b].box);
+}
+
+std::vector<NodePair> make_tasks(std::span<const BoxNode> nodes) {
+  std::vector<NodePair> tasks;
+  if (nodes.empty()) return tasks;
+  tasks.push_back({0, 0});
+  bool has_split = true;
+  while (has_split && tasks.size() < kTasks) {
+    has_split = false;
+    std::vector<NodePair> finer;
+    for (const NodePair& task : tasks) {
+      if (both_are_leaves(nodes, task)) {
+        finer.push_back(task);
+        continue;
+      }
+      has_split = true;
+      split(nodes, task, [&](NodePair part) {
+        if (may_meet(nodes, part)) finer.push_back(part);
+      });
+    }
+    tasks.swap(finer);
+  }
+  return tasks;
+}
+
+// The walk below one task.
+class TreeComparison {
+ public:
+  TreeComparison(const SortedTriangles& sorted, SharedProgress& progress, Findings& findings)
+      : sorted_(sorted), nodes_(sorted.tree.nodes()), progress_(progress), findings_(findings) {}
+
+  void run(NodePair task) {
+    stack_.assign(1, task);
+    while (!stack_.empty()) {
+      const NodePair pair = stack_.back();
+      stack_.pop_back();
+      if (++steps_ % kStepsPerQuestion == 0) progress_.poll();
+      if (both_are_leaves(nodes_, pair)) {
+        compare_leaves(pair);
+      } else {
+        split(nodes_, pair, [&](NodePair part) {
+          if (may_meet(nodes_, part)) stack_.push_back(part);
+        });
+      }
+    }
+  }
+
+ private:
+  void compare_leaves(NodePair pair) {
+    const BoxNode& a = nodes_[pair.a];
+    const BoxNode& b = nodes_[pair.b];
+    for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
+      const Box& box = sorted_.boxes[i];
+      for (std::uint32_t j = pair.a == pair.b ? i + 1 : b.first; j < b.first + b.count; ++j) {
+        if (!box.meets(sorted_.boxes[j])) continue;
+        const Meeting meeting = meeting_of(sorted_.triangles[i], sorted_.triangles[j]);
+        if (meeting != Meeting::apart) findings_.add(sorted_.ids[i], sorted_.ids[j], meeting);
+      }
+    }
+  }
+
+  const SortedTriangles& sorted_;
+  std::span<const BoxNode> nodes_;
+  SharedProgress& progress_;
+  Findings& findings_;
+  std::vector<NodePair> stack_;
+  std::size_t steps_ = 0;
+};
+
+// Looks up triangles in a tree of others. The tree is not empty.
+class LookUp {
+ public:
+  LookUp(const SortedTriangles& sorted, SharedProgress& progress, Findings& findings)
+      : sorted_(sorted), nodes_(sorted.tree.nodes()), progress_(progress), findings_(findings) {}
+
+  [[nodiscard]] bool may_meet_any(const Box& box) const { return nodes_[0].box.meets(box); }
+
+  // Of two triangles that are both in the tree the pair is found once.
+  void run(std::uint32_t id, const CornerTriangle& triangle, const Box& box, bool is_in_tree) {
+    stack_.assign(1, 0);
+    while (!stack_.empty()) {
+      const std::uint32_t n = stack_.back();
+      stack_.pop_back();
+      if (++steps_ % kStepsPerQuestion == 0) progress_.poll();
+      const BoxNode& node = nodes_[n];
+      if (!node.box.meets(box)) continue;
+      if (!node.is_leaf()) {
+        stack_.push_back(node.right);
+        stack_.push_back(n + 1);
+        continue;
+      }
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        const std::uint32_t other = sorted_.ids[i];
+        if (other == id || (is_in_tree && other < id) || !sorted_.boxes[i].meets(box)) continue;
+        const Meeting meeting = meeting_of(triangle, sorted_.triangles[i]);
+        if (meeting != Meeting::apart) findings_.add(id, other, meeting);
+      }
+    }
+  }
+
+ private:
+  const SortedTriangles& sorted_;
+  std::span<const BoxNode> nodes_;
+  SharedProgress& progress_;
+  Findings& findings_;
+  std::vector<std::uint32_t> stack_;
+  std::size_t steps_ = 0;
+};
+
+SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOptions& options) {
+  const BoxTree tree(list.boxes());
+  const SortedTriangles sorted(list, tree);
+  const std::vector<NodePair> tasks = make_tasks(tree.nodes());
+  std::vector<Findings> findings(tasks.size(), Findings(options.most_pairs));
+  SharedProgress progress(options.progress, tasks.size());
+  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+    TreeComparison(sorted, progress, findings[i]).run(tasks[i]);
+    progress.done();
+  });
+  return gather(findings, options.most_pairs);
+}
+
+SelfIntersections compare_with(const TriangleSoup& soup, const internal::SoupCorners& corners,
+                               const TriangleList& list, const SelfIntersectionOptions& options) {
+  const BoxTree tree(list.boxes());
+  if (tree.nodes().empty()) return {};
+  const SortedTriangles sorted(list, tree);
+  std::vector<char> is_listed(soup.triangles.size(), 0);
+  for (const std::uint32_t id : list.ids()) is_listed[id] = 1;
+  const std::size_t count = soup.triangles.size();
+  const std::size_t tasks = (count + kLookUpsPerTask - 1) / kLookUpsPerTask;
+  std::vector<Findings> findings(tasks, Findings(options.most_pairs));
+  SharedProgress progress(options.progress, tasks);
+  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+    LookUp look_up(sorted, progress, findings[task]);
+    const std::size_t end = std::min(count, (task + 1) * kLookUpsPerTask);
+    for (std::size_t t = task * kLookUpsPerTask; t < end; ++t) {
+      const auto id = static_cast<std::uint32_t>(t);
+      const Box box = internal::box_of(soup, id);
+      if (!look_up.may_meet_any(box)) continue;
+      CornerTriangle triangle;
+      if (corners.fetch(id, triangle) != internal::Fetched::usable) continue;
+      look_up.run(id, triangle, box, is_listed[t] != 0);
+    }
+    progress.done();
+  });
+  return gather(findings, options.most_pairs);
+}
+
+}  // namespace
+
+SelfIntersections self_intersections(const TriangleSoup& soup,
+                                     const SelfIntersectionOptions& options) {
+  const internal::SoupCorners corners(soup, options.weld);
+  const TriangleList list(corners);
+  SelfIntersections result = compare_all(list, options);
+  result.degenerate = list.degenerate();
+  result.not_finite = list.not_finite();
+  return result;
+}
+
+SelfIntersections self_intersections(const TriangleSoup& soup, std::span<const std::uint32_t> among,
+                                     const SelfIntersectionOptions& options) {
+  const internal::SoupCorners corners(soup, options.weld);
+  const TriangleList list(corners, among);
+  SelfIntersections result = compare_with(soup, corners, list, options);
+  result.degenerate = list.degenerate();
+  result.not_finite = list.not_finite();
+  return result;
+}
+
+}  // namespace meshrepair

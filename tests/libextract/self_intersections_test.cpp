@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <bsp/error.h>
+#include <extract/self_intersections.h>
+
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+
+SelfIntersections by_index(const TriangleSoup& soup) {
+  SelfIntersectionOptions options;
+  options.weld = false;
+  return self_intersections(soup, options);
+}
+
+SelfIntersections with_all_pairs(const TriangleSoup& soup) {
+  SelfIntersectionOptions options;
+  options.most_pairs = std::numeric_limits<std::uint32_t>::max();
+  return self_intersections(soup, options);
+}
+
+TEST(SelfIntersections, CleanShapesHaveNone) {
+  EXPECT_EQ(self_intersections(testing::cube()).count, 0u);
+  EXPECT_EQ(self_intersections(testing::sphere(5000)).count, 0u);
+  EXPECT_EQ(self_intersections(testing::torus(40, 20)).count, 0u);
+  EXPECT_EQ(self_intersections(testing::cone(30)).count, 0u);
+  EXPECT_EQ(self_intersections({}).count, 0u);
+}
+
+TEST(SelfIntersections, OfCrossingSpheresLieInBothParts) {
+  const TriangleSoup soup = testing::two_overlapping_spheres(2000);
+  const SelfIntersections found = with_all_pairs(soup);
+  EXPECT_GT(found.count, 100u);
+  EXPECT_EQ(found.count, found.crossing);
+  EXPECT_EQ(found.pairs.size(), found.count);
+  EXPECT_TRUE(std::is_sorted(found.pairs.begin(), found.pairs.end()));
+  const std::size_t half = soup.triangles.size() / 2;
+  for (const auto& [a, b] : found.pairs) {
+    EXPECT_LT(a, half);
+    EXPECT_GE(b, half);
+  }
+}
+
+TEST(SelfIntersections, EqualCornersAreSharedOnlyIfWelded) {
+  TriangleSoup soup;  // two triangles of a square, each with points of its own
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, -0.0}};
+  soup.triangles = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(self_intersections(soup).count, 0u);
+  EXPECT_EQ(by_index(soup).coplanar, 1u);
+  soup.points[5] = {0, 0.5, 1};
+  EXPECT_EQ(self_intersections(soup).count, 0u);
+  EXPECT_EQ(by_index(soup).touching, 1u);
+}
+
+TEST(SelfIntersections, DuplicatesAndFoldsAreCoplanar) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}};
+  soup.triangles = {{0, 1, 2}, {1, 0, 2}, {1, 0, 3}};
+  const SelfIntersections found = self_intersections(soup);
+  EXPECT_EQ(found.coplanar, 3u);
+  EXPECT_EQ(found.pairs, (Pairs{{0, 1}, {0, 2}, {1, 2}}));
+}
+
+TEST(SelfIntersections, LeavesOutWhatHasNoAreaOrNoPlace) {
+  TriangleSoup soup = testing::cube();
+  soup.points.emplace_back(0.5, 0.5, std::numeric_limits<double>::quiet_NaN());
+  soup.points.emplace_back(0.5, 0.5, std::numeric_limits<double>::infinity());
+  soup.points.emplace_back(2, 0, 0);
+  soup.triangles.push_back({0, 1, 8});
+  soup.triangles.push_back({0, 9, 1});
+  soup.triangles.push_back({0, 1, 1});
+  soup.triangles.push_back({0, 1, 10});
+  const SelfIntersections found = self_intersections(soup);
+  EXPECT_EQ(found.count, 0u);
+  EXPECT_EQ(found.not_finite, 2u);
+  EXPECT_EQ(found.degenerate, 2u);
+}
+
+// Every pair by itself.
+TEST(SelfIntersections, AgreeWithAllPairsOneByOne) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const TriangleSoup soup = testing::random_soup(120, 6, seed);
+    const SelfIntersections found = with_all_pairs(soup);
+    Pairs expected;
+    for (std::uint32_t a = 0; a < soup.triangles.size(); ++a) {
+      for (std::uint32_t b = a + 1; b < soup.triangles.size(); ++b) {
+        const TriangleSoup two = {soup.points, {soup.triangles[a], soup.triangles[b]}};
+        if (self_intersections(two).count > 0) expected.push_back({a, b});
+      }
+    }
+    EXPECT_EQ(found.pairs, expected);
+    EXPECT_GT(found.crossing, 0u);
+    EXPECT_GT(found.touching, 0u);
+  }
+}
+
+TEST(SelfIntersections, KeepTheLowestPairsAndCountAll) {
+  const TriangleSoup soup = testing::noisy_sphere(2000, 0.1, 1);
+  const SelfIntersections all = with_all_pairs(soup);
+  for (const std::size_t most : {0u, 1u, 17u, 400u}) {
+    SelfIntersectionOptions options;
+    options.most_pairs = most;
+    const SelfIntersections some = self_intersections(soup, options);
+    EXPECT_EQ(some.count, all.count);
+    EXPECT_EQ(some.pairs,
+              Pairs(all.pairs.begin(), all.pairs.begin() + static_cast<std::ptrdiff_t>(most)));
+  }
+}
+
+TEST(SelfIntersections, AmongAListAreThoseThatInvolveIt) {
+  const TriangleSoup soup = testing::noisy_sphere(2000, 0.1, 1);
+  const std::vector<std::uint32_t> list = {7, 3, 500, 501, 502, 503, 504, 7, 1899};
+  SelfIntersectionOptions options;
+  options.most_pairs = std::numeric_limits<std::uint32_t>::max();
+  const SelfIntersections found = self_intersections(soup, list, options);
+  Pairs expected;
+  const auto listed = [&](std::uint32_t t) {
+    return std::find(list.begin(), list.end(), t) != list.end();
+  };
+  for (const auto& pair : with_all_pairs(soup).pairs) {
+    if (listed(pair[0]) || listed(pair[1])) expected.push_back(pair);
+  }
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(found.pairs, expected);
+  EXPECT_EQ(found.count, expected.size());
+  EXPECT_EQ(self_intersections(soup, {}, options).count, 0u);
+}
+
+TEST(SelfIntersections, ThreadsDoNotMatter) {
+  const TriangleSoup soup = testing::noisy_sphere(20000, 0.02, 1);
+  const SelfIntersections parallel = self_intersections(soup);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const SelfIntersections serial = self_intersections(soup);
+  EXPECT_EQ(parallel.pairs, serial.pairs);
+  EXPECT_EQ(parallel.count, serial.count);
+  EXPECT_GT(serial.count, serial.pairs.size());
+}
+
+class Canceller : public ProgressObserver {
+ public:
+  void advance(double share) override {
+    EXPECT_GE(share, last_);
+    last_ = share;
+  }
+  bool cancelled() override { return last_ > 0.3; }
+
+ private:
+  double last_ = 0;
+};
+
+TEST(SelfIntersections, CanBeCancelled) {
+  Canceller canceller;
+  SelfIntersectionOptions options;
+  options.progress = &canceller;
+  const TriangleSoup soup = testing::sphere(20000);
+  EXPECT_THROW(static_cast<void>(self_intersections(soup, options)), Cancelled);
+}
+
+TEST(SelfIntersections, ScaleDoesNotMatter) {
+  const TriangleSoup soup = testing::noisy_sphere(2000, 0.1, 1);
+  const SelfIntersections found = self_intersections(soup);
+  for (const double by : {0x1p-900, 0x1p-30, 0x1p900}) {
+    EXPECT_EQ(self_intersections(testing::scaled(soup, by)).pairs, found.pairs);
+  }
+}
+
+}  // namespace
+}  // namespace meshrepair
