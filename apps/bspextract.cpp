@@ -4,7 +4,6 @@
 
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
-#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
@@ -13,6 +12,7 @@ struct Options {
   std::string input;
   std::string output;
   std::optional<SoupFormat> format;
+  bool strict = false;
   RepairOptions repair;
 };
 
@@ -20,13 +20,14 @@ ExitCode extract(Options& options, Run& run) {
   check_files(options.input, options.output, run);
   const WriteOptions format = mesh_format(options.output, options.format);
   options.repair.progress = &run.progress;
+  if (format.format == SoupFormat::stl_binary) {
+    options.repair.certify.precision = Precision::float32;
+  }
   Findings findings(options.input, options.output);
   return with_findings(run, findings, [&] {
     const Tree tree = read_tree_stage(run, findings);
     const Surface surface = extract_mesh(tree, options.repair, findings.repair);
-    write_mesh_stage(surface, format, run, findings);
-    print_summary(run, findings);
-    return certify(findings);
+    return write_certified(surface, format, options.strict, run, findings);
   });
 }
 
@@ -48,5 +49,6 @@ int main(int argc, char** argv) {
       ->group("Output");
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
+  add_certify_options(app, options.repair.certify, options.strict);
   return program.run(argc, argv, [&](Run& run) { return extract(options, run); });
 }

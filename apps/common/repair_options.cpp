@@ -26,6 +26,9 @@ constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl
                                                          {"ply", SoupFormat::ply_binary},
                                                          {"ply-ascii", SoupFormat::ply_ascii}}};
 
+constexpr std::array<Choice<Precision>, 2> kPrecisions = {
+    {{"float64", Precision::float64}, {"float32", Precision::float32}}};
+
 // An option whose value is one of the names. `set` gets the value of the name.
 template <class Choices, class Set>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& choices, Set set,
@@ -65,6 +68,17 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
       "Format of OUT: stl, stl-ascii, obj, off, ply, ply-ascii")
       ->default_str("by the name of OUT")
+      ->group("Output");
+}
+
+void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
+  add_choice(
+      app, "--precision", kPrecisions, [&certify](Precision value) { certify.precision = value; },
+      "Round the coordinates of OUT to this, and certify them so: float64, float32;\n"
+      "binary STL is always float32")
+      ->default_str("float64")
+      ->group("Output");
+  app.add_flag("--strict", strict, "Write nothing when the result cannot be certified")
       ->group("Output");
 }
 

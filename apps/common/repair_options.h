@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 
 #include <bsp/soup_io.h>
+#include <repair/certify.h>
 #include <repair/inside_rule.h>
 
 namespace meshrepair {
@@ -16,6 +17,9 @@ void add_inside_option(CLI::App& app, InsideRule& rule);
 
 // --format: the format of the mesh that is written, whatever its name.
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format);
+
+// --precision and --strict: what is to be certified, and what happens when it cannot be.
+void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict);
 
 // --check-cells: the debugging aid RepairOptions::check_cells.
 void add_check_cells_option(CLI::App& app, bool& check_cells);

@@ -10,6 +10,7 @@
 #include <bsp/error.h>
 
 #include "common/report_sections.h"
+#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
@@ -136,22 +137,6 @@ Tree read_tree_stage(Run& run, Findings& findings) {
   return tree;
 }
 
-void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& run,
-                      Findings& findings) {
-  StageMeter meter(findings.repair.stages, &run.progress);
-  meter.begin("write");
-  findings.output_points = surface.mesh.points.size();
-  if (is_stl(*options.format)) {
-    // What counts is the file: welding and rounding may join what the surface keeps apart.
-    const TriangleSoup back = as_read_back(surface.mesh, *options.format);
-    findings.output_points = back.points.size();
-    findings.repair.output = examine_topology(back.triangles, back.points.size());
-  }
-  write_soup(surface.mesh, findings.output, options);
-  findings.output_format = options.format;
-  run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
-}
-
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
@@ -160,17 +145,56 @@ void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
   run.report.set_output({{"path", findings.output}, {"format", "BSP tree"}});
 }
 
-ExitCode certify(const Findings& findings) {
+namespace {
+
+// What counts is the file: in STL, welding and rounding may join what the surface keeps apart.
+void look_at_file(const Surface& surface, SoupFormat format, Findings& findings) {
+  findings.output_points = surface.mesh.points.size();
+  if (!is_stl(format)) return;
+  const TriangleSoup back = as_read_back(surface.mesh, format);
+  findings.output_points = back.points.size();
+  findings.repair.output = examine_topology(back.triangles, back.points.size());
+}
+
+// Which guarantees the file does not hold; empty when it holds all.
+std::string missing_guarantees(const Findings& findings, SoupFormat format) {
   const Topology& surface = findings.repair.output;
   std::string missing;
   if (!surface.closed()) missing += ", not closed";
   if (!surface.manifold()) missing += ", not manifold";
   if (!surface.oriented()) missing += ", not consistently oriented";
+  if (!missing.empty() && is_stl(format)) {
+    missing += " once STL has rounded and joined its corners (OBJ, OFF and PLY keep them)";
+  }
+  const CertifyReport& certified = findings.repair.certify;
+  if (certified.pairs > 0) {
+    missing += ", " + number_of(certified.pairs, "pair") + " of triangles still intersect";
+  }
+  if (certified.degenerate > 0) {
+    missing += ", " + number_of(certified.degenerate, "triangle") + " without area";
+  }
+  return missing.empty() ? missing : missing.substr(2);
+}
+
+}  // namespace
+
+ExitCode write_certified(const Surface& surface, const WriteOptions& options, bool strict, Run& run,
+                         Findings& findings) {
+  findings.output_format = options.format;
+  run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("write");
+  look_at_file(surface, *options.format, findings);
+  const std::string missing = missing_guarantees(findings, *options.format);
+  if (strict && !missing.empty()) {
+    spdlog::error("{}: not written, because it would be {}", findings.output_name(), missing);
+    return ExitCode::not_certified;
+  }
+  write_soup(surface.mesh, findings.output, options);
+  meter.end();
+  print_summary(run, findings);
   if (missing.empty()) return ExitCode::done;
-  const bool stl = findings.output_format && is_stl(*findings.output_format);
-  spdlog::error(
-      "{}: written, but{}{}", findings.output_name(), missing.substr(1),
-      stl ? " once STL has rounded and joined its corners; OBJ, OFF and PLY keep them" : "");
+  spdlog::error("{}: written, but {}", findings.output_name(), missing);
   return ExitCode::not_certified;
 }
 

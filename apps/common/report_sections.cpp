@@ -107,6 +107,22 @@ Json section_of(const ExtractReport& extract) {
           {"middle_vertices", extract.middle_vertices}};
 }
 
+const char* verdict(bool holds) { return holds ? "PASS" : "FAIL"; }
+
+Json certificate_of(const RepairReport& repair) {
+  const CertifyReport& certified = repair.certify;
+  return {{"closed", verdict(repair.output.closed())},
+          {"manifold", verdict(repair.output.manifold())},
+          {"oriented", verdict(repair.output.oriented())},
+          {"no_self_intersections", verdict(certified.done && certified.pairs == 0)},
+          {"no_degenerate_triangles", verdict(certified.done && certified.degenerate == 0)},
+          {"intersecting_pairs", certified.pairs},
+          {"degenerate_triangles", certified.degenerate},
+          {"intersecting_pairs_at_first", certified.pairs_at_first},
+          {"rounds", certified.rounds},
+          {"snapped_points", certified.snapped_points}};
+}
+
 Json result_of(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
@@ -142,7 +158,10 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));
   if (was_begun(repair, "inside")) report.set_section("inside", section_of(repair.inside));
   if (was_begun(repair, "extract")) report.set_section("extract", section_of(repair.extract));
-  if (was_begun(repair, "check")) report.set_section("result", result_of(findings));
+  if (was_begun(repair, "check")) {
+    report.set_section("result", result_of(findings));
+    report.set_section("certificate", certificate_of(repair));
+  }
   report.set_stages(stages_of(repair));
 }
 

@@ -108,7 +108,9 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
                                    number_of(output.parts, "part"), seconds));
   lines.add("checked", joined({output.closed() ? "closed" : "NOT CLOSED",
                                output.manifold() ? "manifold" : "NOT MANIFOLD",
-                               output.oriented() ? "oriented" : "NOT ORIENTED"}));
+                               output.oriented() ? "oriented" : "NOT ORIENTED",
+                               repair.certify.passed() ? "free of self-intersections"
+                                                       : "WITH SELF-INTERSECTIONS"}));
   lines.add("size", fmt::format("volume {:.6g}, area {:.6g}, in the input's units",
                                 repair.output_volume, repair.output_area));
 }

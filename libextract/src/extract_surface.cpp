@@ -115,10 +115,20 @@ class SurfaceExtractor {
   std::uint32_t output_vertex(std::uint32_t vertex) {
     std::uint32_t& output = output_vertex_[vertex];
     if (output == kNone) {
-      output = static_cast<std::uint32_t>(surface_.mesh.points.size());
-      surface_.mesh.points.push_back(input_points_.place(point_of(vertex), complex_.planes));
+      const Point& at = point_of(vertex);
+      const PointId input = input_points_.find(at);
+      output = add_point(
+          input.valid() ? complex_.soup().points[input]
+                        : complex_.soup().grid.from_grid(accurate_position(at, complex_.planes)),
+          input.valid());
     }
     return output;
+  }
+
+  std::uint32_t add_point(const Vec3d& at, bool of_input) {
+    surface_.mesh.points.push_back(at);
+    surface_.input_point.push_back(of_input ? 1 : 0);
+    return static_cast<std::uint32_t>(surface_.mesh.points.size() - 1);
   }
 
   std::uint32_t output_middle(std::uint32_t side) {
@@ -126,9 +136,7 @@ class SurfaceExtractor {
     if (output == kNone) {
       const std::uint32_t a = output_vertex(corners_.vertex[side]);
       const std::uint32_t b = output_vertex(corners_.vertex[boundary_.next(side)]);
-      output = static_cast<std::uint32_t>(surface_.mesh.points.size());
-      const Vec3d middle = 0.5 * surface_.mesh.points[a] + 0.5 * surface_.mesh.points[b];
-      surface_.mesh.points.push_back(middle);
+      output = add_point(0.5 * surface_.mesh.points[a] + 0.5 * surface_.mesh.points[b], false);
     }
     return output;
   }

@@ -9,15 +9,13 @@ InputPoints::InputPoints(const CleanSoup& soup) : soup_(soup), index_(soup.grid_
   }
 }
 
-Vec3d InputPoints::place(const Point& point, const PlaneTable& planes) const {
-  if (point.is_lattice()) {
-    const GridPoint at = point.lattice();
-    const std::uint32_t found = index_.find(hash_of(at), [&](std::uint32_t candidate) {
-      return soup_.grid_points[PointId(candidate)] == at;
-    });
-    if (found != HashIndex::kNone) return soup_.points[PointId(found)];
-  }
-  return soup_.grid.from_grid(accurate_position(point, planes));
+PointId InputPoints::find(const Point& point) const {
+  if (!point.is_lattice()) return {};
+  const GridPoint at = point.lattice();
+  const std::uint32_t found = index_.find(hash_of(at), [&](std::uint32_t candidate) {
+    return soup_.grid_points[PointId(candidate)] == at;
+  });
+  return found != HashIndex::kNone ? PointId(found) : PointId();
 }
 
 }  // namespace meshrepair::internal

@@ -11,8 +11,8 @@ class InputPoints {
  public:
   explicit InputPoints(const CleanSoup& soup);
 
-  // The original coordinates of an input point, bit for bit; otherwise the rounded exact place.
-  [[nodiscard]] Vec3d place(const Point& point, const PlaneTable& planes) const;
+  // The input point at this place; invalid when there is none.
+  [[nodiscard]] PointId find(const Point& point) const;
 
  private:
   const CleanSoup& soup_;

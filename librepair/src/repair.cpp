@@ -59,17 +59,6 @@ CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
   return labels;
 }
 
-Surface find_surface(const CoveredCells& covered, const std::vector<char>& solid,
-                     RepairReport& report, StageMeter& meter) {
-  meter.begin("extract");
-  Surface surface = extract_surface(covered.complex, covered.cover, solid, report.extract);
-  meter.begin("check");
-  report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
-  report.output_volume = signed_volume(surface.mesh);
-  report.output_area = surface_area(surface.mesh);
-  return surface;
-}
-
 Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
                StageMeter& meter) {
   meter.begin("clean");
@@ -128,26 +117,78 @@ void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) 
   }
 }
 
+namespace {
+
+// Passes on the wish to stop alone.
+class Canceller : public ProgressObserver {
+ public:
+  explicit Canceller(ProgressObserver* observer) : observer_(observer) {}
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  ProgressObserver* observer_;
+};
+
+// Orientation is sound by now, and overlaps made by moving points are to be united.
+Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
+  Canceller canceller(options.progress);
+  RepairOptions again = options;
+  again.inside.rule = InsideRule::winding;
+  again.certify.wanted = false;
+  again.progress = &canceller;
+  RepairReport report;
+  return repair(soup, again, report);
+}
+
+Surface finish(const Grid& grid, Surface surface, const RepairOptions& options,
+               RepairReport& report, StageMeter& meter) {
+  if (options.certify.wanted) {
+    meter.begin("certify");
+    surface = certify(
+        std::move(surface), grid, options.certify,
+        [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,
+        report.certify);
+  }
+  meter.begin("check");
+  report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
+  report.output_volume = signed_volume(surface.mesh);
+  report.output_area = surface_area(surface.mesh);
+  return surface;
+}
+
+}  // namespace
+
 Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairReport& report) {
   require_labels(tree);
   StageMeter meter(report.stages, options.progress);
-  const CoveredCells covered = make_cells(tree, windings_of(tree.input), options, report, meter);
-  return find_surface(covered, solid_cells(tree, covered.complex), report, meter);
+  Surface surface;
+  {
+    const CoveredCells covered = make_cells(tree, windings_of(tree.input), options, report, meter);
+    meter.begin("extract");
+    surface = extract_surface(covered.complex, covered.cover, solid_cells(tree, covered.complex),
+                              report.extract);
+  }
+  return finish(tree.input.grid, std::move(surface), options, report, meter);
 }
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
   Tree tree = make_tree(soup, options, report, meter);
   require_space(tree.input);
-  meter.begin("orient");
-  const auto winding = chosen_windings(tree, options, report);
-  const CoveredCells covered = make_cells(tree, winding, options, report, meter);
-  // From here on only the input is needed, not the partition.
-  tree.nodes = {};
-  tree.node_triangles = {};
-  tree.leaves = {};
-  const CellLabels labels = find_solid(covered, options, report, meter);
-  return find_surface(covered, labels.solid, report, meter);
+  Surface surface;
+  {
+    meter.begin("orient");
+    const auto winding = chosen_windings(tree, options, report);
+    const CoveredCells covered = make_cells(tree, winding, options, report, meter);
+    // From here on only the input is needed, not the partition.
+    tree.nodes = {};
+    tree.node_triangles = {};
+    tree.leaves = {};
+    const CellLabels labels = find_solid(covered, options, report, meter);
+    meter.begin("extract");
+    surface = extract_surface(covered.complex, covered.cover, labels.solid, report.extract);
+  }
+  return finish(tree.input.grid, std::move(surface), options, report, meter);
 }
 
 RepairResult repair(const TriangleSoup& soup, const RepairOptions& options) {

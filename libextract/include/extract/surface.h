@@ -17,6 +17,8 @@ struct Surface {
   // optimisation closed a gap.
   static constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
   std::vector<std::uint32_t> source;
+  // For each point whether it is one of the input's, with its coordinates.
+  std::vector<char> input_point;
 };
 
 }  // namespace meshrepair

@@ -15,6 +15,7 @@
 #include <extract/cover_facets.h>
 #include <extract/extract_surface.h>
 #include <extract/surface.h>
+#include <repair/certify.h>
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
 #include <repair/stage_meter.h>
@@ -24,6 +25,7 @@ namespace meshrepair {
 struct RepairOptions {
   BuildTreeOptions tree;
   InsideOptions inside;
+  CertifyOptions certify;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
   ProgressObserver* progress = nullptr;
@@ -43,6 +45,7 @@ struct RepairReport {
   std::size_t links = 0;
   InsideReport inside;
   ExtractReport extract;
+  CertifyReport certify;
   Topology output;
   double output_volume = 0;  // in the input's units, cubed
   double output_area = 0;

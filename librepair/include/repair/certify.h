@@ -1,0 +1,48 @@
+// Making sure that the coordinates as they are written bound a solid, and mending them where not.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include <bsp/grid.h>
+#include <bsp/progress.h>
+#include <bsp/soup.h>
+#include <extract/surface.h>
+
+namespace meshrepair {
+
+// What the numbers in a file can hold.
+enum class Precision { float64, float32 };
+
+struct CertifyOptions {
+  bool wanted = true;
+  Precision precision = Precision::float64;
+  // How often the places that fail may be brought onto a coarser grid and repaired again.
+  std::size_t most_rounds = 6;
+};
+
+struct CertifyReport {
+  bool done = false;               // the test ran to its end
+  std::size_t pairs_at_first = 0;  // of triangles that intersected once rounded
+  std::size_t pairs = 0;           // that are left
+  std::size_t degenerate = 0;      // triangles without area, in the end
+  std::size_t rounds = 0;          // of mending
+  std::size_t snapped_points = 0;  // moved onto a grid in the last of them
+
+  [[nodiscard]] bool passed() const { return done && pairs == 0 && degenerate == 0; }
+};
+
+// Repairs a soup that is a solid already but for places where its sheets cross: the whole pipeline,
+// without certification. May throw NoSolidError.
+using RepairAgain = std::function<Surface(const TriangleSoup&)>;
+
+// Rounds the coordinates to the precision and tests exactly for triangles that intersect or have no
+// area. Where it finds some, it brings their corners onto the working grid, where every decision
+// was exact, then onto coarser ones, and repairs what comes of that; the best attempt is returned.
+// Points of the input that are not concerned stay where they are. `surface.source` keeps naming
+// triangles of the first input.
+[[nodiscard]] Surface certify(Surface surface, const Grid& grid, const CertifyOptions& options,
+                              const RepairAgain& repair_again, ProgressObserver* progress,
+                              CertifyReport& report);
+
+}  // namespace meshrepair

@@ -1,0 +1,194 @@
+// Certification.
+//
+// Every decision was exact for points on the working grid and for exact intersections of planes.
+// What may fail is the rounding of those intersections, and that input points are written with
+// their own coordinates, not with those of the grid. So a point at fault goes onto the grid; then
+// the mesh is a soup of grid points, and repairing it again makes intersections only where the
+// moves made some, fewer each time. A coarser grid keeps points further apart, which is why it
+// ends.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <bsp/error.h>
+#include <extract/self_intersections.h>
+#include <repair/certify.h>
+
+namespace meshrepair {
+namespace {
+
+// More are counted but not mended in one round.
+constexpr std::size_t kMostPairs = 1'000'000;
+
+// Where two rounds in a row gained nothing, moving points makes as many new crossings as it mends.
+constexpr std::size_t kMostRoundsInVain = 2;
+
+using GridCell = std::array<double, 3>;
+
+void round_points(TriangleSoup& mesh, Precision precision) {
+  if (precision == Precision::float64) return;
+  for (Vec3d& p : mesh.points) p = p.cast<float>().cast<double>();
+}
+
+double snapped(double x, double step) { return std::nearbyint(x / step) * step; }
+
+Vec3d snapped(const Vec3d& p, double step) {
+  return {snapped(p.x(), step), snapped(p.y(), step), snapped(p.z(), step)};
+}
+
+GridCell cell_of(const Vec3d& p, double step) {
+  const Vec3d q = snapped(p, step);
+  return {q.x(), q.y(), q.z()};
+}
+
+// The distance of neighbouring numbers of 24 bits at the mesh's largest coordinate.
+double float_spacing(const TriangleSoup& mesh) {
+  double largest = 0;
+  for (const Vec3d& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, exponent - std::numeric_limits<float>::digits);
+}
+
+class Certifier {
+ public:
+  Certifier(Surface surface, const Grid& grid, const CertifyOptions& options,
+            const RepairAgain& repair_again, ProgressObserver* progress, CertifyReport& report)
+      : options_(options), repair_again_(repair_again), progress_(progress), report_(report) {
+    step_ = grid.unit;
+    if (options.precision == Precision::float32) {
+      step_ = std::max(step_, float_spacing(surface.mesh));
+    }
+    current_.surface = std::move(surface);
+  }
+
+  Surface run() {
+    test(current_);
+    report_.pairs_at_first = current_.found.count;
+    if (current_.faults() > 0) {
+      best_ = current_;
+      if (options_.precision == Precision::float64) move_to_grid();
+      mend();
+      std::swap(current_, best_);
+    }
+    report_.pairs = current_.found.count;
+    report_.degenerate = current_.found.degenerate;
+    report_.done = true;
+    return std::move(current_.surface);
+  }
+
+ private:
+  struct Attempt {
+    Surface surface;
+    SelfIntersections found;
+    [[nodiscard]] std::size_t faults() const { return found.count + found.degenerate; }
+  };
+
+  void test(Attempt& attempt) const {
+    round_points(attempt.surface.mesh, options_.precision);
+    SelfIntersectionOptions options;
+    options.most_pairs = kMostPairs;
+    options.progress = progress_;
+    attempt.found = self_intersections(attempt.surface.mesh, options);
+  }
+
+  // Often all that is wrong is that input points closer than a step of the grid were joined.
+  void move_to_grid() {
+    snap_concerned(current_, step_);
+    test(current_);
+    keep_if_better();
+  }
+
+  void mend() {
+    double step = step_;
+    std::size_t in_vain = 0;
+    while (best_.faults() > 0 && report_.rounds < options_.most_rounds &&
+           in_vain < kMostRoundsInVain) {
+      ++report_.rounds;
+      report_.snapped_points = snap_concerned(current_, step);
+      snap_cut_triangles();
+      Surface again;
+      try {
+        again = repair_again_(current_.surface.mesh);
+      } catch (const NoSolidError&) {
+        return;
+      }
+      for (std::uint32_t& source : again.source) {
+        if (source != Surface::kNoSource) source = current_.surface.source[source];
+      }
+      current_.surface = std::move(again);
+      test(current_);
+      in_vain = keep_if_better() ? 0 : in_vain + 1;
+      step *= 4;
+    }
+  }
+
+  bool keep_if_better() {
+    if (current_.faults() >= best_.faults()) return false;
+    best_ = current_;
+    return true;
+  }
+
+  // Points that are not of the input have to move onto the grid, and what they move is decided
+  // anew: there all corners have to be where the decisions are made.
+  void snap_cut_triangles() {
+    TriangleSoup& mesh = current_.surface.mesh;
+    const auto is_new = [&](std::uint32_t p) { return current_.surface.input_point[p] == 0; };
+    std::vector<char> moves(mesh.points.size(), 0);
+    for (const auto& t : mesh.triangles) {
+      if (std::none_of(t.begin(), t.end(), is_new)) continue;
+      for (const std::uint32_t p : t) moves[p] = 1;
+    }
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      if (moves[i] != 0) mesh.points[i] = snapped(mesh.points[i], step_);
+    }
+  }
+
+  // Moves the corners of triangles at fault to the nearest point of a grid, and with them all
+  // points that have the same nearest point.
+  static std::size_t snap_concerned(Attempt& attempt, double step) {
+    TriangleSoup& mesh = attempt.surface.mesh;
+    std::vector<GridCell> cells;
+    const auto add = [&](std::uint32_t triangle) {
+      for (const std::uint32_t p : mesh.triangles[triangle]) {
+        cells.push_back(cell_of(mesh.points[p], step));
+      }
+    };
+    for (const auto& pair : attempt.found.pairs) {
+      add(pair[0]);
+      add(pair[1]);
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    std::size_t moved = 0;
+    for (Vec3d& p : mesh.points) {
+      const GridCell cell = cell_of(p, step);
+      if (!std::binary_search(cells.begin(), cells.end(), cell)) continue;
+      ++moved;
+      p = {cell[0], cell[1], cell[2]};
+    }
+    return moved;
+  }
+
+  const CertifyOptions& options_;
+  const RepairAgain& repair_again_;
+  ProgressObserver* progress_;
+  CertifyReport& report_;
+  double step_ = 0;
+  Attempt current_, best_;
+};
+
+}  // namespace
+
+Surface certify(Surface surface, const Grid& grid, const CertifyOptions& options,
+                const RepairAgain& repair_again, ProgressObserver* progress,
+                CertifyReport& report) {
+  report = {};
+  return Certifier(std::move(surface), grid, options, repair_again, progress, report).run();
+}
+
+}  // namespace meshrepair
