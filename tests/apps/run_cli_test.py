@@ -9,6 +9,7 @@ import json
 import os
 import pty
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -27,6 +28,7 @@ def parse_arguments():
     parser.add_argument("--stdin", default="")
     parser.add_argument("--stdin-file")
     parser.add_argument("--signal-after")
+    parser.add_argument("--file-size-limit", type=int)
     for repeated in ("--copy", "--stdout", "--stderr", "--exists", "--missing", "--unchanged",
                      "--json", "--signal"):
         parser.add_argument(repeated, action="append", default=[])
@@ -68,6 +70,13 @@ def wait_until_printed(chunks, pattern):
         time.sleep(0.005)
 
 
+def limit_file_size(size):
+    """What the program does before it becomes itself; None: nothing."""
+    if size is None:
+        return None
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
 def run(options, folder):
     """Exit code, stdout and stderr (bytes) of the program."""
     stdin = options.stdin.encode()
@@ -80,7 +89,8 @@ def run(options, folder):
     if options.closed_stdout:
         os.close(out_read)
     process = subprocess.Popen(options.command, cwd=folder, stdin=subprocess.PIPE,
-                               stdout=out_write, stderr=err_write)
+                               stdout=out_write, stderr=err_write,
+                               preexec_fn=limit_file_size(options.file_size_limit))
     os.close(out_write)
     os.close(err_write)
 
@@ -162,6 +172,9 @@ def complaints(options, folder, code, stdout, stderr):
     for name in options.missing:
         if os.path.exists(os.path.join(folder, name)):
             yield f"{name} was written"
+    for name in os.listdir(folder):
+        if name.endswith(".tmp"):
+            yield f"{name} was left behind"
     for name, source in copies(options):
         if name in options.unchanged and not same_bytes(os.path.join(folder, name), source):
             yield f"{name} was changed"
