@@ -85,6 +85,8 @@ TreeFacts facts_of(const Tree& tree) {
 }
 
 void check_files(const std::string& input, const std::string& output, Run& run) {
+  if (input.empty()) throw UsageError("the name of the input is empty");
+  if (output.empty()) throw UsageError("the name of the output is empty");
   if (input != "-") check_report(run, input, "input");
   check_report(run, output, "output");
   if (output == "-") return;

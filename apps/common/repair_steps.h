@@ -46,8 +46,9 @@ struct Findings {
   std::optional<SoupFormat> output_format;
 };
 
-// What can be said of the files before hours of work. Throws UsageError where the report is the
-// input or the output, too, and withholds it; OutputError where the output cannot be.
+// What can be said of the files before hours of work. Throws UsageError where a name is empty,
+// or the report is the input or the output, too, and withholds it then; OutputError where the
+// output cannot be.
 void check_files(const std::string& input, const std::string& output, Run& run);
 // Throws UsageError where no format can be told.
 [[nodiscard]] WriteOptions mesh_format(const std::string& output,
