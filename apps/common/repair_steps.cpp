@@ -47,6 +47,17 @@ bool is_stl(SoupFormat format) {
   return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
 }
 
+// Nothing is wrong with triangles that the working grid swallows but that one point is too far off:
+// the user can mend that, and would otherwise look for them in vain.
+void warn_of_coarse_grid(const Findings& findings) {
+  const CleanReport& clean = findings.repair.clean;
+  if (clean.dropped_below_grid == 0) return;
+  spdlog::warn(
+      "{}: {} of {} triangles dropped, smaller than the working grid, whose step is {:.3g}: is a "
+      "point far away from the others?",
+      findings.input_name(), clean.dropped_below_grid, clean.triangles_in, clean.grid_unit);
+}
+
 template <class ErrorType>
 [[noreturn]] void rethrow_named(const ErrorType& error, const std::string& name) {
   const std::string message = error.what();
@@ -114,9 +125,11 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
   try {
     run_named(findings.input_name(), [&] { code = work(); });
   } catch (...) {
+    warn_of_coarse_grid(findings);
     add_sections(findings, run.report);
     throw;
   }
+  warn_of_coarse_grid(findings);
   add_sections(findings, run.report);
   return code;
 }

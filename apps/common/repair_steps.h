@@ -54,7 +54,8 @@ void check_files(const std::string& input, const std::string& output, Run& run);
 [[nodiscard]] WriteOptions mesh_format(const std::string& output,
                                        const std::optional<SoupFormat>& format);
 
-// Runs `work`, then puts the findings into the report, also when it throws. Errors about the input
+// Runs `work`, then puts the findings into the report, also when it throws, and warns where the
+// working grid was too coarse for some triangles. Errors about the input
 // that do not name it are given its name.
 ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <bsp/clean_soup.h>
 #include <bsp/error.h>
 #include <bsp/hash_index.h>
@@ -97,13 +99,11 @@ class TriangleCollector {
     clean_.triangles.reserve(expected);
   }
 
-  void add(const Corners& corners, std::uint32_t source) {
+  // False where there is no triangle: the corners are equal or in a line, on the grid.
+  bool add(const Corners& corners, std::uint32_t source) {
     const auto& at = clean_.grid_points;
     Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
-    if (is_null(plane)) {
-      ++report_.dropped_degenerate;
-      return;
-    }
+    if (is_null(plane)) return false;
     const Corners key = sorted(corners);
     const TriangleId fresh = clean_.triangles.end_id();
     const TriangleId id(
@@ -116,6 +116,7 @@ class TriangleCollector {
     } else {
       add_copy(clean_.triangles[id], corners);
     }
+    return true;
   }
 
  private:
@@ -133,6 +134,21 @@ class TriangleCollector {
   CleanReport& report_;
   HashIndex index_;
 };
+
+// Corners are in a line where their triangle is lower than this over its longest side, the largest
+// coordinate being 1. Each coordinate was rounded twice, when it was made and when it was scaled,
+// which moves a corner by up to sqrt(3) 2^-52 and changes the height by twice that at most; the
+// cross product adds about as much. For the report alone: what is kept is decided on the grid.
+constexpr double kFlat = 0x1p-48;
+
+bool in_a_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const double size = a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(c.cwiseAbs()).maxCoeff();
+  if (size == 0) return true;
+  const Vec3d u = b / size - a / size;
+  const Vec3d v = c / size - a / size;
+  const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
+  return u.cross(v).norm() <= kFlat * longest;
+}
 
 }  // namespace
 
@@ -152,7 +168,11 @@ CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report) {
       continue;
     }
     const auto& c = soup.triangles[t];
-    collector.add({id_of[c[0]], id_of[c[1]], id_of[c[2]]}, static_cast<std::uint32_t>(t));
+    if (collector.add({id_of[c[0]], id_of[c[1]], id_of[c[2]]}, static_cast<std::uint32_t>(t))) {
+      continue;
+    }
+    const bool flat = in_a_line(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
+    ++(flat ? report.dropped_degenerate : report.dropped_below_grid);
   }
   return clean;
 }

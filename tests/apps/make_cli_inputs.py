@@ -28,6 +28,13 @@ def tetrahedron(**replaced):
     return "\n".join(lines.values()).encode() + b"\n"
 
 
+def two_tetrahedra(size):
+    """OBJ text: one of size 1, one of this size."""
+    faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
+    parts = (f"v 0 0 0\nv {s} 0 0\nv 0 {s} 0\nv 0 0 {s}\n{faces}" for s in (1, size))
+    return "".join(parts).encode()
+
+
 def random_triangles(count):
     """Large triangles that all cross each other: about a minute of work for 1000 of them."""
     chance = random.Random(1)
@@ -66,6 +73,7 @@ def main():
         "single_triangle.obj": SINGLE_TRIANGLE,
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
+        "far_point.obj": two_tetrahedra(size=10 ** 9),
         "much_work.off": random_triangles(1000),
         "unlabelled.bsp": tree,
         "flat.bsp": tree_of(bspbuild, SINGLE_TRIANGLE),

@@ -33,7 +33,8 @@ struct CleanSoup {
 struct CleanReport {
   std::size_t triangles_in = 0;
   std::size_t dropped_not_finite = 0;   // a corner is NaN or infinite
-  std::size_t dropped_degenerate = 0;   // corners equal or in a line, on the grid
+  std::size_t dropped_degenerate = 0;   // corners equal or in a line, as given
+  std::size_t dropped_below_grid = 0;   // only on the grid: narrower than about one of its steps
   std::size_t duplicates = 0;           // copies with the same orientation as the first
   std::size_t opposite_duplicates = 0;  // copies turned the other way
   std::size_t joined_points = 0;        // points with different coordinates on one grid point
