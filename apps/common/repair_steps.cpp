@@ -151,8 +151,7 @@ Tree read_tree_stage(Run& run, Findings& findings) {
   return tree;
 }
 
-void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& run,
-                      Findings& findings) {
+void write_mesh_stage(const Surface& surface, WriteOptions options, Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
   findings.output_points = surface.mesh.points.size();
@@ -162,6 +161,7 @@ void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& 
     findings.output_points = back.points.size();
     findings.repair.output = examine_topology(back.triangles, back.points.size());
   }
+  options.progress = &run.progress;
   write_soup(surface.mesh, findings.output, options);
   findings.output_format = options.format;
   run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
@@ -170,7 +170,7 @@ void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& 
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
-  write_tree(tree, findings.output);
+  write_tree(tree, findings.output, &run.progress);
   findings.tree_written = facts_of(tree);
   run.report.set_output({{"path", findings.output}, {"format", "BSP tree"}});
 }

@@ -63,8 +63,7 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
 [[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
 // Stage "write".
-void write_mesh_stage(const Surface& surface, const WriteOptions& options, Run& run,
-                      Findings& findings);
+void write_mesh_stage(const Surface& surface, WriteOptions options, Run& run, Findings& findings);
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings);
 
 // Done if the surface holds all guarantees that were checked; says on stderr which it does not.

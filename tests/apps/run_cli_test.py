@@ -19,6 +19,7 @@ import threading
 import time
 
 TIMEOUT_SECONDS = 110
+UNREAD_SECONDS = 3  # from a signal to the end of a program whose output nobody reads
 SKIPPED = 77  # told to CTest by cli_test
 
 
@@ -34,6 +35,7 @@ def parse_arguments():
         parser.add_argument(repeated, action="append", default=[])
     parser.add_argument("--run-in-terminal", action="store_true")
     parser.add_argument("--closed-stdout", action="store_true")
+    parser.add_argument("--unread-stdout", action="store_true")
     parser.add_argument("command", nargs="+")
     return parser.parse_args()
 
@@ -96,7 +98,7 @@ def run(options, folder):
 
     out, err = [], []
     readers = [threading.Thread(target=read_all, args=(err_read, err))]
-    if not options.closed_stdout:
+    if not options.closed_stdout and not options.unread_stdout:
         if options.signal and not options.signal_after:
             out.append(os.read(out_read, 65536))
         readers.append(threading.Thread(target=read_all, args=(out_read, out)))
@@ -114,7 +116,7 @@ def run(options, folder):
                 pass
     try:
         if options.signal:  # stdin stays open: its end would wake the program up, too
-            process.wait(TIMEOUT_SECONDS)
+            process.wait(UNREAD_SECONDS if options.unread_stdout else TIMEOUT_SECONDS)
         process.communicate(stdin, timeout=TIMEOUT_SECONDS)
     except BrokenPipeError:
         process.wait(TIMEOUT_SECONDS)
@@ -123,6 +125,8 @@ def run(options, folder):
         process.wait()
     for reader in readers:
         reader.join()
+    if options.unread_stdout:
+        os.close(out_read)
     return process.returncode, b"".join(out), b"".join(err)
 
 
