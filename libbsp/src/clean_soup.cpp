@@ -52,7 +52,7 @@ Grid grid_of(const TriangleSoup& soup, const std::vector<char>& used) {
 
 // Fills points and grid_points; returns the new id of each used point.
 std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<char>& used,
-                                 CleanSoup& clean, CleanReport& report) {
+                                 CleanSoup& clean, CleanReport& report, CancelCheck& check) {
   const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
   clean.points.reserve(count);
   clean.grid_points.reserve(count);
@@ -60,6 +60,7 @@ std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<cha
   std::vector<PointId> id_of(soup.points.size());
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
     if (!used[i]) continue;
+    check.tick();
     const GridPoint at = clean.grid.to_grid(soup.points[i]);
     const PointId fresh = clean.grid_points.end_id();
     const PointId id(index.find_or_insert(hash_of(at), fresh.value, [&](std::uint32_t candidate) {
@@ -152,7 +153,8 @@ bool in_a_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 
 }  // namespace
 
-CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report) {
+CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report, ProgressObserver* progress) {
+  CancelCheck check(progress);
   report = {};
   report.triangles_in = soup.triangles.size();
   std::vector<char> finite;
@@ -160,9 +162,10 @@ CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report) {
   CleanSoup clean;
   clean.grid = grid_of(soup, used);
   report.grid_unit = clean.grid.unit;
-  const std::vector<PointId> id_of = join_points(soup, used, clean, report);
+  const std::vector<PointId> id_of = join_points(soup, used, clean, report, check);
   TriangleCollector collector(clean, report, soup.triangles.size());
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    check.tick();
     if (!finite[t]) {
       ++report.dropped_not_finite;
       continue;

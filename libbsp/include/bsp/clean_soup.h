@@ -8,6 +8,7 @@
 #include <bsp/grid.h>
 #include <bsp/ids.h>
 #include <bsp/plane_table.h>
+#include <bsp/progress.h>
 #include <bsp/soup.h>
 
 namespace meshrepair {
@@ -43,8 +44,9 @@ struct CleanReport {
 
 // Rounds the points to the grid, joins those that fall on one grid point, drops and counts what
 // cannot be a triangle. The result may be without triangles. Linear time. Throws InputError when an
-// index is out of range.
-[[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report);
+// index is out of range, Cancelled when `progress` says so.
+[[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report,
+                                   ProgressObserver* progress = nullptr);
 
 // An axis-parallel box with integer corners, inclusive.
 struct GridBox {
