@@ -1,33 +1,15 @@
 // bspextract TREE -o OUT: the last step of the repair, from labelled tree to mesh.
-#include <optional>
-#include <string>
-
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
-#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
 
-struct Options {
-  std::string input;
-  std::string output;
-  std::optional<SoupFormat> format;
-  RepairOptions repair;
-};
-
-ExitCode extract(Options& options, Run& run) {
-  check_files(options.input, options.output, run);
+void extract(const StepOptions& options, Run& run, Findings& findings) {
   const WriteOptions format = mesh_format(options.output, options.format);
-  options.repair.progress = &run.progress;
-  Findings findings(options.input, options.output);
-  return with_findings(run, findings, [&] {
-    const Tree tree = read_tree_stage(run, findings);
-    const Surface surface = extract_mesh(tree, options.repair, findings.repair);
-    write_mesh_stage(surface, format, run, findings);
-    print_summary(run, findings);
-    return certify(findings);
-  });
+  const Tree tree = read_tree_stage(run, findings);
+  const Surface surface = extract_mesh(tree, options.repair, findings.repair);
+  write_mesh_stage(surface, format, run, findings);
 }
 
 }  // namespace
@@ -35,18 +17,15 @@ ExitCode extract(Options& options, Run& run) {
 
 int main(int argc, char** argv) {
   using namespace meshrepair;
-  Options options;
+  StepOptions options;
   Program program("bspextract", "Extracts the boundary of what is solid in a labelled tree.",
                   "  bspextract solid.bsp -o repaired.obj\n"
                   "  bspextract solid.bsp -o - --format stl > repaired.stl\n");
   CLI::App& app = program.command_line();
   app.add_option("TREE", options.input, "Labelled tree of bspsolid; - is standard input")
       ->required();
-  app.add_option("-o,--output", options.output, "Mesh to write; - is standard output")
-      ->required()
-      ->type_name("OUT")
-      ->group("Output");
+  add_output_option(app, options.output, "OUT", "Mesh to write; - is standard output");
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
-  return program.run(argc, argv, [&](Run& run) { return extract(options, run); });
+  return run_steps(program, argc, argv, options, extract);
 }

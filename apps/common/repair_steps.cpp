@@ -10,6 +10,7 @@
 #include <bsp/error.h>
 
 #include "common/report_sections.h"
+#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
@@ -75,6 +76,51 @@ void run_named(const std::string& name, const std::function<void()>& work) {
   }
 }
 
+// What can be said before hours of work. The report is withheld where it would replace a file.
+void check_files(const std::string& input, const std::string& output, Run& run) {
+  if (input.empty()) throw UsageError("the name of the input is empty");
+  if (output.empty()) throw UsageError("the name of the output is empty");
+  if (input != "-") check_report(run, input, "input");
+  check_report(run, output, "output");
+  if (output == "-") return;
+  const fs::path folder = fs::path(output).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    throw OutputError(output + ": there is no folder " + folder.string());
+  }
+  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
+}
+
+ExitCode certify(const Findings& findings) {
+  const Topology& surface = findings.repair.output;
+  std::string missing;
+  if (!surface.closed()) missing += ", not closed";
+  if (!surface.manifold()) missing += ", not manifold";
+  if (!surface.oriented()) missing += ", not consistently oriented";
+  if (missing.empty()) return ExitCode::done;
+  const bool stl = findings.output_format && is_stl(*findings.output_format);
+  spdlog::error(
+      "{}: written, but{}{}", findings.output_name(), missing.substr(1),
+      stl ? " once STL has rounded and joined its corners; OBJ, OFF and PLY keep them" : "");
+  return ExitCode::not_certified;
+}
+
+ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
+  Findings findings(options.input, options.output);
+  run.report.set_input({{"path", findings.input}});
+  try {
+    run_named(findings.input_name(), [&] { body(options, run, findings); });
+  } catch (...) {
+    warn_of_coarse_grid(findings);
+    add_sections(findings, run.report);
+    throw;
+  }
+  add_sections(findings, run.report);
+  print_summary(run, findings);
+  warn_of_coarse_grid(findings);
+  return findings.output_format ? certify(findings) : ExitCode::done;
+}
+
 }  // namespace
 
 std::string Findings::input_name() const { return input == "-" ? "standard input" : input; }
@@ -95,20 +141,6 @@ TreeFacts facts_of(const Tree& tree) {
   return facts;
 }
 
-void check_files(const std::string& input, const std::string& output, Run& run) {
-  if (input.empty()) throw UsageError("the name of the input is empty");
-  if (output.empty()) throw UsageError("the name of the output is empty");
-  if (input != "-") check_report(run, input, "input");
-  check_report(run, output, "output");
-  if (output == "-") return;
-  const fs::path folder = fs::path(output).parent_path();
-  std::error_code error;
-  if (!folder.empty() && !fs::is_directory(folder, error)) {
-    throw OutputError(output + ": there is no folder " + folder.string());
-  }
-  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
-}
-
 WriteOptions mesh_format(const std::string& output, const std::optional<SoupFormat>& format) {
   WriteOptions options;
   options.format = format ? format : format_of_extension(output);
@@ -119,19 +151,13 @@ WriteOptions mesh_format(const std::string& output, const std::optional<SoupForm
                                        ".off, .ply): use --format");
 }
 
-ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work) {
-  run.report.set_input({{"path", findings.input}});
-  ExitCode code = ExitCode::internal;
-  try {
-    run_named(findings.input_name(), [&] { code = work(); });
-  } catch (...) {
-    warn_of_coarse_grid(findings);
-    add_sections(findings, run.report);
-    throw;
-  }
-  warn_of_coarse_grid(findings);
-  add_sections(findings, run.report);
-  return code;
+int run_steps(Program& program, int argc, const char* const* argv, StepOptions& options,
+              const StepBody& body) {
+  return program.run(argc, argv, [&](Run& run) {
+    check_files(options.input, options.output, run);
+    options.repair.progress = &run.progress;
+    return run_body(options, run, body);
+  });
 }
 
 TriangleSoup read_mesh_stage(Run& run, Findings& findings) {
@@ -173,20 +199,6 @@ void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
   write_tree(tree, findings.output, &run.progress);
   findings.tree_written = facts_of(tree);
   run.report.set_output({{"path", findings.output}, {"format", "BSP tree"}});
-}
-
-ExitCode certify(const Findings& findings) {
-  const Topology& surface = findings.repair.output;
-  std::string missing;
-  if (!surface.closed()) missing += ", not closed";
-  if (!surface.manifold()) missing += ", not manifold";
-  if (!surface.oriented()) missing += ", not consistently oriented";
-  if (missing.empty()) return ExitCode::done;
-  const bool stl = findings.output_format && is_stl(*findings.output_format);
-  spdlog::error(
-      "{}: written, but{}{}", findings.output_name(), missing.substr(1),
-      stl ? " once STL has rounded and joined its corners; OBJ, OFF and PLY keep them" : "");
-  return ExitCode::not_certified;
 }
 
 }  // namespace meshrepair

@@ -46,18 +46,27 @@ struct Findings {
   std::optional<SoupFormat> output_format;
 };
 
-// What can be said of the files before hours of work. Throws UsageError where a name is empty,
-// or the report is the input or the output, too, and withholds it then; OutputError where the
-// output cannot be.
-void check_files(const std::string& input, const std::string& output, Run& run);
+// What the command line of such a program says; not every program has all of it.
+struct StepOptions {
+  std::string input;
+  std::string output;
+  std::optional<SoupFormat> format;
+  RepairOptions repair;
+};
+
+using StepBody = std::function<void(const StepOptions&, Run&, Findings&)>;
+
+// The whole of a program once its options are declared: looks at the files before hours of work,
+// runs `body`, puts what was found into the report, also when it throws, and prints the summary.
+// Errors about the input that do not name it are given its name. The report never goes where the
+// input or the output is. Exit code "done" of a program that writes a mesh means that the mesh
+// holds all guarantees that were checked; what it does not hold is said on stderr.
+[[nodiscard]] int run_steps(Program& program, int argc, const char* const* argv,
+                            StepOptions& options, const StepBody& body);
+
 // Throws UsageError where no format can be told.
 [[nodiscard]] WriteOptions mesh_format(const std::string& output,
                                        const std::optional<SoupFormat>& format);
-
-// Runs `work`, then puts the findings into the report, also when it throws, and warns where the
-// working grid was too coarse for some triangles. Errors about the input
-// that do not name it are given its name.
-ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
 
 // Stage "read". What a reader passed over is logged as warnings.
 [[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
@@ -65,8 +74,5 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
 // Stage "write".
 void write_mesh_stage(const Surface& surface, WriteOptions options, Run& run, Findings& findings);
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings);
-
-// Done if the surface holds all guarantees that were checked; says on stderr which it does not.
-[[nodiscard]] ExitCode certify(const Findings& findings);
 
 }  // namespace meshrepair
