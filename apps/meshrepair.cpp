@@ -1,34 +1,15 @@
 // meshrepair IN OUT: any triangle mesh to the boundary of a solid, the whole way in one process.
-#include <optional>
-#include <string>
-
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
 
 namespace meshrepair {
 namespace {
 
-struct Options {
-  std::string input;
-  std::string output;
-  std::optional<SoupFormat> format;
-  bool strict = false;
-  RepairOptions repair;
-};
-
-ExitCode repair_mesh(Options& options, Run& run) {
-  check_files(options.input, options.output, run);
+void repair_mesh(const StepOptions& options, Run& run, Findings& findings) {
   const WriteOptions format = mesh_format(options.output, options.format);
-  options.repair.progress = &run.progress;
-  if (format.format == SoupFormat::stl_binary) {
-    options.repair.certify.precision = Precision::float32;
-  }
-  Findings findings(options.input, options.output);
-  return with_findings(run, findings, [&] {
-    const TriangleSoup soup = read_mesh_stage(run, findings);
-    const Surface surface = repair(soup, options.repair, findings.repair);
-    return write_certified(surface, format, options.strict, run, findings);
-  });
+  const TriangleSoup soup = read_mesh_stage(run, findings);
+  const Surface surface = repair(soup, certified_for(*format.format, options.repair), findings.repair);
+  write_mesh_stage(surface, format, options.strict, run, findings);
 }
 
 }  // namespace
@@ -36,7 +17,7 @@ ExitCode repair_mesh(Options& options, Run& run) {
 
 int main(int argc, char** argv) {
   using namespace meshrepair;
-  Options options;
+  StepOptions options;
   Program program(
       "meshrepair", "Turns any triangle mesh into the boundary of a solid.",
       "  meshrepair broken.stl repaired.stl\n"
@@ -51,5 +32,5 @@ int main(int argc, char** argv) {
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_certify_options(app, options.repair.certify, options.strict);
-  return program.run(argc, argv, [&](Run& run) { return repair_mesh(options, run); });
+  return run_steps(program, argc, argv, options, repair_mesh);
 }

@@ -1,7 +1,7 @@
 # cli_test(NAME name APP program ARGS arg... [EXIT code] [STDIN text | STDIN_FILE file]
 #          [COPY name=file...] [STDOUT regex...] [STDERR regex...] [EXISTS file...] [MISSING file...]
 #          [UNCHANGED name...] [JSON file:key=value...] [SIGNAL name...] [SIGNAL_AFTER regex]
-#          [CLOSED_STDOUT] [RUN_IN_TERMINAL] [FIXTURES name...] [LABELS label...])
+#          [FILE_SIZE_LIMIT bytes] [CLOSED_STDOUT] [UNREAD_STDOUT] [RUN_IN_TERMINAL] [FIXTURES name...] [LABELS label...])
 #
 # One behaviour of a program as one test, "name": the program runs in a folder of its own, empty but for the files
 # that COPY puts there; those that UNCHANGED names must be as they were in the end. EXIT is 0 unless told. Regexes are Python's and are searched for anywhere in the
@@ -9,16 +9,17 @@
 # are joined by dots, the value is JSON ("report.json:exit_code=3", "report.json:error=null").
 # SIGNAL sends signals (INT, TERM) one after the other once the program has printed something to stdout, or,
 # with SIGNAL_AFTER, once what it has printed to stderr matches.
-# CLOSED_STDOUT gives it a stdout that nobody reads; RUN_IN_TERMINAL gives it a terminal as stderr.
+# FILE_SIZE_LIMIT is that of "ulimit -f". No test may leave a temporary file (*.tmp) behind.
+# CLOSED_STDOUT gives it a stdout whose other end is closed, UNREAD_STDOUT one that is open but that nobody reads; RUN_IN_TERMINAL gives it a terminal as stderr.
 function(cli_test)
   cmake_parse_arguments(
-    ARG "RUN_IN_TERMINAL;CLOSED_STDOUT" "NAME;APP;EXIT;STDIN;STDIN_FILE;SIGNAL_AFTER"
+    ARG "RUN_IN_TERMINAL;CLOSED_STDOUT;UNREAD_STDOUT" "NAME;APP;EXIT;STDIN;STDIN_FILE;SIGNAL_AFTER;FILE_SIZE_LIMIT"
     "ARGS;COPY;STDOUT;STDERR;EXISTS;MISSING;UNCHANGED;JSON;SIGNAL;FIXTURES;LABELS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "cli_test ${ARG_NAME}: unknown ${ARG_UNPARSED_ARGUMENTS}")
   endif()
   set(checks "")
-  foreach(option EXIT STDIN STDIN_FILE SIGNAL_AFTER)
+  foreach(option EXIT STDIN STDIN_FILE SIGNAL_AFTER FILE_SIZE_LIMIT)
     if(DEFINED ARG_${option})
       string(TOLOWER ${option} flag)
       string(REPLACE "_" "-" flag ${flag})
@@ -36,6 +37,9 @@ function(cli_test)
   endif()
   if(ARG_CLOSED_STDOUT)
     list(APPEND checks --closed-stdout)
+  endif()
+  if(ARG_UNREAD_STDOUT)
+    list(APPEND checks --unread-stdout)
   endif()
   add_test(NAME ${ARG_NAME} COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/apps/run_cli_test.py
                                     ${checks} -- $<TARGET_FILE:${ARG_APP}> ${ARG_ARGS})

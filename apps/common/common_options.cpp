@@ -42,6 +42,21 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
+// An empty text where `text` is a time to wait. CLI11's own check lets NaN pass, and its message
+// spells out the largest double.
+std::string why_no_duration(const std::string& text) {
+  double seconds = 0;
+  const bool is_number = CLI::detail::lexical_cast(text, seconds);
+  if (is_number && seconds >= 0) return {};
+  return text + " is not a number of seconds, 0 or more";
+}
+
+// CLI11 looks for what is missing first: whoever mistypes the only option would be told of IN.
+std::string message_of(const CLI::App& app, const CLI::RequiredError& error) {
+  const std::vector<std::string> unknown = app.remaining();
+  return unknown.empty() ? error.what() : CLI::ExtrasError(unknown).what();
+}
+
 std::string_view report_value(const std::vector<std::string_view>& arguments) {
   for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     if (arguments[i].substr(0, kReportOption.size() + 1) == "--report=") {
@@ -74,7 +89,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->group(running);
   app.add_option("--time-limit", options.time_limit, "Give up after this time; 0 is never")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber)
+      ->check(why_no_duration)
       ->type_name("SECONDS")
       ->group(running);
   app.add_option("--report", options.report, "Write a report as JSON; - is standard output")
@@ -101,6 +116,8 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion& version) {
     std::fputs((std::string(version.what()) + "\n").c_str(), stdout);
     return false;
+  } catch (const CLI::RequiredError& error) {
+    throw UsageError(message_of(app, error));
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }

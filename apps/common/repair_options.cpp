@@ -63,6 +63,11 @@ void add_inside_option(CLI::App& app, InsideRule& rule) {
       ->group("Repair");
 }
 
+void add_output_option(CLI::App& app, std::string& output, const std::string& type,
+                       const std::string& description) {
+  app.add_option("-o,--output", output, description)->required()->type_name(type)->group("Output");
+}
+
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },

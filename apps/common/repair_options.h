@@ -15,6 +15,10 @@ namespace meshrepair {
 // --inside: which parts of space are solid.
 void add_inside_option(CLI::App& app, InsideRule& rule);
 
+// -o: the file to write, where it does not stand beside IN.
+void add_output_option(CLI::App& app, std::string& output, const std::string& type,
+                       const std::string& description);
+
 // --format: the format of the mesh that is written, whatever its name.
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format);
 

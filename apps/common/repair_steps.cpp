@@ -48,6 +48,17 @@ bool is_stl(SoupFormat format) {
   return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
 }
 
+// Nothing is wrong with triangles that the working grid swallows but that one point is too far off:
+// the user can mend that, and would otherwise look for them in vain.
+void warn_of_coarse_grid(const Findings& findings) {
+  const CleanReport& clean = findings.repair.clean;
+  if (clean.dropped_below_grid == 0) return;
+  spdlog::warn(
+      "{}: {} of {} triangles dropped, smaller than the working grid, whose step is {:.3g}: is a "
+      "point far away from the others?",
+      findings.input_name(), clean.dropped_below_grid, clean.triangles_in, clean.grid_unit);
+}
+
 template <class ErrorType>
 [[noreturn]] void rethrow_named(const ErrorType& error, const std::string& name) {
   const std::string message = error.what();
@@ -63,6 +74,73 @@ void run_named(const std::string& name, const std::function<void()>& work) {
   } catch (const NoSolidError& error) {
     rethrow_named(error, name);
   }
+}
+
+// What can be said before hours of work. The report is withheld where it would replace a file.
+void check_files(const std::string& input, const std::string& output, Run& run) {
+  if (input.empty()) throw UsageError("the name of the input is empty");
+  if (output.empty()) throw UsageError("the name of the output is empty");
+  if (input != "-") check_report(run, input, "input");
+  check_report(run, output, "output");
+  if (output == "-") return;
+  const fs::path folder = fs::path(output).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    throw OutputError(output + ": there is no folder " + folder.string());
+  }
+  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
+}
+
+// What counts is the file: in STL, welding and rounding may join what the surface keeps apart.
+void look_at_file(const Surface& surface, SoupFormat format, Findings& findings) {
+  findings.output_points = surface.mesh.points.size();
+  if (!is_stl(format)) return;
+  const TriangleSoup back = as_read_back(surface.mesh, format);
+  findings.output_points = back.points.size();
+  findings.repair.output = examine_topology(back.triangles, back.points.size());
+}
+
+std::string missing_guarantees(const Findings& findings, SoupFormat format) {
+  const Topology& surface = findings.repair.output;
+  std::string missing;
+  if (!surface.closed()) missing += ", not closed";
+  if (!surface.manifold()) missing += ", not manifold";
+  if (!surface.oriented()) missing += ", not consistently oriented";
+  if (!missing.empty() && is_stl(format)) {
+    missing += " once STL has rounded and joined its corners (OBJ, OFF and PLY keep them)";
+  }
+  const CertifyReport& certified = findings.repair.certify;
+  if (certified.pairs > 0) {
+    missing += ", with " + number_of(certified.pairs, "pair") + " of triangles that intersect";
+  }
+  if (certified.degenerate > 0) {
+    missing += ", with " + number_of(certified.degenerate, "triangle") + " without area";
+  }
+  return missing.empty() ? missing : missing.substr(2);
+}
+
+ExitCode verdict(const Findings& findings) {
+  if (findings.missing_guarantees.empty()) return ExitCode::done;
+  spdlog::error("{}: {} {}", findings.output_name(),
+                findings.withheld ? "not written, it would be" : "written, but",
+                findings.missing_guarantees);
+  return ExitCode::not_certified;
+}
+
+ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
+  Findings findings(options.input, options.output);
+  run.report.set_input({{"path", findings.input}});
+  try {
+    run_named(findings.input_name(), [&] { body(options, run, findings); });
+  } catch (...) {
+    warn_of_coarse_grid(findings);
+    add_sections(findings, run.report);
+    throw;
+  }
+  add_sections(findings, run.report);
+  if (!findings.withheld) print_summary(run, findings);
+  warn_of_coarse_grid(findings);
+  return verdict(findings);
 }
 
 }  // namespace
@@ -85,18 +163,6 @@ TreeFacts facts_of(const Tree& tree) {
   return facts;
 }
 
-void check_files(const std::string& input, const std::string& output, Run& run) {
-  if (input != "-") check_report(run, input, "input");
-  check_report(run, output, "output");
-  if (output == "-") return;
-  const fs::path folder = fs::path(output).parent_path();
-  std::error_code error;
-  if (!folder.empty() && !fs::is_directory(folder, error)) {
-    throw OutputError(output + ": there is no folder " + folder.string());
-  }
-  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
-}
-
 WriteOptions mesh_format(const std::string& output, const std::optional<SoupFormat>& format) {
   WriteOptions options;
   options.format = format ? format : format_of_extension(output);
@@ -107,17 +173,18 @@ WriteOptions mesh_format(const std::string& output, const std::optional<SoupForm
                                        ".off, .ply): use --format");
 }
 
-ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work) {
-  run.report.set_input({{"path", findings.input}});
-  ExitCode code = ExitCode::internal;
-  try {
-    run_named(findings.input_name(), [&] { code = work(); });
-  } catch (...) {
-    add_sections(findings, run.report);
-    throw;
-  }
-  add_sections(findings, run.report);
-  return code;
+RepairOptions certified_for(SoupFormat format, RepairOptions options) {
+  if (format == SoupFormat::stl_binary) options.certify.precision = Precision::float32;
+  return options;
+}
+
+int run_steps(Program& program, int argc, const char* const* argv, StepOptions& options,
+              const StepBody& body) {
+  return program.run(argc, argv, [&](Run& run) {
+    check_files(options.input, options.output, run);
+    options.repair.progress = &run.progress;
+    return run_body(options, run, body);
+  });
 }
 
 TriangleSoup read_mesh_stage(Run& run, Findings& findings) {
@@ -137,65 +204,25 @@ Tree read_tree_stage(Run& run, Findings& findings) {
   return tree;
 }
 
-void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
-  StageMeter meter(findings.repair.stages, &run.progress);
-  meter.begin("write");
-  write_tree(tree, findings.output);
-  findings.tree_written = facts_of(tree);
-  run.report.set_output({{"path", findings.output}, {"format", "BSP tree"}});
-}
-
-namespace {
-
-// What counts is the file: in STL, welding and rounding may join what the surface keeps apart.
-void look_at_file(const Surface& surface, SoupFormat format, Findings& findings) {
-  findings.output_points = surface.mesh.points.size();
-  if (!is_stl(format)) return;
-  const TriangleSoup back = as_read_back(surface.mesh, format);
-  findings.output_points = back.points.size();
-  findings.repair.output = examine_topology(back.triangles, back.points.size());
-}
-
-// Which guarantees the file does not hold; empty when it holds all.
-std::string missing_guarantees(const Findings& findings, SoupFormat format) {
-  const Topology& surface = findings.repair.output;
-  std::string missing;
-  if (!surface.closed()) missing += ", not closed";
-  if (!surface.manifold()) missing += ", not manifold";
-  if (!surface.oriented()) missing += ", not consistently oriented";
-  if (!missing.empty() && is_stl(format)) {
-    missing += " once STL has rounded and joined its corners (OBJ, OFF and PLY keep them)";
-  }
-  const CertifyReport& certified = findings.repair.certify;
-  if (certified.pairs > 0) {
-    missing += ", " + number_of(certified.pairs, "pair") + " of triangles still intersect";
-  }
-  if (certified.degenerate > 0) {
-    missing += ", " + number_of(certified.degenerate, "triangle") + " without area";
-  }
-  return missing.empty() ? missing : missing.substr(2);
-}
-
-}  // namespace
-
-ExitCode write_certified(const Surface& surface, const WriteOptions& options, bool strict, Run& run,
-                         Findings& findings) {
-  findings.output_format = options.format;
-  run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
+void write_mesh_stage(const Surface& surface, WriteOptions options, bool strict, Run& run,
+                      Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
   look_at_file(surface, *options.format, findings);
-  const std::string missing = missing_guarantees(findings, *options.format);
-  if (strict && !missing.empty()) {
-    spdlog::error("{}: not written, because it would be {}", findings.output_name(), missing);
-    return ExitCode::not_certified;
-  }
+  findings.missing_guarantees = missing_guarantees(findings, *options.format);
+  findings.withheld = strict && !findings.missing_guarantees.empty();
+  if (findings.withheld) return;
+  options.progress = &run.progress;
   write_soup(surface.mesh, findings.output, options);
-  meter.end();
-  print_summary(run, findings);
-  if (missing.empty()) return ExitCode::done;
-  spdlog::error("{}: written, but {}", findings.output_name(), missing);
-  return ExitCode::not_certified;
+  run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
+}
+
+void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("write");
+  write_tree(tree, findings.output, &run.progress);
+  findings.tree_written = facts_of(tree);
+  run.report.set_output({{"path", findings.output}, {"format", "BSP tree"}});
 }
 
 }  // namespace meshrepair

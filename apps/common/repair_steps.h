@@ -43,29 +43,43 @@ struct Findings {
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
   std::size_t output_points = 0;
-  std::optional<SoupFormat> output_format;
+  std::string missing_guarantees;           // of that mesh, for people; empty: it holds all
+  bool withheld = false;                    // not written because of these
 };
 
-// What can be said of the files before hours of work. Throws UsageError where the report is the
-// input or the output, too, and withholds it; OutputError where the output cannot be.
-void check_files(const std::string& input, const std::string& output, Run& run);
+// What the command line of such a program says; not every program has all of it.
+struct StepOptions {
+  std::string input;
+  std::string output;
+  std::optional<SoupFormat> format;
+  bool strict = false;
+  RepairOptions repair;
+};
+
+using StepBody = std::function<void(const StepOptions&, Run&, Findings&)>;
+
+// The whole of a program once its options are declared: looks at the files before hours of work,
+// runs `body`, puts what was found into the report, also when it throws, and prints the summary.
+// Errors about the input that do not name it are given its name. The report never goes where the
+// input or the output is. Exit code "done" of a program that writes a mesh means that the mesh
+// holds all guarantees that were checked; what it does not hold is said on stderr.
+[[nodiscard]] int run_steps(Program& program, int argc, const char* const* argv,
+                            StepOptions& options, const StepBody& body);
+
 // Throws UsageError where no format can be told.
 [[nodiscard]] WriteOptions mesh_format(const std::string& output,
                                        const std::optional<SoupFormat>& format);
 
-// Runs `work`, then puts the findings into the report, also when it throws. Errors about the input
-// that do not name it are given its name.
-ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
+// The same options, to be certified at the precision of the format.
+[[nodiscard]] RepairOptions certified_for(SoupFormat format, RepairOptions options);
 
 // Stage "read". What a reader passed over is logged as warnings.
 [[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
 // Stage "write".
+// Finds which guarantees the file would not hold; if `strict` and there are any, writes nothing.
+void write_mesh_stage(const Surface& surface, WriteOptions options, bool strict, Run& run,
+                      Findings& findings);
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings);
-
-// Stage "write", then the summary. Done if the file holds all guarantees; otherwise says on stderr
-// which it does not, and, if `strict`, writes nothing.
-[[nodiscard]] ExitCode write_certified(const Surface& surface, const WriteOptions& options,
-                                       bool strict, Run& run, Findings& findings);
 
 }  // namespace meshrepair

@@ -33,6 +33,7 @@ Json section_of(const CleanReport& clean) {
   return {{"triangles_in", clean.triangles_in},
           {"dropped_not_finite", clean.dropped_not_finite},
           {"dropped_degenerate", clean.dropped_degenerate},
+          {"dropped_below_grid", clean.dropped_below_grid},
           {"duplicates", clean.duplicates},
           {"opposite_duplicates", clean.opposite_duplicates},
           {"joined_points", clean.joined_points},

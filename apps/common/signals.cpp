@@ -36,6 +36,7 @@ void install_signal_handlers() {
   handle(SIGINT);
   handle(SIGTERM);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int received_signal() noexcept { return first_signal.load(); }

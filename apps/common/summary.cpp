@@ -49,8 +49,10 @@ std::string dropped_triangles(const CleanReport& clean) {
   if (copies > 0) texts.push_back(number_of(copies, "duplicate"));
   if (clean.dropped_degenerate > 0)
     texts.push_back(grouped(clean.dropped_degenerate) + " without area");
+  if (clean.dropped_below_grid > 0)
+    texts.push_back(grouped(clean.dropped_below_grid) + " below the grid");
   if (clean.dropped_not_finite > 0) {
-    texts.push_back(grouped(clean.dropped_not_finite) + " with coordinates that are no numbers");
+    texts.push_back(grouped(clean.dropped_not_finite) + " with NaN or infinity");
   }
   return texts.empty() ? std::string() : "triangles dropped: " + joined(texts);
 }

@@ -2,18 +2,22 @@
 // rename, fsync of the folder. The name is registered before the file is made and forgotten after
 // it is gone, so that a signal handler finds it at any time in between; one file is written at a
 // time for that reason.
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
 #include <mutex>
+#include <poll.h>
 #include <random>
 #include <string>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+
+#include <climits>
 
 #include <bsp/atomic_file.h>
 #include <bsp/error.h>
@@ -33,20 +37,48 @@ std::mutex one_at_a_time;
   throw OutputError(path.string() + ": " + what + ": " + std::generic_category().message(error));
 }
 
-void write_all(int descriptor, std::string_view bytes, const fs::path& path) {
+void stop_if_cancelled(ProgressObserver* progress) {
+  if (progress != nullptr && progress->cancelled()) throw Cancelled();
+}
+
+// A signal that comes just before a write wakes nobody up, so a write must not block: the waiting
+// is done here, in pieces.
+void wait_until_writable(int descriptor, ProgressObserver* progress) {
+  constexpr int kMilliseconds = 100;
+  pollfd waiting = {descriptor, POLLOUT, 0};
+  int ready = 0;
+  do {
+    stop_if_cancelled(progress);
+    ready = ::poll(&waiting, 1, kMilliseconds);
+  } while (ready == 0 || (ready < 0 && errno == EINTR));
+}
+
+// What can be written without blocking once the descriptor is writable: a pipe has room for
+// PIPE_BUF bytes then.
+std::size_t bytes_at_once(int descriptor) {
+  constexpr std::size_t kFileBytes = std::size_t{1} << 20;
+  struct stat status {};
+  const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  return is_file ? kFileBytes : PIPE_BUF;
+}
+
+void write_all(int descriptor, std::string_view bytes, const fs::path& path,
+               ProgressObserver* progress) {
+  const std::size_t most = progress != nullptr ? bytes_at_once(descriptor) : bytes.size();
   while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (progress != nullptr) wait_until_writable(descriptor, progress);
+    const ssize_t count = ::write(descriptor, bytes.data(), std::min(most, bytes.size()));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail(path, "cannot be written", errno);
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
 }
 
-void write_directly(const fs::path& path, std::string_view bytes) {
+void write_directly(const fs::path& path, std::string_view bytes, ProgressObserver* progress) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) fail(path, "cannot be opened for writing", errno);
   try {
-    write_all(descriptor, bytes, path);
+    write_all(descriptor, bytes, path, progress);
   } catch (...) {
     ::close(descriptor);
     throw;
@@ -90,7 +122,9 @@ class TemporaryFile {
     if (::fchmod(descriptor_, old.st_mode & 07777) != 0) fail(target_, "cannot be written", errno);
   }
 
-  void write(std::string_view bytes) { write_all(descriptor_, bytes, target_); }
+  void write(std::string_view bytes, ProgressObserver* progress) {
+    write_all(descriptor_, bytes, target_, progress);
+  }
 
   void become_target() {
     if (::fsync(descriptor_) != 0) fail(target_, "cannot be written", errno);
@@ -125,27 +159,29 @@ fs::path follow_links(const fs::path& path) {
   return target.empty() ? path : target;
 }
 
-void replace_file(const fs::path& path, std::string_view bytes, const struct stat* old) {
+void replace_file(const fs::path& path, std::string_view bytes, const struct stat* old,
+                  ProgressObserver* progress) {
   const std::lock_guard lock(one_at_a_time);
   const fs::path target = follow_links(path);
   // A rename would replace a file that is protected against writing.
   if (old != nullptr && ::access(target.c_str(), W_OK) != 0) fail(path, "cannot be written", errno);
   TemporaryFile file(target);
   if (old != nullptr) file.take_permissions(*old);
-  file.write(bytes);
+  file.write(bytes, progress);
   file.become_target();
   sync_folder(target);
 }
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  if (path == "-") return write_all(STDOUT_FILENO, bytes, "standard output");
+void write_file_atomically(const fs::path& path, std::string_view bytes,
+                           ProgressObserver* progress) {
+  if (path == "-") return write_all(STDOUT_FILENO, bytes, "standard output", progress);
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) throw OutputError(path.string() + ": is a folder");
-  if (exists && !S_ISREG(status.st_mode)) return write_directly(path, bytes);
-  replace_file(path, bytes, exists ? &status : nullptr);
+  if (exists && !S_ISREG(status.st_mode)) return write_directly(path, bytes, progress);
+  replace_file(path, bytes, exists ? &status : nullptr, progress);
 }
 
 void remove_unfinished_file() noexcept {

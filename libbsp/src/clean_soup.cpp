@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <bsp/clean_soup.h>
 #include <bsp/error.h>
 #include <bsp/hash_index.h>
@@ -50,7 +52,7 @@ Grid grid_of(const TriangleSoup& soup, const std::vector<char>& used) {
 
 // Fills points and grid_points; returns the new id of each used point.
 std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<char>& used,
-                                 CleanSoup& clean, CleanReport& report) {
+                                 CleanSoup& clean, CleanReport& report, CancelCheck& check) {
   const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
   clean.points.reserve(count);
   clean.grid_points.reserve(count);
@@ -58,6 +60,7 @@ std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<cha
   std::vector<PointId> id_of(soup.points.size());
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
     if (!used[i]) continue;
+    check.tick();
     const GridPoint at = clean.grid.to_grid(soup.points[i]);
     const PointId fresh = clean.grid_points.end_id();
     const PointId id(index.find_or_insert(hash_of(at), fresh.value, [&](std::uint32_t candidate) {
@@ -97,13 +100,11 @@ class TriangleCollector {
     clean_.triangles.reserve(expected);
   }
 
-  void add(const Corners& corners, std::uint32_t source) {
+  // False where there is no triangle: the corners are equal or in a line, on the grid.
+  bool add(const Corners& corners, std::uint32_t source) {
     const auto& at = clean_.grid_points;
     Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
-    if (is_null(plane)) {
-      ++report_.dropped_degenerate;
-      return;
-    }
+    if (is_null(plane)) return false;
     const Corners key = sorted(corners);
     const TriangleId fresh = clean_.triangles.end_id();
     const TriangleId id(
@@ -116,6 +117,7 @@ class TriangleCollector {
     } else {
       add_copy(clean_.triangles[id], corners);
     }
+    return true;
   }
 
  private:
@@ -134,9 +136,25 @@ class TriangleCollector {
   HashIndex index_;
 };
 
+// Corners are in a line where their triangle is lower than this over its longest side, the largest
+// coordinate being 1. Each coordinate was rounded twice, when it was made and when it was scaled,
+// which moves a corner by up to sqrt(3) 2^-52 and changes the height by twice that at most; the
+// cross product adds about as much. For the report alone: what is kept is decided on the grid.
+constexpr double kFlat = 0x1p-48;
+
+bool in_a_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const double size = a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(c.cwiseAbs()).maxCoeff();
+  if (size == 0) return true;
+  const Vec3d u = b / size - a / size;
+  const Vec3d v = c / size - a / size;
+  const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
+  return u.cross(v).norm() <= kFlat * longest;
+}
+
 }  // namespace
 
-CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report) {
+CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report, ProgressObserver* progress) {
+  CancelCheck check(progress);
   report = {};
   report.triangles_in = soup.triangles.size();
   std::vector<char> finite;
@@ -144,15 +162,20 @@ CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report) {
   CleanSoup clean;
   clean.grid = grid_of(soup, used);
   report.grid_unit = clean.grid.unit;
-  const std::vector<PointId> id_of = join_points(soup, used, clean, report);
+  const std::vector<PointId> id_of = join_points(soup, used, clean, report, check);
   TriangleCollector collector(clean, report, soup.triangles.size());
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    check.tick();
     if (!finite[t]) {
       ++report.dropped_not_finite;
       continue;
     }
     const auto& c = soup.triangles[t];
-    collector.add({id_of[c[0]], id_of[c[1]], id_of[c[2]]}, static_cast<std::uint32_t>(t));
+    if (collector.add({id_of[c[0]], id_of[c[1]], id_of[c[2]]}, static_cast<std::uint32_t>(t))) {
+      continue;
+    }
+    const bool flat = in_a_line(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
+    ++(flat ? report.dropped_degenerate : report.dropped_below_grid);
   }
   return clean;
 }

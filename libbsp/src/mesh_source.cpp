@@ -22,6 +22,21 @@ void MeshSource::fail_at(std::size_t position, const std::string& what) const {
   throw InputError(name + ":" + std::to_string(line_at(position)) + ": " + what);
 }
 
+void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& first,
+                 std::string_view face, std::string_view why, std::string_view point) {
+  const auto line_of = [&](std::size_t position) {
+    return " (first: line " + std::to_string(source.line_at(position)) + ")";
+  };
+  if (report.bad_faces > 0) {
+    report.warnings.push_back(counted(report.bad_faces, face) + " left out: " + std::string(why) +
+                              line_of(first.face));
+  }
+  if (report.bad_points > 0) {
+    report.warnings.push_back("coordinates of " + counted(report.bad_points, point) +
+                              " are not numbers" + line_of(first.point));
+  }
+}
+
 std::string counted(std::size_t count, std::string_view noun) {
   return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include <bsp/soup_io.h>
+
 namespace meshrepair {
 
 struct MeshSource {
@@ -19,6 +21,16 @@ struct MeshSource {
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail_at(std::size_t position, const std::string& what) const;
 };
+
+// Where a text first holds a face or a point that is no such thing.
+struct FirstBad {
+  std::size_t face = 0;
+  std::size_t point = 0;
+};
+
+// Puts the report's bad faces, of which `why` says what is wrong, and points into its warnings.
+void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& first,
+                 std::string_view face, std::string_view why, std::string_view point = "point");
 
 // "1 face", "2 faces".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);

@@ -29,7 +29,7 @@ class ObjReader {
       }
       text_.skip_line();
     }
-    report_losses();
+    warn_of_bad(result_.report, source_, first_bad_, "face", "corners that are not numbers");
     faces_.append_to(result_);
     return std::move(result_);
   }
@@ -39,7 +39,7 @@ class ObjReader {
     Vec3d point = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
     bool good = true;
     for (int i = 0; i < 3; ++i) good = text_.next_on_line() && text_.read_real(point[i]) && good;
-    if (!good && result_.report.bad_points++ == 0) first_bad_point_ = line_at_;
+    if (!good && result_.report.bad_points++ == 0) first_bad_.point = line_at_;
     result_.soup.points.push_back(point);
   }
 
@@ -48,7 +48,7 @@ class ObjReader {
     while (text_.next_on_line()) {
       std::int64_t number = 0;
       if (!text_.read_integer(number, '/')) {
-        if (result_.report.bad_faces++ == 0) first_bad_face_ = line_at_;
+        if (result_.report.bad_faces++ == 0) first_bad_.face = line_at_;
         return faces_.drop_face();
       }
       faces_.add_corner(index_of(number));
@@ -62,27 +62,12 @@ class ObjReader {
     return static_cast<std::int64_t>(result_.soup.points.size()) + number;
   }
 
-  void report_losses() {
-    ReadReport& report = result_.report;
-    if (report.bad_faces > 0) {
-      report.warnings.push_back(counted(report.bad_faces, "face") +
-                                " left out: corners that are not numbers (first: line " +
-                                std::to_string(source_.line_at(first_bad_face_)) + ")");
-    }
-    if (report.bad_points > 0) {
-      report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
-                                " are not numbers (first: line " +
-                                std::to_string(source_.line_at(first_bad_point_)) + ")");
-    }
-  }
-
   const MeshSource& source_;
   TextScanner text_;
   ReadResult result_;
   FaceList faces_;
   std::size_t line_at_ = 0;
-  std::size_t first_bad_face_ = 0;
-  std::size_t first_bad_point_ = 0;
+  FirstBad first_bad_;
 };
 
 }  // namespace

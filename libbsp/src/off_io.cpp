@@ -62,7 +62,7 @@ class OffReader {
     const std::size_t wanted = header_.homogeneous ? 4 : 3;
     std::size_t found = 0;
     while (found < wanted && next_number() && text_.read_real(numbers[found])) ++found;
-    if (found < 3 && result_.report.bad_points++ == 0) first_bad_point_ = start;
+    if (found < 3 && result_.report.bad_points++ == 0) first_bad_.point = start;
     const double scale = found == 4 ? numbers[3] : 1.0;
     result_.soup.points.push_back(Vec3d(numbers[0], numbers[1], numbers[2]) / scale);
     if (lines_count_) {
@@ -77,7 +77,7 @@ class OffReader {
       const std::size_t start = text_.position();
       if (!read_face()) {
         const bool promised = faces_.size() + result_.report.bad_faces < header_.faces;
-        if (promised && result_.report.bad_faces++ == 0) first_bad_face_ = start;
+        if (promised && result_.report.bad_faces++ == 0) first_bad_.face = start;
         // Without lines there is no telling where the next face begins.
         if (!promised || !lines_count_) return ignore_rest(start);
       }
@@ -122,16 +122,7 @@ class OffReader {
                                 " and " + counted(header_.faces, "face") + ", the file holds " +
                                 std::to_string(points) + " and " + std::to_string(lines));
     }
-    if (report.bad_faces > 0) {
-      report.warnings.push_back(counted(report.bad_faces, "face") +
-                                " left out: cut or not numbers (first: line " +
-                                std::to_string(source_.line_at(first_bad_face_)) + ")");
-    }
-    if (report.bad_points > 0) {
-      report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
-                                " are not numbers (first: line " +
-                                std::to_string(source_.line_at(first_bad_point_)) + ")");
-    }
+    warn_of_bad(report, source_, first_bad_, "face", "cut or not numbers");
   }
 
   const MeshSource& source_;
@@ -141,8 +132,7 @@ class OffReader {
   FaceList faces_;
   bool lines_count_ = true;
   std::size_t last_face_end_ = 0;
-  std::size_t first_bad_face_ = 0;
-  std::size_t first_bad_point_ = 0;
+  FirstBad first_bad_;
 };
 
 }  // namespace
@@ -162,15 +152,7 @@ std::string format_off(const TriangleSoup& soup, const std::vector<std::string>&
   for (const std::string& comment : comments) out += "# " + comment + "\n";
   append_triple(out, std::array<std::size_t, 3>{soup.points.size(), soup.triangles.size(), 0});
   out += '\n';
-  for (const Vec3d& point : soup.points) {
-    append_triple(out, point);
-    out += '\n';
-  }
-  for (const auto& triangle : soup.triangles) {
-    out += "3 ";
-    append_triple(out, triangle);
-    out += '\n';
-  }
+  append_mesh_lines(out, soup);
   return out;
 }
 

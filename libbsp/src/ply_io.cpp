@@ -288,15 +288,7 @@ std::string format_ply_binary(const TriangleSoup& soup, const std::vector<std::s
 
 std::string format_ply_ascii(const TriangleSoup& soup, const std::vector<std::string>& comments) {
   std::string out = format_header(soup, "ascii", comments);
-  for (const Vec3d& point : soup.points) {
-    append_triple(out, point);
-    out += '\n';
-  }
-  for (const auto& triangle : soup.triangles) {
-    out += "3 ";
-    append_triple(out, triangle);
-    out += '\n';
-  }
+  append_mesh_lines(out, soup);
   return out;
 }
 

@@ -130,7 +130,7 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
     throw UsageError(path.string() +
                      ": no mesh format has this extension (.stl, .obj, .off, .ply)");
   }
-  write_file_atomically(path, format_soup(soup, *format, options.comments));
+  write_file_atomically(path, format_soup(soup, *format, options.comments), options.progress);
 }
 
 std::string format_soup(const TriangleSoup& soup, SoupFormat format,

@@ -49,7 +49,8 @@ class AsciiStlReader {
       }
     }
     drop_face();
-    report_losses();
+    warn_of_bad(result_.report, source_, first_bad_, "facet",
+                "cut or with fewer than three vertices", "vertex line");
     return std::move(result_);
   }
 
@@ -58,7 +59,7 @@ class AsciiStlReader {
     Vec3d point;
     bool good = true;
     for (int i = 0; i < 3; ++i) good = read_coordinate(point[i]) && good;
-    if (!good && result_.report.bad_points++ == 0) first_bad_point_ = word_at_;
+    if (!good && result_.report.bad_points++ == 0) first_bad_.point = word_at_;
     corners_.push_back(welder_.index_of(point));
   }
 
@@ -89,7 +90,7 @@ class AsciiStlReader {
   void drop_face() {
     if (corners_.empty()) return;
     corners_.clear();
-    if (result_.report.bad_faces++ == 0) first_bad_face_ = word_at_;
+    if (result_.report.bad_faces++ == 0) first_bad_.face = word_at_;
   }
 
   // The name goes to the end of the line, unless the line goes on with facets.
@@ -109,28 +110,13 @@ class AsciiStlReader {
     text_.go_to(end);
   }
 
-  void report_losses() {
-    ReadReport& report = result_.report;
-    if (report.bad_faces > 0) {
-      report.warnings.push_back(counted(report.bad_faces, "facet") +
-                                " left out: cut or with fewer than three vertices (first: line " +
-                                std::to_string(source_.line_at(first_bad_face_)) + ")");
-    }
-    if (report.bad_points > 0) {
-      report.warnings.push_back("coordinates of " + counted(report.bad_points, "vertex line") +
-                                " are not numbers (first: line " +
-                                std::to_string(source_.line_at(first_bad_point_)) + ")");
-    }
-  }
-
   const MeshSource& source_;
   TextScanner text_;
   ReadResult result_;
   PointWelder welder_;
   std::vector<std::uint32_t> corners_;
   std::size_t word_at_ = 0;
-  std::size_t first_bad_face_ = 0;
-  std::size_t first_bad_point_ = 0;
+  FirstBad first_bad_;
 };
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <string>
 
+#include <bsp/soup.h>
+
 namespace meshrepair {
 
 template <class Number>
@@ -22,6 +24,19 @@ void append_triple(std::string& text, const Triple& triple) {
   append_number(text, triple[1]);
   text += ' ';
   append_number(text, triple[2]);
+}
+
+// A line "x y z" for each point, then one "3 a b c" for each triangle, as OFF and PLY have them.
+inline void append_mesh_lines(std::string& text, const TriangleSoup& soup) {
+  for (const Vec3d& point : soup.points) {
+    append_triple(text, point);
+    text += '\n';
+  }
+  for (const auto& triangle : soup.triangles) {
+    text += "3 ";
+    append_triple(text, triangle);
+    text += '\n';
+  }
 }
 
 }  // namespace meshrepair

@@ -282,8 +282,8 @@ Tree parse_tree(std::string_view bytes, const std::string& name) {
   return tree;
 }
 
-void write_tree(const Tree& tree, const std::filesystem::path& path) {
-  write_file_atomically(path, format_tree(tree));
+void write_tree(const Tree& tree, const std::filesystem::path& path, ProgressObserver* progress) {
+  write_file_atomically(path, format_tree(tree), progress);
 }
 
 Tree read_tree(const std::filesystem::path& path) {

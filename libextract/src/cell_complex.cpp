@@ -35,11 +35,6 @@ Position area_vector(const CellComplex& complex, FacetId facet) {
   return sum;
 }
 
-template <class Vector>
-std::size_t bytes_of(const Vector& v) {
-  return v.capacity() * sizeof(v[0]);
-}
-
 }  // namespace
 
 CellComplex::CellComplex(const CleanSoup& soup, const GridBox& box)
@@ -84,13 +79,6 @@ std::array<double, 3> facet_centre(const CellComplex& complex, FacetId facet) {
   });
   for (double& x : sum) x /= count;
   return sum;
-}
-
-std::size_t memory_of(const CellComplex& complex) {
-  return bytes_of(complex.vertices.raw()) + bytes_of(complex.edges.raw()) +
-         bytes_of(complex.uses.raw()) + bytes_of(complex.facets.raw()) +
-         bytes_of(complex.cells.raw()) + bytes_of(complex.facet_triangles) +
-         complex.planes.size() * sizeof(Plane);
 }
 
 }  // namespace meshrepair

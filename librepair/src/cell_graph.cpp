@@ -12,9 +12,12 @@ constexpr double kLeastArea = 1e-6;
 
 }  // namespace
 
-CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover)
+CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
+                     ProgressObserver* progress)
     : first_(complex.cells.size() + 1, 0), unbounded_(complex.cells.size(), 0) {
+  CancelCheck check(progress);
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
+    check.tick();
     const Facet& facet = complex.facets[f];
     if (!facet.above.valid()) {
       unbounded_[facet.below.index()] = 1;
@@ -32,6 +35,7 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
   of_cell_.resize(2 * links_.size());
   std::vector<std::uint32_t> filled(first_.begin(), first_.end() - 1);
   for (std::uint32_t l = 0; l < links_.size(); ++l) {
+    check.tick();
     of_cell_[filled[links_[l].below.index()]++] = l;
     of_cell_[filled[links_[l].above.index()]++] = l;
   }

@@ -18,6 +18,8 @@
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
 
+#include "nudge_points.h"
+
 namespace meshrepair {
 namespace {
 
@@ -72,6 +74,7 @@ class Certifier {
     if (current_.faults() > 0) {
       best_ = current_;
       if (options_.precision == Precision::float64) move_to_grid();
+      nudge();
       mend();
       std::swap(current_, best_);
     }
@@ -103,6 +106,16 @@ class Certifier {
     keep_if_better();
   }
 
+  void nudge() {
+    if (current_.faults() == 0) return;
+    Attempt nudged = current_;
+    internal::nudge_points(nudged.surface, nudged.found, options_.precision, progress_);
+    test(nudged);
+    if (nudged.faults() >= best_.faults()) return;
+    best_ = nudged;
+    if (nudged.faults() == 0) current_ = std::move(nudged);
+  }
+
   void mend() {
     double step = step_;
     std::size_t in_vain = 0;
@@ -123,6 +136,7 @@ class Certifier {
       current_.surface = std::move(again);
       test(current_);
       in_vain = keep_if_better() ? 0 : in_vain + 1;
+      nudge();
       step *= 4;
     }
   }

@@ -2,7 +2,9 @@
 
 namespace meshrepair {
 
-std::vector<char> flood_from_infinity(const CellGraph& graph, const std::vector<char>& empty) {
+std::vector<char> flood_from_infinity(const CellGraph& graph, const std::vector<char>& empty,
+                                      ProgressObserver* progress) {
+  CancelCheck check(progress);
   std::vector<char> inside(graph.cells(), 1);
   std::vector<CellId> queue;
   for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
@@ -11,6 +13,7 @@ std::vector<char> flood_from_infinity(const CellGraph& graph, const std::vector<
     queue.push_back(c);
   }
   while (!queue.empty()) {
+    check.tick();
     const CellId cell = queue.back();
     queue.pop_back();
     for (const std::uint32_t l : graph.links_of(cell)) {

@@ -38,7 +38,7 @@ class InsideDecider {
 
  private:
   std::vector<double> solidity() {
-    const Walk walk = walk_parity(graph_);
+    const Walk walk = walk_parity(graph_, options_.solve.progress);
     note_walk(walk);
     if (!walk.consistent()) return solve_solidity(graph_, options_.solve, report_.solve);
     std::vector<double> s(graph_.cells());
@@ -47,7 +47,7 @@ class InsideDecider {
   }
 
   std::vector<double> winding() {
-    const Walk walk = walk_winding(graph_);
+    const Walk walk = walk_winding(graph_, options_.solve.progress);
     note_walk(walk);
     if (!walk.consistent()) return solve_winding(graph_, options_.solve, report_.solve);
     return {walk.value.begin(), walk.value.end()};
@@ -71,7 +71,7 @@ class InsideDecider {
     CellLabels labels = by_parity();
     std::vector<char> empty(labels.solid.size());
     for (std::size_t i = 0; i < empty.size(); ++i) empty[i] = labels.solid[i] == 0;
-    labels.solid = flood_from_infinity(graph_, empty);
+    labels.solid = flood_from_infinity(graph_, empty, options_.solve.progress);
     return labels;
   }
 

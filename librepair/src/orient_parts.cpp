@@ -36,9 +36,10 @@ double area_of(const CleanSoup& soup, TriangleId t) {
 
 class PartOrienter {
  public:
-  PartOrienter(const CleanSoup& soup, OrientReport& report)
+  PartOrienter(const CleanSoup& soup, OrientReport& report, ProgressObserver* progress)
       : soup_(soup),
         report_(report),
+        check_(progress),
         neighbours_(find_neighbours(index_triangles(soup))),
         turn_(soup.triangles.size(), kUnseen) {}
 
@@ -65,6 +66,7 @@ class PartOrienter {
     turn_[seed] = kKeep;
     bool consistent = true;
     for (std::size_t i = 0; i < part_.size(); ++i) {
+      check_.tick();
       const std::uint32_t t = part_[i];
       for (const Neighbour& n : neighbours_[t]) {
         if (n.triangle == ~std::uint32_t{0}) continue;
@@ -97,6 +99,7 @@ class PartOrienter {
 
   const CleanSoup& soup_;
   OrientReport& report_;
+  CancelCheck check_;
   Neighbours neighbours_;
   std::vector<std::int8_t> turn_;
   std::vector<std::uint32_t> part_;
@@ -104,9 +107,10 @@ class PartOrienter {
 
 }  // namespace
 
-IdVector<TriangleId, std::int32_t> orient_parts(const CleanSoup& soup, OrientReport& report) {
+IdVector<TriangleId, std::int32_t> orient_parts(const CleanSoup& soup, OrientReport& report,
+                                                ProgressObserver* progress) {
   report = {};
-  return PartOrienter(soup, report).run();
+  return PartOrienter(soup, report, progress).run();
 }
 
 IdVector<TriangleId, std::int32_t> windings_of(const CleanSoup& soup) {

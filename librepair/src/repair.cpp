@@ -30,8 +30,9 @@ CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_
 
 IdVector<TriangleId, std::int32_t> chosen_windings(const Tree& tree, const RepairOptions& options,
                                                    RepairReport& report) {
-  return options.inside.rule == InsideRule::automatic ? orient_parts(tree.input, report.orient)
-                                                      : windings_of(tree.input);
+  return options.inside.rule == InsideRule::automatic
+             ? orient_parts(tree.input, report.orient, options.progress)
+             : windings_of(tree.input);
 }
 
 // Known before any work, and worth asking: overlaps in one plane fall into very many pieces.
@@ -47,7 +48,7 @@ void require_space(const CleanSoup& soup) {
 CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
                       RepairReport& report, StageMeter& meter) {
   meter.begin("links");
-  const CellGraph graph(covered.complex, covered.cover);
+  const CellGraph graph(covered.complex, covered.cover, options.progress);
   report.links = graph.links().size();
   meter.begin("inside");
   InsideOptions inside_options = options.inside;
@@ -62,7 +63,7 @@ CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
 Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
                StageMeter& meter) {
   meter.begin("clean");
-  CleanSoup clean = clean_soup(soup, report.clean);
+  CleanSoup clean = clean_soup(soup, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
   report.input_area = surface_area(soup);
   if (clean.triangles.empty()) {

@@ -82,14 +82,19 @@ void add_row(const CellGraph& graph, LinkTerm (*term)(const Link&), double outsi
   system.right[row] = right;
 }
 
-System assemble(const CellGraph& graph, LinkTerm (*term)(const Link&), double outside) {
+System assemble(const CellGraph& graph, LinkTerm (*term)(const Link&), double outside,
+                ProgressObserver* progress) {
   System system;
   number_rows(graph, system);
   system.right.resize(static_cast<Eigen::Index>(system.cell_of_row.size()));
   system.column.reserve(2 * graph.links().size() + graph.cells());
   system.value.reserve(2 * graph.links().size() + graph.cells());
   std::vector<std::pair<int, double>> entries;
-  for (const CellId c : system.cell_of_row) add_row(graph, term, outside, c, system, entries);
+  CancelCheck check(progress);
+  for (const CellId c : system.cell_of_row) {
+    check.tick();
+    add_row(graph, term, outside, c, system, entries);
+  }
   system.first.push_back(static_cast<int>(system.column.size()));
   return system;
 }
@@ -100,7 +105,7 @@ std::vector<double> minimise(const CellGraph& graph, LinkTerm (*term)(const Link
                              const SolveOptions& options, SolveReport& report) {
   report = {};
   std::vector<double> x(graph.cells(), outside);
-  const System system = assemble(graph, term, outside);
+  const System system = assemble(graph, term, outside, options.progress);
   const auto n = static_cast<Eigen::Index>(system.cell_of_row.size());
   report.unknowns = system.cell_of_row.size();
   if (n == 0) return x;

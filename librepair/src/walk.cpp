@@ -5,7 +5,8 @@ namespace {
 
 // step(link, from, value of from) is the value at the link's other end.
 template <class Step>
-Walk walk(const CellGraph& graph, Step step) {
+Walk walk(const CellGraph& graph, ProgressObserver* progress, Step step) {
+  CancelCheck check(progress);
   Walk result;
   result.value.assign(graph.cells(), 0);
   std::vector<char> reached(graph.cells(), 0);
@@ -16,6 +17,7 @@ Walk walk(const CellGraph& graph, Step step) {
     queue.push_back(c);
   }
   for (std::size_t i = 0; i < queue.size(); ++i) {
+    check.tick();
     const CellId cell = queue[i];
     for (const std::uint32_t l : graph.links_of(cell)) {
       const Link& link = graph.links()[l];
@@ -27,6 +29,7 @@ Walk walk(const CellGraph& graph, Step step) {
     }
   }
   for (const Link& link : graph.links()) {
+    check.tick();
     const std::int32_t expected = step(link, link.above, result.value[link.above.index()]);
     result.contradictions += expected != result.value[link.below.index()];
   }
@@ -35,14 +38,14 @@ Walk walk(const CellGraph& graph, Step step) {
 
 }  // namespace
 
-Walk walk_parity(const CellGraph& graph) {
-  return walk(graph, [](const Link& link, CellId, std::int32_t value) {
+Walk walk_parity(const CellGraph& graph, ProgressObserver* progress) {
+  return walk(graph, progress, [](const Link& link, CellId, std::int32_t value) {
     return link.opaque ? 1 - value : value;
   });
 }
 
-Walk walk_winding(const CellGraph& graph) {
-  return walk(graph, [](const Link& link, CellId from, std::int32_t value) {
+Walk walk_winding(const CellGraph& graph, ProgressObserver* progress) {
+  return walk(graph, progress, [](const Link& link, CellId from, std::int32_t value) {
     return from == link.above ? value + link.winding : value - link.winding;
   });
 }

@@ -46,6 +46,8 @@ TEST(CommonOptions, NonsenseIsAUsageError) {
        std::vector<std::vector<const char*>>{{"--threads", "-1"},
                                              {"--threads", "1.5"},
                                              {"--time-limit", "-1"},
+                                             {"--time-limit", "nan"},
+                                             {"--time-limit", "soon"},
                                              {"--report"},
                                              {"extra"}}) {
     EXPECT_THROW(parse(nonsense), UsageError) << nonsense.front();

@@ -28,6 +28,20 @@ def tetrahedron(**replaced):
     return "\n".join(lines.values()).encode() + b"\n"
 
 
+def two_tetrahedra(size):
+    """OBJ text: one of size 1, one of this size."""
+    faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
+    parts = (f"v 0 0 0\nv {s} 0 0\nv 0 {s} 0\nv 0 0 {s}\n{faces}" for s in (1, size))
+    return "".join(parts).encode()
+
+
+def row_of_tetrahedra(count):
+    """OBJ text of some 100 bytes for each."""
+    faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
+    parts = (f"v {x} 0 0\nv {x + 1} 0 0\nv {x} 1 0\nv {x} 0 1\n{faces}" for x in range(0, 2 * count, 2))
+    return "".join(parts).encode()
+
+
 def random_triangles(count):
     """Large triangles that all cross each other: about a minute of work for 1000 of them."""
     chance = random.Random(1)
@@ -66,6 +80,8 @@ def main():
         "single_triangle.obj": SINGLE_TRIANGLE,
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
+        "far_point.obj": two_tetrahedra(size=10 ** 9),
+        "larger_than_a_pipe.obj": row_of_tetrahedra(4000),
         "much_work.off": random_triangles(1000),
         "unlabelled.bsp": tree,
         "flat.bsp": tree_of(bspbuild, SINGLE_TRIANGLE),

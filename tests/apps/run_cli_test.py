@@ -9,6 +9,7 @@ import json
 import os
 import pty
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -18,6 +19,7 @@ import threading
 import time
 
 TIMEOUT_SECONDS = 110
+UNREAD_SECONDS = 3  # from a signal to the end of a program whose output nobody reads
 SKIPPED = 77  # told to CTest by cli_test
 
 
@@ -27,11 +29,13 @@ def parse_arguments():
     parser.add_argument("--stdin", default="")
     parser.add_argument("--stdin-file")
     parser.add_argument("--signal-after")
+    parser.add_argument("--file-size-limit", type=int)
     for repeated in ("--copy", "--stdout", "--stderr", "--exists", "--missing", "--unchanged",
                      "--json", "--signal"):
         parser.add_argument(repeated, action="append", default=[])
     parser.add_argument("--run-in-terminal", action="store_true")
     parser.add_argument("--closed-stdout", action="store_true")
+    parser.add_argument("--unread-stdout", action="store_true")
     parser.add_argument("command", nargs="+")
     return parser.parse_args()
 
@@ -68,6 +72,13 @@ def wait_until_printed(chunks, pattern):
         time.sleep(0.005)
 
 
+def limit_file_size(size):
+    """What the program does before it becomes itself; None: nothing."""
+    if size is None:
+        return None
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
 def run(options, folder):
     """Exit code, stdout and stderr (bytes) of the program."""
     stdin = options.stdin.encode()
@@ -80,13 +91,14 @@ def run(options, folder):
     if options.closed_stdout:
         os.close(out_read)
     process = subprocess.Popen(options.command, cwd=folder, stdin=subprocess.PIPE,
-                               stdout=out_write, stderr=err_write)
+                               stdout=out_write, stderr=err_write,
+                               preexec_fn=limit_file_size(options.file_size_limit))
     os.close(out_write)
     os.close(err_write)
 
     out, err = [], []
     readers = [threading.Thread(target=read_all, args=(err_read, err))]
-    if not options.closed_stdout:
+    if not options.closed_stdout and not options.unread_stdout:
         if options.signal and not options.signal_after:
             out.append(os.read(out_read, 65536))
         readers.append(threading.Thread(target=read_all, args=(out_read, out)))
@@ -104,7 +116,7 @@ def run(options, folder):
                 pass
     try:
         if options.signal:  # stdin stays open: its end would wake the program up, too
-            process.wait(TIMEOUT_SECONDS)
+            process.wait(UNREAD_SECONDS if options.unread_stdout else TIMEOUT_SECONDS)
         process.communicate(stdin, timeout=TIMEOUT_SECONDS)
     except BrokenPipeError:
         process.wait(TIMEOUT_SECONDS)
@@ -113,6 +125,8 @@ def run(options, folder):
         process.wait()
     for reader in readers:
         reader.join()
+    if options.unread_stdout:
+        os.close(out_read)
     return process.returncode, b"".join(out), b"".join(err)
 
 
@@ -162,6 +176,9 @@ def complaints(options, folder, code, stdout, stderr):
     for name in options.missing:
         if os.path.exists(os.path.join(folder, name)):
             yield f"{name} was written"
+    for name in os.listdir(folder):
+        if name.endswith(".tmp"):
+            yield f"{name} was left behind"
     for name, source in copies(options):
         if name in options.unchanged and not same_bytes(os.path.join(folder, name), source):
             yield f"{name} was changed"

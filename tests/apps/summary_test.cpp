@@ -14,6 +14,7 @@ Findings findings_with_every_defect() {
   findings.mesh_read->bad_faces = findings.mesh_read->missing_faces = 1;
   RepairReport& repair = findings.repair;
   repair.clean.duplicates = repair.clean.dropped_degenerate = repair.clean.dropped_not_finite = 2;
+  repair.clean.dropped_below_grid = 2;
   repair.input.open_edges = repair.input.nonmanifold_edges = 3;
   repair.input.inconsistent_edges = repair.input.nonmanifold_vertices = 4;
   repair.orient.turned_triangles = 5;

@@ -14,6 +14,7 @@
 
 #include <bsp/atomic_file.h>
 #include <bsp/error.h>
+#include <bsp/progress.h>
 
 #include "temporary_folder.h"
 
@@ -128,6 +129,37 @@ TEST(WriteFileAtomically, PipesAreWrittenDirectly) {
   EXPECT_EQ(std::string(bytes, sizeof bytes), "through");
   ::close(ends[0]);
   ::close(ends[1]);
+}
+
+class Impatient : public ProgressObserver {
+ public:
+  bool cancelled() override { return ++asked_ > 2; }
+
+ private:
+  int asked_ = 0;
+};
+
+TEST(WriteFileAtomically, CancelledWhileNobodyReadsThePipe) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  Impatient impatient;
+  const std::string more_than_a_pipe_holds(std::size_t{1} << 21, 'x');
+  EXPECT_THROW(write_file_atomically("/dev/fd/" + std::to_string(ends[1]), more_than_a_pipe_holds,
+                                     &impatient),
+               Cancelled);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST(WriteFileAtomically, TargetIsAsItWasWhenCancelled) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "out";
+  std::ofstream(path) << "old";
+  Impatient impatient;
+  const std::string bytes(std::size_t{1} << 22, 'x');
+  EXPECT_THROW(write_file_atomically(path, bytes, &impatient), Cancelled);
+  EXPECT_EQ(content_of(path), "old");
+  EXPECT_EQ(files_in(folder.path()), 1u);
 }
 
 // Runs in a process of its own, because limits and signals are those of a process. Returns the exit

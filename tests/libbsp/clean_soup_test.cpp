@@ -22,7 +22,7 @@ TriangleSoup one_triangle() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1,
 
 void expect_consistent(const CleanSoup& clean, const CleanReport& report) {
   EXPECT_EQ(clean.triangles.size() + report.dropped_not_finite + report.dropped_degenerate +
-                report.duplicates + report.opposite_duplicates,
+                report.dropped_below_grid + report.duplicates + report.opposite_duplicates,
             report.triangles_in);
   EXPECT_EQ(clean.points.size(), clean.grid_points.size());
   const std::set<GridPoint> distinct(clean.grid_points.begin(), clean.grid_points.end());
@@ -109,9 +109,38 @@ TEST(CleanSoup, DegenerateTrianglesAreDropped) {
   soup.triangles.push_back({0, 1, 4});
   CleanReport report;
   const CleanSoup clean = clean_soup(soup, report);
-  EXPECT_EQ(report.dropped_degenerate, 4u);
+  EXPECT_EQ(report.dropped_degenerate, 3u);
+  EXPECT_EQ(report.dropped_below_grid, 1u);
   EXPECT_EQ(clean.triangles.size(), 1u);
   expect_consistent(clean, report);
+}
+
+TEST(CleanSoup, WhatAFarPointMakesTooSmallIsToldFromWhatWasFlatBefore) {
+  TriangleSoup soup = one_triangle();
+  soup.points.emplace_back(0.1, 0.2, 0.3);  // in a line with 0, but for the rounding of decimals
+  soup.points.emplace_back(0.3, 0.6, 0.9);
+  soup.triangles.push_back({0, 3, 4});
+  soup.points.emplace_back(1e12, 0, 0);
+  soup.triangles.push_back({0, 2, 5});
+  CleanReport report;
+  const CleanSoup clean = clean_soup(soup, report);
+  EXPECT_EQ(report.dropped_below_grid, 2u);
+  EXPECT_EQ(report.dropped_degenerate, 1u);
+  EXPECT_EQ(clean.triangles.size(), 0u);
+  expect_consistent(clean, report);
+}
+
+TEST(CleanSoup, FlatnessDoesNotDependOnTheUnit) {
+  for (const double unit : {0x1p-1060, 1.0, 0x1p+1000}) {
+    TriangleSoup soup = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0x1p-40, 0}, {0, 1, 0}},
+                         {{0, 1, 2}, {0, 3, 2}, {0, 1, 4}}};
+    for (Vec3d& p : soup.points) p *= unit;
+    CleanReport report;
+    const CleanSoup clean = clean_soup(soup, report);
+    EXPECT_EQ(clean.triangles.size(), 1u) << unit;
+    EXPECT_EQ(report.dropped_degenerate, unit < 1 ? 2u : 1u) << unit;  // 2^-1100 is 0
+    expect_consistent(clean, report);
+  }
 }
 
 TEST(CleanSoup, CopiesAreOneTriangle) {

@@ -1,4 +1,6 @@
+#include <map>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +37,30 @@ TEST(Repair, BaseOfAConeFallsIntoFewPieces) {
   const RepairResult result = repair(cone(2000));
   expect_solid(result);
   EXPECT_LT(result.report.cover.split_facets, 12000u);
+}
+
+// Counts how often each stage asks; the last time is on the way to the next stage.
+class CountingObserver : public ProgressObserver {
+ public:
+  void stage(std::string_view name) override { stage_ = name; }
+  bool cancelled() override {
+    ++asked[stage_];
+    return false;
+  }
+  std::map<std::string, int> asked;
+
+ private:
+  std::string stage_;
+};
+
+TEST(Repair, EveryLongStageAsksWhetherToGoOn) {
+  CountingObserver observer;
+  RepairOptions options;
+  options.progress = &observer;
+  (void)repair(sphere(2000), options);
+  for (const char* stage : {"clean", "tree", "orient", "cells", "cover", "links", "inside"}) {
+    EXPECT_GT(observer.asked[stage], 1) << stage;
+  }
 }
 
 TEST(Repair, NothingEnclosedIsNoSolid) {

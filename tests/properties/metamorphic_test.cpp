@@ -31,8 +31,10 @@ std::vector<SoupFamily> families() {
 
 // Nothing when nothing is enclosed.
 std::optional<RepairResult> try_repair(const TriangleSoup& soup,
-                                       InsideRule rule = InsideRule::solidity) {
+                                       InsideRule rule = InsideRule::solidity,
+                                       bool certified = true) {
   RepairOptions options;
+  options.certify.wanted = certified;
   options.inside.rule = rule;
   try {
     return repair(soup, options);
@@ -118,7 +120,8 @@ TEST_P(Metamorphic, ScalingByTwoScalesTheBytes) {
   });
 }
 
-// The tree and the cells are the same; new points are rounded at another place.
+// The tree and the cells are the same; new points are rounded at another place, so what
+// certification has to mend may differ.
 TEST_P(Metamorphic, MovingByMultiplesOfTheUnitMovesTheMesh) {
   for_seeds(6, [](const TriangleSoup& given, std::uint64_t seed) {
     // Rounded so that the moved coordinates are exact.
@@ -129,8 +132,8 @@ TEST_P(Metamorphic, MovingByMultiplesOfTheUnitMovesTheMesh) {
     Random random(seed);
     const Vec3d by = unit * Vec3d(random.integer(-999, 999), random.integer(-999, 999),
                                   random.integer(-999, 999));
-    const auto a = try_repair(soup);
-    const auto b = try_repair(moved(soup, by));
+    const auto a = try_repair(soup, InsideRule::solidity, false);
+    const auto b = try_repair(moved(soup, by), InsideRule::solidity, false);
     ASSERT_EQ(a.has_value(), b.has_value());
     if (!a) return;
     ASSERT_EQ(a->surface.source, b->surface.source);

@@ -8,6 +8,7 @@
 #include <bsp/grid.h>
 #include <bsp/ids.h>
 #include <bsp/plane_table.h>
+#include <bsp/progress.h>
 #include <bsp/soup.h>
 
 namespace meshrepair {
@@ -33,7 +34,8 @@ struct CleanSoup {
 struct CleanReport {
   std::size_t triangles_in = 0;
   std::size_t dropped_not_finite = 0;   // a corner is NaN or infinite
-  std::size_t dropped_degenerate = 0;   // corners equal or in a line, on the grid
+  std::size_t dropped_degenerate = 0;   // corners equal or in a line, as given
+  std::size_t dropped_below_grid = 0;   // only on the grid: narrower than about one of its steps
   std::size_t duplicates = 0;           // copies with the same orientation as the first
   std::size_t opposite_duplicates = 0;  // copies turned the other way
   std::size_t joined_points = 0;        // points with different coordinates on one grid point
@@ -42,8 +44,9 @@ struct CleanReport {
 
 // Rounds the points to the grid, joins those that fall on one grid point, drops and counts what
 // cannot be a triangle. The result may be without triangles. Linear time. Throws InputError when an
-// index is out of range.
-[[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report);
+// index is out of range, Cancelled when `progress` says so.
+[[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report,
+                                   ProgressObserver* progress = nullptr);
 
 // An axis-parallel box with integer corners, inclusive.
 struct GridBox {

@@ -20,14 +20,27 @@ inline std::uint64_t hash_of(const GridPoint& p) {
   return hash_mix(h, static_cast<std::uint64_t>(p.z));
 }
 
-// Room for `expected` keys; at most half full then. Positions only; keys are compared by the
-// caller.
+// Room for `expected` keys; at most half full then. For more of them the caller lets it grow.
+// Positions only; keys are compared by the caller.
 class HashIndex {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   explicit HashIndex(std::size_t expected)
       : slots_(std::bit_ceil(2 * expected + 16), kNone), mask_(slots_.size() - 1) {}
+
+  // Whether one more key than these would fill more than half of it.
+  [[nodiscard]] bool full(std::size_t keys) const { return 2 * (keys + 1) > slots_.size(); }
+
+  // Twice the room, for the same keys: positions 0 to `keys` - 1, with these hashes.
+  template <class Hash>
+  void grow(std::uint32_t keys, Hash hash_at) {
+    slots_.assign(2 * slots_.size(), kNone);
+    mask_ = slots_.size() - 1;
+    for (std::uint32_t position = 0; position < keys; ++position) {
+      find_or_insert(hash_at(position), position, [](std::uint32_t) { return false; });
+    }
+  }
 
   // The position for which `same(position)` holds among keys with this hash, or `fresh`, which is
   // stored.

@@ -1,7 +1,10 @@
 // How a long computation tells its caller where it is, and how the caller stops it.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
+
+#include <bsp/error.h>
 
 namespace meshrepair {
 
@@ -20,6 +23,25 @@ class ProgressObserver {
   // Asked every few milliseconds; true makes the computation throw Cancelled. An observer may throw
   // an exception of its own instead (LimitError, say).
   virtual bool cancelled() { return false; }
+};
+
+// For loops whose turns are too short to ask in each: asks in one of a thousand.
+class CancelCheck {
+ public:
+  // `progress` may be null.
+  explicit CancelCheck(ProgressObserver* progress) : progress_(progress) {}
+
+  // Throws Cancelled when the observer says so.
+  void tick() {
+    if (++ticks_ % kTicksPerQuestion != 0 || progress_ == nullptr) return;
+    if (progress_->cancelled()) throw Cancelled();
+  }
+
+ private:
+  static constexpr std::size_t kTicksPerQuestion = 1024;
+
+  ProgressObserver* progress_;
+  std::size_t ticks_ = 0;
 };
 
 }  // namespace meshrepair

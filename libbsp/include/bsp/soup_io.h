@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include <bsp/progress.h>
 #include <bsp/soup.h>
 
 namespace meshrepair {
@@ -65,6 +66,7 @@ struct WriteOptions {
   std::optional<SoupFormat> format;
   // Comment lines for formats that have them; no newlines inside.
   std::vector<std::string> comments;
+  ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
 };
 
 // The format that an extension stands for, if any. Case does not matter.

@@ -30,6 +30,7 @@
 #include <string>
 #include <string_view>
 
+#include <bsp/progress.h>
 #include <bsp/tree.h>
 
 namespace meshrepair {
@@ -45,8 +46,10 @@ namespace meshrepair {
 // Whether the bytes begin like a .bsp file.
 [[nodiscard]] bool looks_like_tree(std::string_view bytes);
 
-// Files; "-" is standard output or input. Throw OutputError, InputError.
-void write_tree(const Tree& tree, const std::filesystem::path& path);
+// Files; "-" is standard output or input. Throw OutputError, InputError. `progress` is asked while
+// the bytes are written whether to go on.
+void write_tree(const Tree& tree, const std::filesystem::path& path,
+                ProgressObserver* progress = nullptr);
 [[nodiscard]] Tree read_tree(const std::filesystem::path& path);
 
 }  // namespace meshrepair

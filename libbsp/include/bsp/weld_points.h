@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <vector>
 
+#include <bsp/hash_index.h>
 #include <bsp/soup.h>
 
 namespace meshrepair {
 
 // Gives every distinct point a number, in order of first appearance. Points are equal when their
 // coordinates have the same bits; -0 is turned into 0 before. No tolerance: points that differ in
-// the last bit stay apart. An open-addressed table with linear probing, at most half full.
+// the last bit stay apart.
 class PointWelder {
  public:
   // `points` receives the distinct points and must be empty; it may grow to `expected` cheaply.
@@ -21,11 +22,8 @@ class PointWelder {
   std::uint32_t index_of(Vec3d point);
 
  private:
-  void grow();
-
   std::vector<Vec3d>& points_;
-  std::vector<std::uint32_t> slots_;  // position + 1; 0: empty; size is a power of two
-  int shift_ = 0;                     // 64 - log2(slots_.size())
+  internal::HashIndex index_;
 };
 
 }  // namespace meshrepair

@@ -129,7 +129,4 @@ class CellComplex {
 // The mean of the facet's vertices.
 [[nodiscard]] std::array<double, 3> facet_centre(const CellComplex& complex, FacetId facet);
 
-// Bytes held by the pools.
-[[nodiscard]] std::size_t memory_of(const CellComplex& complex);
-
 }  // namespace meshrepair

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <bsp/progress.h>
 #include <extract/cell_complex.h>
 #include <extract/cover_facets.h>
 
@@ -20,7 +21,9 @@ struct Link {
 
 class CellGraph {
  public:
-  CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover);
+  // `progress` is asked whether to go on.
+  CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
+            ProgressObserver* progress = nullptr);
 
   [[nodiscard]] std::size_t cells() const { return first_.size() - 1; }
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }

@@ -3,13 +3,15 @@
 
 #include <vector>
 
+#include <bsp/progress.h>
 #include <repair/cell_graph.h>
 
 namespace meshrepair {
 
 // 1 for the cells that cannot be reached from outside the box through cells with `empty` set,
-// without passing an opaque link: the inside.
+// without passing an opaque link: the inside. `progress` is asked whether to go on.
 [[nodiscard]] std::vector<char> flood_from_infinity(const CellGraph& graph,
-                                                    const std::vector<char>& empty);
+                                                    const std::vector<char>& empty,
+                                                    ProgressObserver* progress = nullptr);
 
 }  // namespace meshrepair

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include <bsp/clean_soup.h>
+#include <bsp/progress.h>
 
 namespace meshrepair {
 
@@ -15,9 +16,10 @@ struct OrientReport {
 
 // How each triangle is turned against its plane's normal after every part has been oriented
 // consistently, the way round that turns the smaller area. A soup that is consistent is not
-// changed.
+// changed. `progress` is asked whether to go on.
 [[nodiscard]] IdVector<TriangleId, std::int32_t> orient_parts(const CleanSoup& soup,
-                                                              OrientReport& report);
+                                                              OrientReport& report,
+                                                              ProgressObserver* progress = nullptr);
 
 // The same as the soup has it.
 [[nodiscard]] IdVector<TriangleId, std::int32_t> windings_of(const CleanSoup& soup);

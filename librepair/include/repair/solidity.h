@@ -12,7 +12,7 @@ namespace meshrepair {
 struct SolveOptions {
   double tolerance = 1e-5;  // relative residual of the conjugate gradients
   int max_iterations = 5000;
-  ProgressObserver* progress = nullptr;  // asked in every iteration whether to go on
+  ProgressObserver* progress = nullptr;  // asked all the time whether to go on
 };
 
 struct SolveReport {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <bsp/progress.h>
 #include <repair/cell_graph.h>
 
 namespace meshrepair {
@@ -15,12 +16,14 @@ struct Walk {
   [[nodiscard]] bool consistent() const { return contradictions == 0; }
 };
 
+// Both ask `progress` whether to go on.
+//
 // Parity: 0 outside, changing at every opaque link. Solidity's optimum is 2 * value - 1 when
 // consistent.
-[[nodiscard]] Walk walk_parity(const CellGraph& graph);
+[[nodiscard]] Walk walk_parity(const CellGraph& graph, ProgressObserver* progress = nullptr);
 
 // Winding number: 0 outside, value(below) - value(above) = winding of the link. The winding optimum
 // when consistent.
-[[nodiscard]] Walk walk_winding(const CellGraph& graph);
+[[nodiscard]] Walk walk_winding(const CellGraph& graph, ProgressObserver* progress = nullptr);
 
 }  // namespace meshrepair
