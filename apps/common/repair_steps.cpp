@@ -175,6 +175,7 @@ WriteOptions mesh_format(const std::string& output, const std::optional<SoupForm
 
 RepairOptions certified_for(SoupFormat format, RepairOptions options) {
   if (format == SoupFormat::stl_binary) options.certify.precision = Precision::float32;
+  options.certify.welded = is_stl(format);
   return options;
 }
 

@@ -121,7 +121,9 @@ Json certificate_of(const RepairReport& repair) {
           {"degenerate_triangles", certified.degenerate},
           {"intersecting_pairs_at_first", certified.pairs_at_first},
           {"rounds", certified.rounds},
-          {"snapped_points", certified.snapped_points}};
+          {"snapped_points", certified.snapped_points},
+          {"dropped_parts", certified.dropped_parts},
+          {"joined_points", certified.joined_points}};
 }
 
 Json result_of(const Findings& findings) {

@@ -18,7 +18,9 @@
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
 
+#include "drop_turned_parts.h"
 #include "nudge_points.h"
+#include "separate_copies.h"
 
 namespace meshrepair {
 namespace {
@@ -47,13 +49,15 @@ GridCell cell_of(const Vec3d& p, double step) {
   return {q.x(), q.y(), q.z()};
 }
 
-// The distance of neighbouring numbers of 24 bits at the mesh's largest coordinate.
-double float_spacing(const TriangleSoup& mesh) {
+// The distance of neighbouring numbers at the mesh's largest coordinate.
+double spacing_of_numbers(const TriangleSoup& mesh, Precision precision) {
   double largest = 0;
   for (const Vec3d& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   int exponent = 0;
   std::frexp(largest, &exponent);
-  return std::ldexp(1.0, exponent - std::numeric_limits<float>::digits);
+  return std::ldexp(
+      1.0, exponent - (precision == Precision::float32 ? std::numeric_limits<float>::digits
+                                                       : std::numeric_limits<double>::digits));
 }
 
 class Certifier {
@@ -61,10 +65,8 @@ class Certifier {
   Certifier(Surface surface, const Grid& grid, const CertifyOptions& options,
             const RepairAgain& repair_again, ProgressObserver* progress, CertifyReport& report)
       : options_(options), repair_again_(repair_again), progress_(progress), report_(report) {
-    step_ = grid.unit;
-    if (options.precision == Precision::float32) {
-      step_ = std::max(step_, float_spacing(surface.mesh));
-    }
+    spacing_ = spacing_of_numbers(surface.mesh, options.precision);
+    step_ = options.precision == Precision::float32 ? std::max(grid.unit, spacing_) : grid.unit;
     current_.surface = std::move(surface);
   }
 
@@ -74,12 +76,14 @@ class Certifier {
     if (current_.faults() > 0) {
       best_ = current_;
       if (options_.precision == Precision::float64) move_to_grid();
-      nudge();
+      improve();
       mend();
       std::swap(current_, best_);
     }
     report_.pairs = current_.found.count;
     report_.degenerate = current_.found.degenerate;
+    report_.joined_points = current_.joined;
+    report_.dropped_parts = current_.dropped_parts;
     report_.done = true;
     return std::move(current_.surface);
   }
@@ -88,15 +92,21 @@ class Certifier {
   struct Attempt {
     Surface surface;
     SelfIntersections found;
-    [[nodiscard]] std::size_t faults() const { return found.count + found.degenerate; }
+    std::size_t joined = 0;
+    std::size_t dropped_parts = 0;
+    [[nodiscard]] std::size_t faults() const { return found.count + found.degenerate + joined; }
   };
 
-  void test(Attempt& attempt) const {
+  // `before`: where the points were before they were moved, if not just before rounding.
+  void test(Attempt& attempt, std::vector<Vec3d> before = {}) const {
+    if (before.empty()) before = attempt.surface.mesh.points;
     round_points(attempt.surface.mesh, options_.precision);
+    attempt.dropped_parts += internal::drop_turned_parts(attempt.surface, before);
     SelfIntersectionOptions options;
     options.most_pairs = kMostPairs;
     options.progress = progress_;
     attempt.found = self_intersections(attempt.surface.mesh, options);
+    attempt.joined = options_.welded ? internal::count_copies(attempt.surface.mesh) : 0;
   }
 
   // Often all that is wrong is that input points closer than a step of the grid were joined.
@@ -106,14 +116,26 @@ class Certifier {
     keep_if_better();
   }
 
-  void nudge() {
-    if (current_.faults() == 0) return;
-    Attempt nudged = current_;
-    internal::nudge_points(nudged.surface, nudged.found, options_.precision, progress_);
-    test(nudged);
-    if (nudged.faults() >= best_.faults()) return;
-    best_ = nudged;
-    if (nudged.faults() == 0) current_ = std::move(nudged);
+  // What needs no new repair. Further rounds start from what was before, on the grid.
+  void improve() {
+    Attempt improved = current_;
+    if (improved.joined > 0) separate(improved);
+    if (improved.found.count + improved.found.degenerate > 0) {
+      internal::nudge_points(improved.surface, improved.found, options_.precision, progress_);
+      test(improved);
+    }
+    if (improved.faults() < best_.faults()) best_ = std::move(improved);
+  }
+
+  void separate(Attempt& attempt) const {
+    const Attempt before = attempt;
+    for (const double distance : {2 * spacing_, 8 * spacing_, 32 * spacing_}) {
+      Attempt apart = before;
+      internal::separate_copies(apart.surface.mesh, distance);
+      test(apart, before.surface.mesh.points);
+      if (apart.faults() < attempt.faults()) attempt = std::move(apart);
+      if (attempt.faults() == 0) return;
+    }
   }
 
   void mend() {
@@ -136,7 +158,7 @@ class Certifier {
       current_.surface = std::move(again);
       test(current_);
       in_vain = keep_if_better() ? 0 : in_vain + 1;
-      nudge();
+      improve();
       step *= 4;
     }
   }
@@ -192,7 +214,8 @@ class Certifier {
   const RepairAgain& repair_again_;
   ProgressObserver* progress_;
   CertifyReport& report_;
-  double step_ = 0;
+  double spacing_ = 0;  // of the numbers that can be written
+  double step_ = 0;     // of the finest grid
   Attempt current_, best_;
 };
 

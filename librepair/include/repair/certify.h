@@ -17,6 +17,9 @@ enum class Precision { float64, float32 };
 struct CertifyOptions {
   bool wanted = true;
   Precision precision = Precision::float64;
+  // The format has no indices, as STL: points with equal coordinates are one to its readers. Then
+  // solids that touch are moved apart, by a few units in the last place.
+  bool welded = false;
   // How often the places that fail may be brought onto a coarser grid and repaired again.
   std::size_t most_rounds = 6;
 };
@@ -28,8 +31,12 @@ struct CertifyReport {
   std::size_t degenerate = 0;      // triangles without area, in the end
   std::size_t rounds = 0;          // of mending
   std::size_t snapped_points = 0;  // moved onto a grid in the last of them
+  std::size_t dropped_parts = 0;   // that rounding flattened or turned inside out
+  std::size_t joined_points = 0;   // that a welding format still joins with others
 
-  [[nodiscard]] bool passed() const { return done && pairs == 0 && degenerate == 0; }
+  [[nodiscard]] bool passed() const {
+    return done && pairs == 0 && degenerate == 0 && joined_points == 0;
+  }
 };
 
 // Repairs a soup that is a solid already but for places where its sheets cross: the whole pipeline,
