@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -75,6 +76,7 @@ class SurfaceChecker {
 
   // The triangles that have three different corners, of welded points if these are to be.
   void choose_triangles() {
+    const Vec3d nowhere = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
     std::vector<std::uint32_t> welded;
     if (options_.weld) welded = weld();
     for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
@@ -85,7 +87,7 @@ class SurfaceChecker {
       const Vec3d &a = soup_.points[corners[0]], &b = soup_.points[corners[1]],
                   &c = soup_.points[corners[2]];
       if (!a.allFinite() || !b.allFinite() || !c.allFinite()) {
-        add(Defect::not_finite_triangle, {{t, t}, Vec3d::Zero()}, {t});
+        add(Defect::not_finite_triangle, {{t, t}, nowhere}, {t});
         continue;
       }
       const bool repeated =
@@ -315,8 +317,11 @@ bool SurfaceCheck::manifold() const {
 
 bool SurfaceCheck::oriented() const { return (*this)[Defect::inconsistent_edge].count == 0; }
 
-// Every part has to be closed, and none may enclose nothing.
+// What hangs together at a manifold edge faces one way; beyond other edges it may be two surfaces,
+// one of them inside out.
 bool SurfaceCheck::outward() const {
+  if ((*this)[Defect::nonmanifold_edge].count > 0) return false;
+  if ((*this)[Defect::self_intersection].count > 0) return false;
   return !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const SurfacePart& part) {
     return part.closed && part.facing != 0 && !part.inside_out;
   });

@@ -36,7 +36,7 @@ struct Place {
   // Points for edges and points, triangles for triangles, the part's first triangle for a part; the
   // second equals the first where there is one.
   std::array<std::uint32_t, 2> ids{};
-  Vec3d at = Vec3d::Zero();  // the middle of it
+  Vec3d at = Vec3d::Zero();  // the middle of it; NaN of what is not finite
 };
 
 struct DefectPlaces {
@@ -84,6 +84,8 @@ struct SurfaceCheck {
   [[nodiscard]] bool closed() const;
   [[nodiscard]] bool manifold() const;
   [[nodiscard]] bool oriented() const;
+  // Every part is closed and faces away from what it encloses. Not where that cannot be told: at
+  // edges that are not manifold, and where triangles intersect.
   [[nodiscard]] bool outward() const;
   // The boundary of a solid: all of the above, and no degenerate, infinite, duplicate or
   // intersecting triangle.
