@@ -190,6 +190,7 @@ std::vector<Colour> defect_colours(const SurfaceCheck& check) {
 
 std::vector<std::string> colour_legend() {
   std::vector<std::string> lines;
+  lines.reserve(kColours.size() + 1);
   for (const MarkColour& mark : kColours) {
     lines.push_back(fmt::format("{:<8} {}", mark.name, mark.meaning));
   }
