@@ -36,6 +36,13 @@ Program::Program(const std::string& name, const std::string& description,
   command_line_.footer("Examples:\n" + examples.substr(0, examples.find_last_not_of('\n') + 1));
 }
 
+void Program::report_to_standard_output() {
+  if (!options_.report.empty() && options_.report != "-") {
+    throw UsageError("--report: excludes --json, which prints the report");
+  }
+  options_.report = "-";
+}
+
 int Program::run(int argc, const char* const* argv, const Body& body) {
   return run_guarded(command_line_.get_name(), [&] {
     install_signal_handlers();

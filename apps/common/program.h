@@ -38,6 +38,10 @@ class Program {
   // For the program's own options, to be added before run().
   [[nodiscard]] CLI::App& command_line() { return command_line_; }
 
+  // For a body whose program has another option for --report -. Throws UsageError if a file was
+  // named by --report.
+  void report_to_standard_output();
+
   // Parses, runs `body`, writes the report whatever happened, and returns the exit code. The report
   // that cannot be written turns success into ExitCode::output.
   [[nodiscard]] int run(int argc, const char* const* argv, const Body& body);

@@ -76,21 +76,6 @@ void run_named(const std::string& name, const std::function<void()>& work) {
   }
 }
 
-// What can be said before hours of work. The report is withheld where it would replace a file.
-void check_files(const std::string& input, const std::string& output, Run& run) {
-  if (input.empty()) throw UsageError("the name of the input is empty");
-  if (output.empty()) throw UsageError("the name of the output is empty");
-  if (input != "-") check_report(run, input, "input");
-  check_report(run, output, "output");
-  if (output == "-") return;
-  const fs::path folder = fs::path(output).parent_path();
-  std::error_code error;
-  if (!folder.empty() && !fs::is_directory(folder, error)) {
-    throw OutputError(output + ": there is no folder " + folder.string());
-  }
-  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
-}
-
 // What counts is the file: in STL, welding and rounding may join what the surface keeps apart.
 void look_at_file(const Surface& surface, SoupFormat format, Findings& findings) {
   findings.output_points = surface.mesh.points.size();
@@ -129,15 +114,10 @@ ExitCode verdict(const Findings& findings) {
 
 ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   Findings findings(options.input, options.output);
-  run.report.set_input({{"path", findings.input}});
-  try {
-    run_named(findings.input_name(), [&] { body(options, run, findings); });
-  } catch (...) {
-    warn_of_coarse_grid(findings);
-    add_sections(findings, run.report);
-    throw;
-  }
-  add_sections(findings, run.report);
+  (void)with_findings(run, findings, [&] {
+    body(options, run, findings);
+    return ExitCode::done;
+  });
   if (!findings.withheld) print_summary(run, findings);
   warn_of_coarse_grid(findings);
   return verdict(findings);
@@ -163,6 +143,34 @@ TreeFacts facts_of(const Tree& tree) {
   return facts;
 }
 
+void check_files(const std::string& input, const std::string& output, Run& run) {
+  if (input.empty()) throw UsageError("the name of the input is empty");
+  if (input != "-") check_report(run, input, "input");
+  if (output.empty()) return;
+  check_report(run, output, "output");
+  if (output == "-") return;
+  const fs::path folder = fs::path(output).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    throw OutputError(output + ": there is no folder " + folder.string());
+  }
+  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
+}
+
+ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work) {
+  run.report.set_input({{"path", findings.input}});
+  ExitCode code = ExitCode::internal;
+  try {
+    run_named(findings.input_name(), [&] { code = work(); });
+  } catch (...) {
+    warn_of_coarse_grid(findings);
+    add_sections(findings, run.report);
+    throw;
+  }
+  add_sections(findings, run.report);
+  return code;
+}
+
 WriteOptions mesh_format(const std::string& output, const std::optional<SoupFormat>& format) {
   WriteOptions options;
   options.format = format ? format : format_of_extension(output);
@@ -182,6 +190,7 @@ RepairOptions certified_for(SoupFormat format, RepairOptions options) {
 int run_steps(Program& program, int argc, const char* const* argv, StepOptions& options,
               const StepBody& body) {
   return program.run(argc, argv, [&](Run& run) {
+    if (options.output.empty()) throw UsageError("the name of the output is empty");
     check_files(options.input, options.output, run);
     options.repair.progress = &run.progress;
     return run_body(options, run, body);

@@ -66,6 +66,15 @@ using StepBody = std::function<void(const StepOptions&, Run&, Findings&)>;
 [[nodiscard]] int run_steps(Program& program, int argc, const char* const* argv,
                             StepOptions& options, const StepBody& body);
 
+// What can be said of the files before hours of work; `output` is empty when nothing is written.
+// Throws UsageError where the report is the input or the output, too, and withholds it; OutputError
+// where the output cannot be.
+void check_files(const std::string& input, const std::string& output, Run& run);
+
+// Runs `work`, then puts the findings into the report, also when it throws. Errors about the input
+// that do not name it are given its name.
+ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
+
 // Throws UsageError where no format can be told.
 [[nodiscard]] WriteOptions mesh_format(const std::string& output,
                                        const std::optional<SoupFormat>& format);

@@ -148,6 +148,8 @@ Json stages_of(const RepairReport& repair) {
 
 }  // namespace
 
+Json read_section(const ReadReport& read) { return section_of(read); }
+
 void add_sections(const Findings& findings, JsonReport& report) {
   const RepairReport& repair = findings.repair;
   if (findings.mesh_read) report.set_section("read", section_of(*findings.mesh_read));

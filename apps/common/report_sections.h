@@ -9,4 +9,7 @@ namespace meshrepair {
 // One section for each part of the work that was begun.
 void add_sections(const Findings& findings, JsonReport& report);
 
+// What a reader found in one mesh, as in the section "read".
+[[nodiscard]] Json read_section(const ReadReport& read);
+
 }  // namespace meshrepair

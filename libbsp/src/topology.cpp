@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -18,6 +19,20 @@ void count_edge(std::span<const IndexTriangle> triangles, std::span<const std::u
       sides.size() == 2 && side_start(triangles, sides[0]) == side_start(triangles, sides[1]);
 }
 
+void note_edge(std::span<const IndexTriangle> triangles, std::span<const std::uint32_t> sides,
+               TopologyPlaces& places) {
+  const auto add_to = [&](std::vector<std::uint32_t>& list) {
+    list.insert(list.end(), sides.begin(), sides.end());
+  };
+  if (sides.size() == 1) {
+    add_to(places.open_sides);
+  } else if (sides.size() > 2) {
+    add_to(places.nonmanifold_sides);
+  } else if (side_start(triangles, sides[0]) == side_start(triangles, sides[1])) {
+    add_to(places.inconsistent_sides);
+  }
+}
+
 // Joins the two pairs of corners that the triangles on both sides of an edge have in common.
 void join_corners(std::span<const IndexTriangle> triangles, std::uint32_t s, std::uint32_t t,
                   DisjointSets& corners) {
@@ -27,21 +42,39 @@ void join_corners(std::span<const IndexTriangle> triangles, std::uint32_t s, std
 }
 
 std::size_t count_split_vertices(std::span<const IndexTriangle> triangles, std::size_t points,
-                                 DisjointSets& corners) {
+                                 DisjointSets& corners, TopologyPlaces* places) {
   std::vector<char> fans(points, 0);
   std::size_t split = 0;
   for (std::uint32_t c = 0; c < 3 * triangles.size(); ++c) {
     if (corners.root(c) != c) continue;
-    char& seen = fans[side_start(triangles, c)];
+    const std::uint32_t vertex = side_start(triangles, c);
+    char& seen = fans[vertex];
     split += seen == 1;
+    if (seen == 1 && places != nullptr) places->nonmanifold_vertices.push_back(vertex);
     if (seen < 2) ++seen;
+  }
+  if (places != nullptr) {
+    std::sort(places->nonmanifold_vertices.begin(), places->nonmanifold_vertices.end());
   }
   return split;
 }
 
+// The lowest triangle of a part stands for it, so parts are met in the order of their numbers.
+std::vector<std::uint32_t> number_parts(std::size_t triangles, DisjointSets& sets) {
+  std::vector<std::uint32_t> parts(triangles);
+  std::uint32_t count = 0;
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    const std::uint32_t root = sets.root(t);
+    parts[t] = root == t ? count++ : parts[root];
+  }
+  return parts;
+}
+
 }  // namespace
 
-Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t points) {
+Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t points,
+                          TopologyPlaces* places) {
+  if (places != nullptr) *places = {};
   Topology topology;
   topology.triangles = triangles.size();
   for (const auto& t : triangles) {
@@ -51,11 +84,13 @@ Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t 
   DisjointSets corners(3 * triangles.size());
   EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
     count_edge(triangles, sides, topology);
+    if (places != nullptr) note_edge(triangles, sides, *places);
     for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
     if (sides.size() == 2) join_corners(triangles, sides[0], sides[1], corners);
   });
   topology.parts = parts.count();
-  topology.nonmanifold_vertices = count_split_vertices(triangles, points, corners);
+  topology.nonmanifold_vertices = count_split_vertices(triangles, points, corners, places);
+  if (places != nullptr) places->parts = number_parts(triangles.size(), parts);
   return topology;
 }
 

@@ -136,6 +136,26 @@ TEST(Topology, AMoebiusStripCannotBeOriented) {
   EXPECT_EQ(t.inconsistent_edges, 1u);
 }
 
+TEST(Topology, PlacesAreWhereTheCountsComeFrom) {
+  TriangleSoup soup = cube();
+  append(soup, cube());
+  std::swap(soup.triangles[3][1], soup.triangles[3][2]);
+  soup.triangles.erase(soup.triangles.begin() + 12);
+  soup.triangles.push_back({0, 1, 9});
+  TopologyPlaces places;
+  const Topology t = examine_topology(soup.triangles, soup.points.size(), &places);
+  EXPECT_EQ(places.open_sides.size(), t.open_edges);
+  EXPECT_EQ(places.inconsistent_sides.size(), 2 * t.inconsistent_edges);
+  EXPECT_EQ(places.nonmanifold_sides.size(), 3 * t.nonmanifold_edges);
+  EXPECT_EQ(places.nonmanifold_vertices.size(), t.nonmanifold_vertices);
+  EXPECT_GT(t.inconsistent_edges * t.nonmanifold_edges * t.nonmanifold_vertices, 0u);
+  ASSERT_EQ(places.parts.size(), soup.triangles.size());
+  EXPECT_EQ(places.parts[0], 0u);
+  EXPECT_EQ(places.parts[12], 1u);
+  EXPECT_EQ(places.parts.back(), 0u);
+  EXPECT_EQ(t.parts, 2u);
+}
+
 TEST(Volume, IsExactForBoxesWhereverTheyAre) {
   Random random(1);
   for (int i = 0; i < 100; ++i) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include <bsp/edge_table.h>
 #include <bsp/soup.h>
@@ -28,9 +30,19 @@ struct Topology {
   [[nodiscard]] bool oriented() const { return inconsistent_edges == 0; }
 };
 
-// Every index is below `points`.
+// Where the counts of a Topology come from. Sides are those of EdgeTable.
+struct TopologyPlaces {
+  std::vector<std::uint32_t> open_sides;
+  std::vector<std::uint32_t> nonmanifold_sides;   // all of each such edge, one edge after the other
+  std::vector<std::uint32_t> inconsistent_sides;  // both of each such edge
+  std::vector<std::uint32_t> nonmanifold_vertices;
+  std::vector<std::uint32_t>
+      parts;  // of each triangle: 0 to Topology::parts - 1, by first triangle
+};
+
+// Every index is below `points`. `places`, unless null, is filled, with points in ascending order.
 [[nodiscard]] Topology examine_topology(std::span<const IndexTriangle> triangles,
-                                        std::size_t points);
+                                        std::size_t points, TopologyPlaces* places = nullptr);
 
 // Signed volume (positive when the triangles are counter-clockwise seen from outside) and area, in
 // the input's units.

@@ -1,0 +1,27 @@
+// What meshcheck has found, for people, for scripts and for the eye.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <bsp/coloured_ply.h>
+#include <extract/check_surface.h>
+
+#include "common/json_report.h"
+
+namespace meshrepair {
+
+// A table: each defect with its number and the first places, the measures, and the verdict.
+// `what` is the line about what was read.
+[[nodiscard]] std::string check_table(const SurfaceCheck& check, const std::string& what);
+
+// The section "check" of the report.
+[[nodiscard]] Json check_section(const SurfaceCheck& check);
+
+// The worst defect of each triangle as a colour. Pre: the triangles are marked.
+[[nodiscard]] std::vector<Colour> defect_colours(const SurfaceCheck& check);
+
+// "red  triangles that intersect others", ...: one line for each colour.
+[[nodiscard]] std::vector<std::string> colour_legend();
+
+}  // namespace meshrepair

@@ -1,0 +1,70 @@
+#include "common/distance_report.h"
+
+#include <optional>
+#include <string_view>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "common/summary.h"
+
+namespace meshrepair {
+namespace {
+
+double share_of(double distance, double diagonal) { return diagonal > 0 ? distance / diagonal : 0; }
+
+std::string row(std::string_view name, double forth, double back, double diagonal) {
+  return fmt::format("{:<12}{:>13.6g}{:>12.4g} %{:>15.6g}{:>12.4g} %\n", name, forth,
+                     100 * share_of(forth, diagonal), back, 100 * share_of(back, diagonal));
+}
+
+Json value_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json way_section(const OneSidedDistance& way, double diagonal) {
+  const auto relative = [&](double distance) { return share_of(distance, diagonal); };
+  std::optional<double> relative_bound;
+  if (way.bound) relative_bound = relative(*way.bound);
+  return {{"samples", way.samples},
+          {"mean", way.mean},
+          {"rms", way.rms},
+          {"hausdorff", way.largest},
+          {"bound", value_of(way.bound)},
+          {"at", {way.at.x(), way.at.y(), way.at.z()}},
+          {"relative",
+           {{"mean", relative(way.mean)},
+            {"rms", relative(way.rms)},
+            {"hausdorff", relative(way.largest)},
+            {"bound", value_of(relative_bound)}}}};
+}
+
+}  // namespace
+
+std::string distance_table(const MeshDistance& distance) {
+  const OneSidedDistance &forth = distance.forth, &back = distance.back;
+  const double diagonal = distance.diagonal;
+  std::string text = fmt::format("{:<12}{:>13}{:>14}{:>15}{:>14}\n", "", "A to B", "of diagonal",
+                                 "B to A", "of diagonal");
+  text += row("mean", forth.mean, back.mean, diagonal);
+  text += row("RMS", forth.rms, back.rms, diagonal);
+  text += row("Hausdorff", forth.largest, back.largest, diagonal);
+  if (distance.bound()) text += row("at most", *forth.bound, *back.bound, diagonal);
+  text += fmt::format("Hausdorff distance {:.6g}", distance.largest());
+  if (distance.bound()) {
+    text += fmt::format(" or more, at most {:.6g}", *distance.bound());
+  } else {
+    text += fmt::format(", as {} and all corners show",
+                        number_of(forth.samples + back.samples, "sample"));
+  }
+  return text + fmt::format("; diagonal of A {:.6g}\n", diagonal);
+}
+
+Json distance_section(const MeshDistance& distance, const DistanceOptions& options) {
+  return {{"a_to_b", way_section(distance.forth, distance.diagonal)},
+          {"b_to_a", way_section(distance.back, distance.diagonal)},
+          {"hausdorff", distance.largest()},
+          {"bound", value_of(distance.bound())},
+          {"diagonal", distance.diagonal},
+          {"not_finite", distance.not_finite},
+          {"seed", options.seed}};
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,98 @@
+// meshcheck IN: what is wrong with a mesh, and whether it is the boundary of a solid.
+#include <iostream>
+#include <string>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <bsp/atomic_file.h>
+#include <bsp/error.h>
+#include <extract/check_surface.h>
+
+#include "common/check_report.h"
+#include "common/repair_steps.h"
+#include "common/summary.h"
+
+namespace meshrepair {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string marked;  // empty: no such file
+  bool json = false;
+  CheckOptions check;
+};
+
+void write_marked(const TriangleSoup& soup, const SurfaceCheck& check, const Options& options,
+                  Run& run) {
+  std::vector<std::string> comments;
+  for (const std::string& line : colour_legend()) comments.push_back(line);
+  write_file_atomically(options.marked, format_coloured_ply(soup, defect_colours(check), comments));
+  run.report.set_output({{"path", options.marked}, {"format", "coloured PLY"}});
+}
+
+std::string what_was_read(const Findings& findings, const TriangleSoup& soup) {
+  return fmt::format(
+      "{}: {}, {}, {}", findings.input_name(), format_name(findings.mesh_read->format),
+      number_of(soup.triangles.size(), "triangle"), number_of(soup.points.size(), "point"));
+}
+
+ExitCode check_mesh(Options& options, Run& run) {
+  if (options.marked == "-") throw UsageError("--mark: needs the name of a file");
+  check_files(options.input, options.marked, run);
+  options.check.progress = &run.progress;
+  options.check.mark_triangles = !options.marked.empty();
+  Findings findings(options.input, options.marked);
+  return with_findings(run, findings, [&] {
+    const TriangleSoup soup = read_mesh_stage(run, findings);
+    StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
+    meter.begin("check");
+    const SurfaceCheck check = check_surface(soup, options.check);
+    meter.end();
+    run.report.set_section("check", check_section(check));
+    if (!options.marked.empty()) write_marked(soup, check, options, run);
+    run.progress.finish();
+    if (run.options.report != "-" && !run.options.quiet) {
+      std::cout << check_table(check, what_was_read(findings, soup));
+    }
+    return check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
+  });
+}
+
+std::string mark_help() {
+  std::string text = "Write the mesh as a PLY with coloured triangles:";
+  for (const std::string& line : colour_legend()) text += "\n  " + line;
+  return text;
+}
+
+}  // namespace
+}  // namespace meshrepair
+
+int main(int argc, char** argv) {
+  using namespace meshrepair;
+  Options options;
+  Program program(
+      "meshcheck",
+      "Says what is wrong with a mesh. Exit code 0: it is the boundary of a solid, 1: it "
+      "is not.",
+      "  meshcheck part.stl\n"
+      "  meshcheck part.obj --mark defects.ply\n"
+      "  meshcheck part.obj --json | jq .check.defects.open_edges.count\n");
+  CLI::App& app = program.command_line();
+  app.add_option("IN", options.input, "Mesh to check: STL, OBJ, OFF or PLY; - is standard input")
+      ->required();
+  app.add_flag("--weld", options.check.weld,
+               "Take points with equal coordinates for one, as STL does anyway")
+      ->group("Check");
+  app.add_option("--places", options.check.most_places, "List this many places of each defect")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str()
+      ->group("Check");
+  app.add_option("--mark", options.marked, mark_help())->type_name("FILE")->group("Output");
+  app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
+      ->group("Output");
+  return program.run(argc, argv, [&](Run& run) {
+    if (options.json) program.report_to_standard_output();
+    return check_mesh(options, run);
+  });
+}

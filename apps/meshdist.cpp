@@ -1,0 +1,101 @@
+// meshdist A B: how far two meshes are apart.
+#include <iostream>
+#include <string>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <bsp/error.h>
+#include <extract/mesh_distance.h>
+
+#include "common/distance_report.h"
+#include "common/repair_steps.h"
+#include "common/report_sections.h"
+#include "common/summary.h"
+
+namespace meshrepair {
+namespace {
+
+struct Options {
+  std::string first;
+  std::string second;
+  bool json = false;
+  DistanceOptions distance;
+};
+
+TriangleSoup read(const std::string& path, const std::string& key, Run& run, std::string& lines) {
+  Findings findings(path, "");
+  TriangleSoup soup = read_mesh_stage(run, findings);
+  run.report.set_section(key, read_section(*findings.mesh_read));
+  lines +=
+      fmt::format("{}: {}, {}\n", findings.input_name(), format_name(findings.mesh_read->format),
+                  number_of(soup.triangles.size(), "triangle"));
+  return soup;
+}
+
+ExitCode measure(Options& options, Run& run) {
+  if (options.first == "-" && options.second == "-") {
+    throw UsageError("only one of the meshes can be standard input");
+  }
+  check_files(options.first, "", run);
+  check_files(options.second, "", run);
+  run.report.set_input({{"a", options.first}, {"b", options.second}});
+  options.distance.progress = &run.progress;
+  std::string lines;
+  const TriangleSoup first = read(options.first, "read", run, lines);
+  const TriangleSoup second = read(options.second, "read_b", run, lines);
+  const MeshDistance distance = mesh_distance(first, second, options.distance);
+  run.report.set_section("distance", distance_section(distance, options.distance));
+  run.progress.finish();
+  if (run.options.report != "-" && !run.options.quiet) {
+    std::cout << lines << distance_table(distance);
+  }
+  return ExitCode::done;
+}
+
+void add_distance_options(CLI::App& app, DistanceOptions& options) {
+  app.add_option("--samples", options.samples, "Points on each mesh, evenly by area")
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}))
+      ->capture_default_str()
+      ->group("Distance");
+  app.add_option("--seed", options.seed, "Of the choice of these points")
+      ->type_name("N")
+      ->capture_default_str()
+      ->group("Distance");
+  CLI::Option* bound =
+      app.add_flag("--bound", options.bound,
+                   "Also find a distance that is surely nowhere exceeded, by cutting\n"
+                   "triangles until it is near the largest one found")
+          ->group("Distance");
+  app.add_option("--bound-factor", options.bound_factor,
+                 "How near: at most this times the largest distance found")
+      ->type_name("F")
+      ->check(CLI::Range(1.001, 1000.0))
+      ->capture_default_str()
+      ->needs(bound)
+      ->group("Distance");
+}
+
+}  // namespace
+}  // namespace meshrepair
+
+int main(int argc, char** argv) {
+  using namespace meshrepair;
+  Options options;
+  Program program("meshdist", "Measures how far two meshes are apart, each way.",
+                  "  meshdist original.stl repaired.stl\n"
+                  "  meshdist original.stl repaired.stl --bound --json | jq .distance.bound\n");
+  CLI::App& app = program.command_line();
+  app.add_option("A", options.first,
+                 "Mesh: STL, OBJ, OFF or PLY; its diagonal is the measure of relative\n"
+                 "distances; - is standard input")
+      ->required();
+  app.add_option("B", options.second, "Mesh; - is standard input")->required();
+  add_distance_options(app, options.distance);
+  app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
+      ->group("Output");
+  return program.run(argc, argv, [&](Run& run) {
+    if (options.json) program.report_to_standard_output();
+    return measure(options, run);
+  });
+}

@@ -1,0 +1,93 @@
+#include "nearest_triangle.h"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+namespace meshrepair::internal {
+namespace {
+
+double squared_distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d along = b - a;
+  const double length = along.squaredNorm();
+  const double t = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (a + t * along - p).squaredNorm();
+}
+
+double squared_distance_to_box(const Vec3d& p, const Box& box) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = p[static_cast<Eigen::Index>(k)];
+    const double beyond = std::max({box.low[k] - x, x - box.high[k], 0.0});
+    sum += beyond * beyond;
+  }
+  return sum;
+}
+
+std::vector<Box> boxes_of(const std::vector<Corners>& triangles) {
+  std::vector<Box> boxes(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const Vec3d& p : triangles[t]) boxes[t].add(p);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+// Above the inside of the triangle its plane is nearest, else one of its sides. The inside is told
+// by the barycentric coordinates of the foot of the perpendicular, which are clamped so that a foot
+// beside the triangle, by rounding, is moved onto it.
+double squared_distance(const Vec3d& p, const Corners& triangle) {
+  const auto& [a, b, c] = triangle;
+  const Vec3d ab = b - a, ac = c - a, ap = p - a;
+  const Vec3d normal = ab.cross(ac);
+  const double size = normal.squaredNorm();
+  const double v = ap.cross(ac).dot(normal);
+  const double w = ab.cross(ap).dot(normal);
+  if (v >= 0 && w >= 0 && v + w <= size && size > 0) {
+    const double v_share = std::min(v / size, 1.0);
+    const double w_share = std::min(w / size, 1.0 - v_share);
+    return (a + v_share * ab + w_share * ac - p).squaredNorm();
+  }
+  return std::min({squared_distance_to_segment(p, a, b), squared_distance_to_segment(p, b, c),
+                   squared_distance_to_segment(p, c, a)});
+}
+
+NearestTriangle::NearestTriangle(const std::vector<Corners>& triangles)
+    : tree_(boxes_of(triangles)) {
+  triangles_.reserve(triangles.size());
+  for (const std::uint32_t t : tree_.order()) triangles_.push_back(triangles[t]);
+}
+
+Nearest NearestTriangle::find(const Vec3d& p, std::uint32_t hint) const {
+  struct Candidate {
+    std::uint32_t node;
+    double squared_distance;
+  };
+  // The tree is balanced: 32 levels hold all 32-bit numbers, and each leaves one node behind.
+  std::array<Candidate, 40> stack;
+  std::size_t size = 0;
+  Nearest best = {squared_distance(p, triangles_[hint]), hint};
+  stack[size++] = {0, 0};
+  while (size > 0) {
+    const Candidate candidate = stack[--size];
+    if (candidate.squared_distance >= best.squared_distance) continue;
+    const BoxNode& node = tree_.nodes()[candidate.node];
+    if (node.is_leaf()) {
+      for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+        const double distance = squared_distance(p, triangles_[t]);
+        if (distance < best.squared_distance) best = {distance, t};
+      }
+      continue;
+    }
+    Candidate near = {candidate.node + 1, 0}, far = {node.right, 0};
+    near.squared_distance = squared_distance_to_box(p, tree_.nodes()[near.node].box);
+    far.squared_distance = squared_distance_to_box(p, tree_.nodes()[far.node].box);
+    if (far.squared_distance < near.squared_distance) std::swap(near, far);
+    stack[size++] = far;
+    stack[size++] = near;
+  }
+  return best;
+}
+
+}  // namespace meshrepair::internal
