@@ -78,6 +78,26 @@ TEST(MeshDistance, BoundFindsWhatFewSamplesMiss) {
   EXPECT_LE(*d.forth.bound, 1.1 * 49.5);
 }
 
+// A square that is cut into strips across each other.
+TEST(MeshDistance, BoundIsTightForOtherTrianglesOfTheSameSurface) {
+  const auto grid = [](int columns, int rows) {
+    TriangleSoup soup;
+    for (int i = 0; i < columns; ++i) {
+      for (int j = 0; j < rows; ++j) {
+        TriangleSoup part = square(0);
+        for (Vec3d& p : part.points) {
+          p = Vec3d((i + p.x()) / columns, (j + p.y()) / rows, 0);
+          p.z() = 0.3 * p.x() + 0.7 * p.y();
+        }
+        testing::append(soup, part);
+      }
+    }
+    return soup;
+  };
+  const MeshDistance d = mesh_distance(grid(1, 23), grid(17, 3), with_bound());
+  EXPECT_LT(*d.bound(), 1e-7);
+}
+
 TEST(MeshDistance, BoundHoldsForEverySample) {
   const TriangleSoup a = testing::noisy_sphere(2000, 0.05, 1), b = testing::sphere(1500);
   DistanceOptions fine;
