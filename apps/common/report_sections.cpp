@@ -102,7 +102,6 @@ Json section_of(const ExtractReport& extract) {
   return {{"boundary_facets", extract.boundary_facets},
           {"unmerged_triangles", extract.unmerged_triangles},
           {"regions", extract.regions},
-          {"untouched_triangles", extract.untouched_triangles},
           {"singular_edges", extract.singular_edges},
           {"singular_vertices", extract.singular_vertices},
           {"middle_vertices", extract.middle_vertices}};
@@ -129,10 +128,15 @@ Json certificate_of(const RepairReport& repair) {
 Json result_of(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
-  return {{"triangles", output.triangles},  {"points", findings.output_points},
-          {"parts", output.parts},          {"closed", output.closed()},
-          {"manifold", output.manifold()},  {"oriented", output.oriented()},
-          {"volume", repair.output_volume}, {"area", repair.output_area}};
+  return {{"triangles", output.triangles},
+          {"points", findings.output_points},
+          {"untouched_triangles", repair.untouched_triangles},
+          {"parts", output.parts},
+          {"closed", output.closed()},
+          {"manifold", output.manifold()},
+          {"oriented", output.oriented()},
+          {"volume", repair.output_volume},
+          {"area", repair.output_area}};
 }
 
 Json stages_of(const RepairReport& repair) {

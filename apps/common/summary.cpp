@@ -108,6 +108,10 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   lines.add("written", fmt::format("{}: {} in {}, in {:.2f} s", findings.output_name(),
                                    number_of(output.triangles, "triangle"),
                                    number_of(output.parts, "part"), seconds));
+  if (repair.clean.triangles_in > 0) {
+    lines.add("kept", fmt::format("{} of {} untouched", grouped(repair.untouched_triangles),
+                                  number_of(repair.clean.triangles_in, "triangle")));
+  }
   lines.add("checked", joined({output.closed() ? "closed" : "NOT CLOSED",
                                output.manifold() ? "manifold" : "NOT MANIFOLD",
                                output.oriented() ? "oriented" : "NOT ORIENTED",

@@ -43,7 +43,6 @@ class SurfaceExtractor {
     report.boundary_facets = boundary_.polygons();
     report.regions = merged_.regions();
     report.unmerged_triangles = triangulator.unmerged_triangles();
-    report.untouched_triangles = untouched_triangles_;
     report.singular_edges = corners_.singular_edges;
     report.singular_vertices = corners_.singular_vertices;
     report.middle_vertices = middles_.count;
@@ -56,13 +55,13 @@ class SurfaceExtractor {
     if (covering.valid()) {
       const Triangle& input = complex_.soup().triangles[covering];
       source = input.source;
-      if (triangles.size() == 1 && turn_like(input, triangles[0])) ++untouched_triangles_;
+      if (triangles.size() == 1) turn_like(input, triangles[0]);
     }
     for (const RegionTriangle& t : triangles) add(t, source);
   }
 
-  // If the triangle has the corners of the input triangle, makes it start at the same one.
-  bool turn_like(const Triangle& input, RegionTriangle& triangle) const {
+  // Makes a triangle start at the first corner of the input triangle, if that is one of its own.
+  void turn_like(const Triangle& input, RegionTriangle& triangle) const {
     const auto lies_at = [&](std::uint32_t vertex, PointId corner) {
       const Point& at = point_of(vertex);
       return at.is_lattice() && at.lattice() == complex_.soup().grid_points[corner];
@@ -73,12 +72,8 @@ class SurfaceExtractor {
                   triangle.vertices.end());
       std::rotate(triangle.sides.begin(), triangle.sides.begin() + static_cast<long>(k),
                   triangle.sides.end());
-      return (lies_at(triangle.vertices[1], input.corners[1]) &&
-              lies_at(triangle.vertices[2], input.corners[2])) ||
-             (lies_at(triangle.vertices[1], input.corners[2]) &&
-              lies_at(triangle.vertices[2], input.corners[1]));
+      return;
     }
-    return false;
   }
 
   void add(const RegionTriangle& triangle, std::uint32_t source) {
@@ -155,7 +150,6 @@ class SurfaceExtractor {
   MiddleVertices middles_;
   internal::InputPoints input_points_;
   Surface surface_;
-  std::size_t untouched_triangles_ = 0;
   std::vector<std::uint32_t> output_vertex_, output_middle_;
   std::vector<PolygonCorner> corner_list_;
   std::vector<std::uint32_t> vertex_list_;

@@ -75,8 +75,8 @@ class Certifier {
     report_.pairs_at_first = current_.found.count;
     if (current_.faults() > 0) {
       best_ = current_;
-      if (options_.precision == Precision::float64) move_to_grid();
       improve();
+      if (best_.faults() > 0 && options_.precision == Precision::float64) move_to_grid();
       mend();
       std::swap(current_, best_);
     }
@@ -114,6 +114,7 @@ class Certifier {
     snap_concerned(current_, step_);
     test(current_);
     keep_if_better();
+    improve();
   }
 
   // What needs no new repair. Further rounds start from what was before, on the grid.

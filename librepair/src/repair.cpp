@@ -141,16 +141,38 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   return repair(soup, again, report);
 }
 
-Surface finish(const Grid& grid, Surface surface, const RepairOptions& options,
+std::size_t count_untouched(const CleanSoup& input, const Surface& surface) {
+  std::uint32_t last_source = 0;
+  for (const Triangle& t : input.triangles) last_source = std::max(last_source, t.source);
+  std::vector<TriangleId> triangle_of(std::size_t{last_source} + 1);
+  for (TriangleId t(0u); t < input.triangles.end_id(); ++t.value) {
+    triangle_of[input.triangles[t].source] = t;
+  }
+  std::size_t untouched = 0;
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    if (surface.source[t] == Surface::kNoSource) continue;
+    const auto& from = input.triangles[triangle_of[surface.source[t]]].corners;
+    const auto& to = surface.mesh.triangles[t];
+    untouched += std::all_of(from.begin(), from.end(), [&](PointId p) {
+      return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
+        return surface.mesh.points[q] == input.points[p];
+      });
+    });
+  }
+  return untouched;
+}
+
+Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   if (options.certify.wanted) {
     meter.begin("certify");
     surface = certify(
-        std::move(surface), grid, options.certify,
+        std::move(surface), input.grid, options.certify,
         [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,
         report.certify);
   }
   meter.begin("check");
+  report.untouched_triangles = count_untouched(input, surface);
   report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
   report.output_volume = signed_volume(surface.mesh);
   report.output_area = surface_area(surface.mesh);
@@ -169,7 +191,7 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
     surface = extract_surface(covered.complex, covered.cover, solid_cells(tree, covered.complex),
                               report.extract);
   }
-  return finish(tree.input.grid, std::move(surface), options, report, meter);
+  return finish(tree.input, std::move(surface), options, report, meter);
 }
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
@@ -189,7 +211,7 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
     meter.begin("extract");
     surface = extract_surface(covered.complex, covered.cover, labels.solid, report.extract);
   }
-  return finish(tree.input.grid, std::move(surface), options, report, meter);
+  return finish(tree.input, std::move(surface), options, report, meter);
 }
 
 RepairResult repair(const TriangleSoup& soup, const RepairOptions& options) {

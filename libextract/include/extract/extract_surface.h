@@ -12,9 +12,8 @@ namespace meshrepair {
 
 struct ExtractReport {
   std::size_t boundary_facets = 0;
-  std::size_t unmerged_triangles = 0;   // that the facets would have had
-  std::size_t regions = 0;              // that the facets were merged into
-  std::size_t untouched_triangles = 0;  // input triangles that came out whole
+  std::size_t unmerged_triangles = 0;  // that the facets would have had
+  std::size_t regions = 0;             // that the facets were merged into
   std::size_t singular_edges = 0;
   std::size_t singular_vertices = 0;
   std::size_t middle_vertices = 0;  // put into edges at which solids touch along their whole length

@@ -46,6 +46,7 @@ struct RepairReport {
   InsideReport inside;
   ExtractReport extract;
   CertifyReport certify;
+  std::size_t untouched_triangles = 0;  // that came out with their own coordinates, bit for bit
   Topology output;
   double output_volume = 0;  // in the input's units, cubed
   double output_area = 0;

@@ -1,0 +1,125 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <bsp/error.h>
+#include <bsp/soup_io.h>
+#include <extract/self_intersections.h>
+#include <repair/repair.h>
+
+#include "complexes.h"
+#include "degenerate_soups.h"
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+Surface surface_of(const TriangleSoup& soup) {
+  Surface surface;
+  surface.mesh = soup;
+  surface.source.assign(soup.triangles.size(), 0);
+  surface.input_point.assign(soup.points.size(), 1);
+  return surface;
+}
+
+Surface no_repair(const TriangleSoup& soup) { return surface_of(soup); }
+
+Surface certified(const Surface& surface, const CertifyOptions& options, CertifyReport& report) {
+  CleanReport cleaned;
+  const Grid grid = clean_soup(surface.mesh, cleaned).grid;
+  return certify(surface, grid, options, no_repair, nullptr, report);
+}
+
+TEST(Certify, LeavesASoundSurfaceAsItIs) {
+  CertifyReport report;
+  const TriangleSoup soup = sphere(300);
+  const Surface result = certified(surface_of(soup), {}, report);
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(report.rounds, 0u);
+  EXPECT_EQ(result.mesh.triangles, soup.triangles);
+  EXPECT_EQ(result.mesh.points, soup.points);
+}
+
+TEST(Certify, SaysWhatItCannotMend) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {0.5, 0.25, 0.125}));
+  CertifyReport report;
+  const Surface result = certified(surface_of(soup), {}, report);
+  EXPECT_TRUE(report.done);
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(report.pairs_at_first, report.pairs);
+  EXPECT_EQ(report.pairs, self_intersections(result.mesh).count);
+}
+
+// A corner just above a face, rounded onto it.
+TEST(Certify, NudgesPointsOffTheFacesThatTheyFellOn) {
+  TriangleSoup soup = box({-1, -1, -1}, {1, 1, 1.0 / 3});
+  TriangleSoup tip;
+  tip.points = {{0.1, 0.2, 1.0 / 3}, {0.5, 0, 2}, {-0.5, 0.4, 2}, {-0.4, -0.5, 2}};
+  tip.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  append(soup, tip);
+  Surface surface = surface_of(soup);
+  surface.input_point[first] = 0;
+  ASSERT_GT(self_intersections(soup).count, 0u);
+  CertifyReport report;
+  const Surface result = certified(surface, {}, report);
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(report.rounds, 0u);
+  EXPECT_EQ(self_intersections(result.mesh).count, 0u);
+  EXPECT_LT((result.mesh.points[first] - tip.points[0]).norm(), 1e-13);
+}
+
+TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {1, 1, 0}));  // along an edge
+  append(soup, moved(cube(), {2, 2, 1}));  // in a corner
+  CertifyOptions options;
+  options.precision = Precision::float32;
+  options.welded = true;
+  CertifyReport report;
+  const Surface result = certified(surface_of(soup), options, report);
+  EXPECT_TRUE(report.passed());
+  const TriangleSoup back = as_read_back(result.mesh, SoupFormat::stl_binary);
+  expect_closed_manifold(back);
+  EXPECT_EQ(back.points.size(), 24u);
+  EXPECT_NEAR(signed_volume(back), 3, 1e-5);
+}
+
+TEST(Certify, DropsPartsThatRoundingFlattens) {
+  TriangleSoup soup = cube();
+  append(soup, box({2, 2, 2}, {2.5, 2.5, 2 + 1e-9}));
+  CertifyOptions options;
+  options.precision = Precision::float32;
+  CertifyReport report;
+  const Surface result = certified(surface_of(soup), options, report);
+  EXPECT_EQ(report.dropped_parts, 1u);
+  EXPECT_EQ(result.mesh.triangles.size(), 12u);
+  EXPECT_EQ(result.mesh.points.size(), 8u);
+  EXPECT_TRUE(report.passed());
+}
+
+// Whatever goes in, the numbers that come out bound a solid.
+TEST(Certify, RepairsOfDegenerateSoupsPass) {
+  for (const SoupFamily& family : degenerate_families()) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      SCOPED_TRACE(family.name + " " + std::to_string(seed));
+      RepairReport report;
+      try {
+        const Surface surface = repair(family.make(seed), {}, report);
+        EXPECT_TRUE(report.certify.passed());
+        EXPECT_EQ(self_intersections(surface.mesh).count, 0u);
+        EXPECT_EQ(surface.source.size(), surface.mesh.triangles.size());
+        EXPECT_EQ(surface.input_point.size(), surface.mesh.points.size());
+        expect_closed_manifold(surface.mesh);
+      } catch (const NoSolidError&) {
+        EXPECT_EQ(report.inside.solid_cells, 0u);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace meshrepair
