@@ -16,8 +16,6 @@
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::uint32_t kNone = PlanarMesh::kNone;
-
 std::uint32_t next_slot(std::uint32_t slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; }
 std::uint32_t previous_slot(std::uint32_t slot) { return slot % 3 == 0 ? slot + 2 : slot - 1; }
 
