@@ -119,6 +119,10 @@ int long_orientation_along(int axis, const Vec3d& a, const Vec3d& b, const Vec3d
 }
 
 int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  // The commonest reason why a filter fails: a plane across an axis.
+  for (const int axis : kAllAxes) {
+    if (a[axis] == b[axis] && a[axis] == c[axis] && a[axis] == d[axis]) return 0;
+  }
   const std::optional<int> sign = short_orientation(a, b, c, d);
   return sign ? *sign : long_orientation(a, b, c, d);
 }

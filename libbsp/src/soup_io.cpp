@@ -6,6 +6,7 @@
 
 #include <bsp/atomic_file.h>
 #include <bsp/error.h>
+#include <bsp/float32.h>
 #include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
 #include <bsp/weld_points.h>
@@ -159,8 +160,7 @@ TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {
   std::vector<std::uint32_t> index;
   index.reserve(soup.points.size());
   for (const Vec3d& p : soup.points) {
-    index.push_back(welder.index_of(
-        format == SoupFormat::stl_binary ? Vec3d(p.cast<float>().cast<double>()) : p));
+    index.push_back(welder.index_of(format == SoupFormat::stl_binary ? rounded_to_float32(p) : p));
   }
   welded.triangles.reserve(soup.triangles.size());
   for (const auto& t : soup.triangles) {

@@ -10,6 +10,7 @@
 #include <extract/box_tree.h>
 #include <extract/self_intersections.h>
 
+#include "triangle_hubs.h"
 #include "triangle_list.h"
 #include "triangle_pair.h"
 
@@ -74,21 +75,54 @@ struct NodePair {
 
 // The triangles of a list in the order of a tree's leaves, so that what is compared lies together.
 struct SortedTriangles {
-  SortedTriangles(const TriangleList& list, const BoxTree& box_tree) : tree(box_tree) {
-    triangles.reserve(list.size());
-    boxes.reserve(list.size());
-    ids.reserve(list.size());
+  SortedTriangles(std::span<const CornerTriangle> given, std::span<const Box> given_boxes,
+                  std::span<const std::uint32_t> given_ids, const BoxTree& box_tree)
+      : tree(box_tree) {
+    triangles.reserve(given.size());
+    boxes.reserve(given.size());
+    ids.reserve(given.size());
     for (const std::uint32_t item : tree.order()) {
-      triangles.push_back(list.triangles()[item]);
-      boxes.push_back(list.boxes()[item]);
-      ids.push_back(list.ids()[item]);
+      triangles.push_back(given[item]);
+      boxes.push_back(given_boxes[item]);
+      ids.push_back(given_ids[item]);
     }
+  }
+  SortedTriangles(const TriangleList& list, const BoxTree& box_tree)
+      : SortedTriangles(list.triangles(), list.boxes(), list.ids(), box_tree) {}
+
+  // Leaves out pairs of triangles with the same hub. `hubs` are those of the triangles as given.
+  void leave_out_hubs(const std::vector<std::uint32_t>& hubs) {
+    for (const std::uint32_t item : tree.order()) hub.push_back(hubs[item]);
+    node_hub.assign(tree.nodes().size(), internal::kNoHub);
+    for (std::size_t n = tree.nodes().size(); n-- > 0;) {  // children come behind their parent
+      const BoxNode& node = tree.nodes()[n];
+      if (!node.is_leaf()) {
+        if (node_hub[n + 1] == node_hub[node.right]) node_hub[n] = node_hub[n + 1];
+        continue;
+      }
+      const auto first = hub.begin() + node.first;
+      if (std::all_of(first, first + node.count, [&](std::uint32_t h) { return h == *first; })) {
+        node_hub[n] = *first;
+      }
+    }
+  }
+
+  [[nodiscard]] bool may_meet(NodePair pair) const {
+    if (!node_hub.empty() && node_hub[pair.a] != internal::kNoHub &&
+        node_hub[pair.a] == node_hub[pair.b]) {
+      return false;
+    }
+    return pair.a == pair.b || tree.nodes()[pair.a].box.meets(tree.nodes()[pair.b].box);
+  }
+  [[nodiscard]] bool left_out(std::uint32_t i, std::uint32_t j) const {
+    return !hub.empty() && hub[i] != internal::kNoHub && hub[i] == hub[j];
   }
 
   const BoxTree& tree;
   std::vector<CornerTriangle> triangles;
   std::vector<Box> boxes;
   std::vector<std::uint32_t> ids;
+  std::vector<std::uint32_t> hub, node_hub;  // empty: nothing is left out
 };
 
 // Calls visit(a, b) for each pair of children to be compared further.
@@ -112,11 +146,8 @@ bool both_are_leaves(std::span<const BoxNode> nodes, NodePair pair) {
   return nodes[pair.a].is_leaf() && nodes[pair.b].is_leaf();
 }
 
-bool may_meet(std::span<const BoxNode> nodes, NodePair pair) {
-  return pair.a == pair.b || nodes[pair.a].box.meets(nodes[pair.b].box);
-}
-
-std::vector<NodePair> make_tasks(std::span<const BoxNode> nodes) {
+std::vector<NodePair> make_tasks(const SortedTriangles& sorted) {
+  const std::span<const BoxNode> nodes = sorted.tree.nodes();
   std::vector<NodePair> tasks;
   if (nodes.empty()) return tasks;
   tasks.push_back({0, 0});
@@ -131,7 +162,7 @@ std::vector<NodePair> make_tasks(std::span<const BoxNode> nodes) {
       }
       has_split = true;
       split(nodes, task, [&](NodePair part) {
-        if (may_meet(nodes, part)) finer.push_back(part);
+        if (sorted.may_meet(part)) finer.push_back(part);
       });
     }
     tasks.swap(finer);
@@ -155,7 +186,7 @@ class TreeComparison {
         compare_leaves(pair);
       } else {
         split(nodes_, pair, [&](NodePair part) {
-          if (may_meet(nodes_, part)) stack_.push_back(part);
+          if (sorted_.may_meet(part)) stack_.push_back(part);
         });
       }
     }
@@ -168,7 +199,7 @@ class TreeComparison {
     for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
       const Box& box = sorted_.boxes[i];
       for (std::uint32_t j = pair.a == pair.b ? i + 1 : b.first; j < b.first + b.count; ++j) {
-        if (!box.meets(sorted_.boxes[j])) continue;
+        if (!box.meets(sorted_.boxes[j]) || sorted_.left_out(i, j)) continue;
         const Meeting meeting = meeting_of(sorted_.triangles[i], sorted_.triangles[j]);
         if (meeting != Meeting::apart) findings_.add(sorted_.ids[i], sorted_.ids[j], meeting);
       }
@@ -223,16 +254,53 @@ class LookUp {
   std::size_t steps_ = 0;
 };
 
-SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOptions& options) {
-  const BoxTree tree(list.boxes());
-  const SortedTriangles sorted(list, tree);
-  const std::vector<NodePair> tasks = make_tasks(tree.nodes());
-  std::vector<Findings> findings(tasks.size(), Findings(options.most_pairs));
+void compare(const SortedTriangles& sorted, const SelfIntersectionOptions& options,
+             std::vector<Findings>& findings) {
+  const std::vector<NodePair> tasks = make_tasks(sorted);
+  const std::size_t before = findings.size();
+  findings.resize(before + tasks.size(), Findings(options.most_pairs));
   SharedProgress progress(options.progress, tasks.size());
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
-    TreeComparison(sorted, progress, findings[i]).run(tasks[i]);
+    TreeComparison(sorted, progress, findings[before + i]).run(tasks[i]);
     progress.done();
   });
+}
+
+// All boxes around a hub meet there; but two triangles with a common corner that meet elsewhere do
+// so in some direction from it.
+void compare_around_hubs(const TriangleList& list, const std::vector<std::uint32_t>& hubs,
+                         const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
+  std::vector<std::uint32_t> items;
+  for (std::uint32_t i = 0; i < hubs.size(); ++i) {
+    if (hubs[i] != internal::kNoHub) items.push_back(i);
+  }
+  std::stable_sort(items.begin(), items.end(),
+                   [&](std::uint32_t i, std::uint32_t j) { return hubs[i] < hubs[j]; });
+  std::vector<CornerTriangle> triangles;
+  std::vector<Box> boxes;
+  std::vector<std::uint32_t> ids;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::uint32_t hub = hubs[items[i]];
+    triangles.push_back(list.triangles()[items[i]]);
+    boxes.push_back(internal::directions_from(hub, triangles.back()));
+    ids.push_back(list.ids()[items[i]]);
+    if (i + 1 < items.size() && hubs[items[i + 1]] == hub) continue;
+    const BoxTree tree(boxes);
+    compare(SortedTriangles(triangles, boxes, ids, tree), options, findings);
+    triangles.clear();
+    boxes.clear();
+    ids.clear();
+  }
+}
+
+SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOptions& options) {
+  const BoxTree tree(list.boxes());
+  SortedTriangles sorted(list, tree);
+  const std::vector<std::uint32_t> hubs = internal::find_hubs(list.triangles());
+  sorted.leave_out_hubs(hubs);
+  std::vector<Findings> findings;
+  compare(sorted, options, findings);
+  compare_around_hubs(list, hubs, options, findings);
   return gather(findings, options.most_pairs);
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <bsp/error.h>
+#include <bsp/float32.h>
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
 
@@ -35,7 +36,7 @@ using GridCell = std::array<double, 3>;
 
 void round_points(TriangleSoup& mesh, Precision precision) {
   if (precision == Precision::float64) return;
-  for (Vec3d& p : mesh.points) p = p.cast<float>().cast<double>();
+  for (Vec3d& p : mesh.points) p = rounded_to_float32(p);
 }
 
 double snapped(double x, double step) { return std::nearbyint(x / step) * step; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <bsp/double_predicates.h>
+#include <bsp/float32.h>
 #include <bsp/hash_index.h>
 
 namespace meshrepair::internal {
@@ -114,8 +115,7 @@ class PointNudger {
           static_cast<std::int64_t>((chance >> 20) % static_cast<std::uint64_t>(2 * reach + 1)) -
           reach;
       to[axis] += static_cast<double>(steps) * last_place(from.cwiseAbs().maxCoeff(), precision_);
-      if (precision_ == Precision::float32)
-        to[axis] = static_cast<double>(static_cast<float>(to[axis]));
+      if (precision_ == Precision::float32) to[axis] = rounded_to_float32(to[axis]);
     }
     return to;
   }

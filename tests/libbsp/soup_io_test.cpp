@@ -148,5 +148,22 @@ TEST(WriteSoup, ExtensionTellsTheFormat) {
   }
 }
 
+// Compilers have left out the rounding of the last elements of an array.
+TEST(Float32, EveryPointIsRounded) {
+  for (std::size_t count = 1; count < 40; ++count) {
+    TriangleSoup soup;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = static_cast<double>(i) + 1.0 / 3;
+      soup.points.emplace_back(x, -x, 7 * x);
+    }
+    for (const Vec3d& p : as_read_back(soup, SoupFormat::stl_binary).points) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const volatile float rounded = static_cast<float>(p[axis]);
+        EXPECT_EQ(static_cast<double>(rounded), p[axis]) << count;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace meshrepair

@@ -50,6 +50,26 @@ TEST(SelfIntersections, OfCrossingSpheresLieInBothParts) {
   }
 }
 
+// Around a vertex with very many triangles these are told apart by their directions.
+TEST(SelfIntersections, OfFansWithVeryManyTriangles) {
+  EXPECT_EQ(self_intersections(testing::cone(2000)).count, 0u);
+  TriangleSoup soup = testing::cone(2000);
+  const auto added = static_cast<std::uint32_t>(soup.points.size());
+  soup.points.emplace_back(0.3, 0.2, 0.1);
+  soup.points.emplace_back(0.31, 2, -0.4);
+  soup.triangles.push_back({0, added, added + 1});  // from the tip out through a side, and the base
+  const SelfIntersections found = with_all_pairs(soup);
+  SelfIntersections expected;
+  for (std::uint32_t t = 0; t + 1 < soup.triangles.size(); ++t) {
+    TriangleSoup two;
+    two.points = soup.points;
+    two.triangles = {soup.triangles[t], soup.triangles.back()};
+    expected.count += self_intersections(two).count;
+  }
+  EXPECT_GT(expected.count, 1u);
+  EXPECT_EQ(found.count, expected.count);
+}
+
 TEST(SelfIntersections, EqualCornersAreSharedOnlyIfWelded) {
   TriangleSoup soup;  // two triangles of a square, each with points of its own
   soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, -0.0}};
