@@ -8,7 +8,8 @@ namespace {
 void extract(const StepOptions& options, Run& run, Findings& findings) {
   const WriteOptions format = mesh_format(options.output, options.format);
   const Tree tree = read_tree_stage(run, findings);
-  const Surface surface = extract_mesh(tree, certified_for(*format.format, options.repair), findings.repair);
+  const Surface surface =
+      extract_mesh(tree, certified_for(*format.format, options.repair), findings.repair);
   write_mesh_stage(surface, format, options.strict, run, findings);
 }
 

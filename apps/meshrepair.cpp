@@ -8,7 +8,8 @@ namespace {
 void repair_mesh(const StepOptions& options, Run& run, Findings& findings) {
   const WriteOptions format = mesh_format(options.output, options.format);
   const TriangleSoup soup = read_mesh_stage(run, findings);
-  const Surface surface = repair(soup, certified_for(*format.format, options.repair), findings.repair);
+  const Surface surface =
+      repair(soup, certified_for(*format.format, options.repair), findings.repair);
   write_mesh_stage(surface, format, options.strict, run, findings);
 }
 

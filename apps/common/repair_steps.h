@@ -43,8 +43,8 @@ struct Findings {
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
   std::size_t output_points = 0;
-  std::string missing_guarantees;           // of that mesh, for people; empty: it holds all
-  bool withheld = false;                    // not written because of these
+  std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
+  bool withheld = false;           // not written because of these
 };
 
 // What the command line of such a program says; not every program has all of it.
