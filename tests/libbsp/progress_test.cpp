@@ -29,7 +29,9 @@ TEST(CancelCheck, AsksNowAndThenAndThrows) {
 
 TEST(CancelCheck, NeedsNoObserver) {
   CancelCheck check(nullptr);
-  for (int i = 0; i < 10000; ++i) check.tick();
+  EXPECT_NO_THROW({
+    for (int i = 0; i < 10000; ++i) check.tick();
+  });
 }
 
 }  // namespace
