@@ -24,5 +24,7 @@ int main(int argc, char** argv) {
   app.add_option("IN", options.input, "Mesh to read: STL, OBJ, OFF or PLY; - is standard input")
       ->required();
   add_output_option(app, options.output, "FILE", "Tree to write (.bsp); - is standard output");
+  add_holes_option(app, options.repair.holes);
+  add_max_hole_option(app, options.repair.holes);
   return run_steps(program, argc, argv, options, build);
 }

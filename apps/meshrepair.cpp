@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
   add_inside_option(app, options.repair.inside.rule);
+  add_holes_option(app, options.repair.holes);
+  add_max_hole_option(app, options.repair.holes);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_certify_options(app, options.repair.certify, options.strict);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,6 +19,9 @@ constexpr std::array<Choice<InsideRule>, 4> kRules = {{{"auto", InsideRule::auto
                                                        {"solidity", InsideRule::solidity},
                                                        {"parity", InsideRule::parity},
                                                        {"winding", InsideRule::winding}}};
+
+constexpr std::array<Choice<HoleMode>, 3> kHoleModes = {
+    {{"patch", HoleMode::patch}, {"extend", HoleMode::extend}, {"none", HoleMode::none}}};
 
 constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl_binary},
                                                          {"stl-ascii", SoupFormat::stl_ascii},
@@ -49,6 +53,13 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& c
       ->type_name("NAME");
 }
 
+// For CLI11: an empty text where the word is a number from 0 on.
+std::string why_no_share(const std::string& word) {
+  double value = 0;
+  const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
+  return is_number && value >= 0 ? std::string() : word + " is not a share: a number from 0 on";
+}
+
 }  // namespace
 
 void add_inside_option(CLI::App& app, InsideRule& rule) {
@@ -60,6 +71,26 @@ void add_inside_option(CLI::App& app, InsideRule& rule) {
       "  parity    looks at no orientation; voids and overlaps are empty\n"
       "  winding   trusts the orientation; overlaps are solid, voids empty\n")
       ->default_str(std::string(rule_name(rule)))
+      ->group("Repair");
+}
+
+void add_holes_option(CLI::App& app, HoleOptions& holes) {
+  add_choice(
+      app, "--holes", kHoleModes, [&holes](HoleMode value) { holes.mode = value; },
+      "How to close holes and gaps:\n"
+      "  patch   with triangles over each hole; what is left, as with extend\n"
+      "  extend  along planes that the mesh already has\n"
+      "  none    not at all: a part with a hole encloses nothing\n")
+      ->default_str(std::string(hole_mode_name(holes.mode)))
+      ->group("Repair");
+}
+
+void add_max_hole_option(CLI::App& app, HoleOptions& holes) {
+  app.add_option("--max-hole", holes.largest_share,
+                 "Patch holes of at most this share of the area of their part")
+      ->check(why_no_share)
+      ->type_name("SHARE")
+      ->capture_default_str()
       ->group("Repair");
 }
 

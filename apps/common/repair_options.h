@@ -8,12 +8,18 @@
 
 #include <bsp/soup_io.h>
 #include <repair/certify.h>
+#include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
 
 namespace meshrepair {
 
 // --inside: which parts of space are solid.
 void add_inside_option(CLI::App& app, InsideRule& rule);
+
+// --holes: how gaps are closed.
+void add_holes_option(CLI::App& app, HoleOptions& holes);
+// --max-hole: how large a patch may be.
+void add_max_hole_option(CLI::App& app, HoleOptions& holes);
 
 // -o: the file to write, where it does not stand beside IN.
 void add_output_option(CLI::App& app, std::string& output, const std::string& type,

@@ -55,6 +55,17 @@ Json defects_of(const RepairReport& repair) {
           {"area", repair.input_area}};
 }
 
+Json section_of(const HoleReport& holes) {
+  return {{"loops", holes.loops},
+          {"closed", holes.closed},
+          {"too_large", holes.too_large},
+          {"stray_edges", holes.stray_edges},
+          {"triangles", holes.triangles},
+          {"area", holes.area},
+          {"largest_area", holes.largest_area},
+          {"longest_loop", holes.longest_loop}};
+}
+
 Json section_of(const BuildTreeReport& tree) {
   return {{"nodes", tree.nodes},         {"leaves", tree.leaves},
           {"depth", tree.depth},         {"spatial_cuts", tree.spatial_cuts},
@@ -162,6 +173,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("clean", section_of(repair.clean));
     report.set_section("defects", defects_of(repair));
   }
+  if (was_begun(repair, "holes")) report.set_section("holes", section_of(repair.holes));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));

@@ -102,6 +102,22 @@ void describe_decision(const RepairReport& repair, Lines& lines) {
   lines.add("inside", texts);
 }
 
+void describe_holes(const RepairReport& repair, Lines& lines) {
+  const HoleReport& holes = repair.holes;
+  std::vector<std::string> texts;
+  if (holes.closed > 0) {
+    texts.push_back(fmt::format("{} with {}, area {:.6g}, {:.3g} % of the surface",
+                                number_of(holes.closed, "hole"),
+                                number_of(holes.triangles, "triangle"), holes.area,
+                                100 * holes.area / (repair.input_area + holes.area)));
+  }
+  if (holes.too_large > 0) {
+    texts.push_back(fmt::format("not {}, larger than --max-hole allows",
+                                number_of(holes.too_large, "opening")));
+  }
+  lines.add("closed", texts);
+}
+
 void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
@@ -145,6 +161,7 @@ std::string number_of(std::size_t count, std::string_view noun) {
 std::string summary_of(const Findings& findings, double seconds) {
   Lines lines;
   describe_input(findings, lines);
+  describe_holes(findings.repair, lines);
   if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair, lines);
   if (findings.tree_written) {
     describe_tree(findings, seconds, lines);

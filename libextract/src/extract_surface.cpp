@@ -51,6 +51,7 @@ class SurfaceExtractor {
 
  private:
   void add(std::vector<RegionTriangle>& triangles, TriangleId covering) {
+    static_assert(Surface::kNoSource == Triangle::kNoSource);
     std::uint32_t source = Surface::kNoSource;
     if (covering.valid()) {
       const Triangle& input = complex_.soup().triangles[covering];

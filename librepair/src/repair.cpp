@@ -4,6 +4,7 @@
 #include <bsp/error.h>
 #include <extract/build_cells.h>
 #include <repair/cell_graph.h>
+#include <repair/flood.h>
 #include <repair/repair.h>
 
 namespace meshrepair {
@@ -45,6 +46,18 @@ void require_space(const CleanSoup& soup) {
   }
 }
 
+// Only what the triangles seal off by themselves.
+void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabels& labels,
+                   InsideReport& report) {
+  const std::vector<char> sealed =
+      flood_from_infinity(graph, std::vector<char>(graph.cells(), 1), progress);
+  for (std::size_t i = 0; i < sealed.size(); ++i) {
+    if (sealed[i] != 0 || labels.solid[i] == 0) continue;
+    labels.solid[i] = 0;
+    --report.solid_cells;
+  }
+}
+
 CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
                       RepairReport& report, StageMeter& meter) {
   meter.begin("links");
@@ -54,6 +67,9 @@ CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
   InsideOptions inside_options = options.inside;
   inside_options.solve.progress = options.progress;
   CellLabels labels = label_cells(graph, inside_options, report.inside);
+  if (options.holes.mode == HoleMode::none) {
+    drop_unsealed(graph, options.progress, labels, report.inside);
+  }
   if (report.inside.solid_cells == 0) {
     throw NoSolidError("the triangles enclose nothing: no part of space is inside");
   }
@@ -71,6 +87,10 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
         "no triangle is left: all are degenerate, or smaller than the working grid of 2^26 steps "
         "over "
         "their bounding box, or have coordinates that are not finite");
+  }
+  if (report.input.open_edges > 0 || report.input.nonmanifold_edges > 0) {
+    meter.begin("holes");
+    patch_holes(clean, options.holes, report.holes, options.progress);
   }
   meter.begin("tree");
   BuildTreeOptions tree_options = options.tree;
@@ -135,6 +155,7 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   Canceller canceller(options.progress);
   RepairOptions again = options;
   again.inside.rule = InsideRule::winding;
+  again.holes = {};
   again.certify.wanted = false;
   again.progress = &canceller;
   RepairReport report;
@@ -142,16 +163,15 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
 }
 
 std::size_t count_untouched(const CleanSoup& input, const Surface& surface) {
-  std::uint32_t last_source = 0;
-  for (const Triangle& t : input.triangles) last_source = std::max(last_source, t.source);
-  std::vector<TriangleId> triangle_of(std::size_t{last_source} + 1);
-  for (TriangleId t(0u); t < input.triangles.end_id(); ++t.value) {
-    triangle_of[input.triangles[t].source] = t;
-  }
   std::size_t untouched = 0;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     if (surface.source[t] == Surface::kNoSource) continue;
-    const auto& from = input.triangles[triangle_of[surface.source[t]]].corners;
+    // Sources ascend.
+    const auto found = std::lower_bound(
+        input.triangles.begin(), input.triangles.end(), surface.source[t],
+        [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
+    if (found == input.triangles.end()) continue;
+    const auto& from = found->corners;
     const auto& to = surface.mesh.triangles[t];
     untouched += std::all_of(from.begin(), from.end(), [&](PointId p) {
       return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {

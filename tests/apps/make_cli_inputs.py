@@ -80,6 +80,7 @@ def main():
         "single_triangle.obj": SINGLE_TRIANGLE,
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
+        "open.obj": tetrahedron(f3=""),
         "far_point.obj": two_tetrahedra(size=10 ** 9),
         "larger_than_a_pipe.obj": row_of_tetrahedra(4000),
         "much_work.off": random_triangles(1000),

@@ -19,14 +19,16 @@ struct Triangle {
   PlaneId plane;
   // How its copies are turned: +1 all along the plane's normal, -1 all against it, 0 both kinds.
   std::int32_t winding = 0;
-  std::uint32_t source = 0;  // index of the first copy in the soup that was given
+  // Index of the first copy in the soup that was given; kNoSource for one that closes a hole.
+  std::uint32_t source = 0;
+  static constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
 };
 
 struct CleanSoup {
   Grid grid;
   IdVector<PointId, Vec3d> points;           // original coordinates, one for each grid point in use
   IdVector<PointId, GridPoint> grid_points;  // all different
-  IdVector<TriangleId, Triangle> triangles;
+  IdVector<TriangleId, Triangle> triangles;  // those without a source come last
   PlaneTable planes;
 };
 

@@ -16,6 +16,7 @@
 #include <extract/extract_surface.h>
 #include <extract/surface.h>
 #include <repair/certify.h>
+#include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
 #include <repair/stage_meter.h>
@@ -23,6 +24,7 @@
 namespace meshrepair {
 
 struct RepairOptions {
+  HoleOptions holes;
   BuildTreeOptions tree;
   InsideOptions inside;
   CertifyOptions certify;
@@ -36,6 +38,7 @@ struct RepairReport {
   CleanReport clean;
   Topology input;         // of the clean soup
   double input_area = 0;  // in the input's units, squared
+  HoleReport holes;
   BuildTreeReport tree;
   std::size_t cells = 0;
   std::size_t facets = 0;

@@ -1,0 +1,50 @@
+// Triangles over the holes of a soup.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include <bsp/clean_soup.h>
+#include <bsp/progress.h>
+
+namespace meshrepair {
+
+enum class HoleMode {
+  patch,   // triangles close the holes; what stays open is as with `extend`
+  extend,  // the optimisation closes gaps along planes that are there (WM)
+  none,    // what is not sealed off by the triangles alone is outside
+};
+
+[[nodiscard]] std::string_view hole_mode_name(HoleMode mode);
+
+struct HoleOptions {
+  HoleMode mode = HoleMode::patch;
+  // A patch is at most this share of the area of the parts that it is joined to: an open sheet is
+  // not a solid with a hole. A half-ball without its disk has 1/2, a cone of 45 degrees without its
+  // base 0.71; the patch of a sheet has about the sheet's area.
+  double largest_share = 0.75;
+  // Loops of more edges than this are cut along short chords before they are triangulated.
+  std::size_t most_edges = 200;
+};
+
+struct HoleReport {
+  std::size_t loops = 0;         // closed walks of edges at which an odd number of triangles meet
+  std::size_t closed = 0;        // of these
+  std::size_t too_large = 0;     // left open, as the options say
+  std::size_t stray_edges = 0;   // open edges on no loop
+  std::size_t triangles = 0;     // added
+  double area = 0;               // of these, in the input's units, squared
+  double largest_area = 0;       // of one patch
+  std::size_t longest_loop = 0;  // in edges, of the closed ones
+};
+
+// Adds triangles with Triangle::source kNoSource that close the holes: over each loop a
+// triangulation of its own points, of little area and with few folds (Liepa 2003). A loop is found
+// whatever the orientation of the triangles around it, and also where three or more meet at an
+// edge. Patches may cross anything. Two loops that bound one gap, as the rims of a missing ring do,
+// are closed one by one. Does nothing unless options.mode is `patch`. Throws UsageError where the
+// share is not a number from 0 on, Cancelled.
+void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report,
+                 ProgressObserver* progress = nullptr);
+
+}  // namespace meshrepair

@@ -1,0 +1,172 @@
+#include "loop_triangulation.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace meshrepair::internal {
+namespace {
+
+// So many points offer a chord when a large loop is cut in two.
+constexpr std::size_t kOffers = 64;
+
+// A chord leaves a triangle or more on each side.
+constexpr std::size_t kFewestCut = 8;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+using Positions = std::vector<std::uint32_t>;
+
+double area_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+// What the edge p q costs between triangles with the third corners a and b: nothing up to a right
+// angle between them, and the smaller one's area if one lies on the other.
+double fold_cost(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b) {
+  const Vec3d edge = q - p;
+  const Vec3d u = edge.cross(a - p);
+  const Vec3d v = edge.cross(b - p);
+  const double cosine_and_lengths = u.dot(v);
+  if (cosine_and_lengths <= 0) return 0;
+  return 0.5 * cosine_and_lengths / std::max(u.norm(), v.norm());
+}
+
+// The dynamic programme over all chords of one loop.
+class BestTriangulation {
+ public:
+  // Chords that cut this loop from a larger one have no apex: nothing is known beyond.
+  BestTriangulation(std::span<const Vec3d> points, std::span<const Vec3d> apex,
+                    const Positions& loop)
+      : points_(points),
+        apex_(apex),
+        loop_(loop),
+        size_(loop.size()),
+        cost_(size_ * size_, 0),
+        third_(size_ * size_, 0) {}
+
+  void run(const std::function<void()>& poll, LoopTriangulation& result) {
+    for (std::size_t gap = 2; gap < size_; ++gap) {
+      if (poll) poll();
+      for (std::size_t i = 0; i + gap < size_; ++i) choose_third(i, i + gap);
+    }
+    collect(result);
+  }
+
+ private:
+  void choose_third(std::size_t i, std::size_t j) {
+    double best = kInfinite;
+    std::size_t best_third = i + 1;
+    for (std::size_t m = i + 1; m < j; ++m) {
+      double cost = cost_[i * size_ + m] + cost_[m * size_ + j];
+      if (cost >= best) continue;
+      cost += area_of(at(i), at(m), at(j));
+      if (cost >= best) continue;
+      cost += fold_over(i, m, j) + fold_over(m, j, i);
+      if (i == 0 && j + 1 == size_) cost += fold_over(j, i, m);
+      if (cost >= best) continue;
+      best = cost;
+      best_third = m;
+    }
+    cost_[i * size_ + j] = best;
+    third_[i * size_ + j] = static_cast<std::uint32_t>(best_third);
+  }
+
+  // Between the triangle with third corner `third` and what lies beyond the chord or edge i j.
+  [[nodiscard]] double fold_over(std::size_t i, std::size_t j, std::size_t third) const {
+    const bool is_edge = (i + 1) % size_ == j;
+    if (!is_edge) return fold_cost(at(i), at(j), at(third_[i * size_ + j]), at(third));
+    const bool is_border = (loop_[i] + 1) % points_.size() == loop_[j];
+    return is_border ? fold_cost(at(i), at(j), apex_[loop_[i]], at(third)) : 0;
+  }
+
+  void collect(LoopTriangulation& result) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> chords;
+    chords.emplace_back(0, static_cast<std::uint32_t>(size_ - 1));
+    while (!chords.empty()) {
+      const auto [i, j] = chords.back();
+      chords.pop_back();
+      if (j - i < 2) continue;
+      const std::uint32_t m = third_[i * size_ + j];
+      result.triangles.push_back({loop_[i], loop_[m], loop_[j]});
+      result.area += area_of(at(i), at(m), at(j));
+      chords.emplace_back(m, j);
+      chords.emplace_back(i, m);
+    }
+  }
+
+  [[nodiscard]] const Vec3d& at(std::size_t i) const { return points_[loop_[i]]; }
+
+  std::span<const Vec3d> points_;
+  std::span<const Vec3d> apex_;
+  const Positions& loop_;
+  std::size_t size_;
+  std::vector<double> cost_;
+  std::vector<std::uint32_t> third_;
+};
+
+// The shortest of the chords looked at that leave a quarter of the points or more on each side.
+std::pair<std::size_t, std::size_t> choose_chord(std::span<const Vec3d> points,
+                                                 const Positions& loop) {
+  const std::size_t n = loop.size();
+  const std::size_t step = std::max<std::size_t>(1, n / kOffers);
+  double best = kInfinite;
+  std::pair<std::size_t, std::size_t> chord;
+  for (std::size_t i = 0; i < n; i += step) {
+    for (std::size_t k = n / 4; k <= n - n / 4; ++k) {
+      const std::size_t j = (i + k) % n;
+      const double length = (points[loop[j]] - points[loop[i]]).squaredNorm();
+      if (length >= best) continue;
+      best = length;
+      chord = std::minmax(i, j);
+    }
+  }
+  return chord;
+}
+
+std::pair<Positions, Positions> cut(const Positions& loop,
+                                    const std::pair<std::size_t, std::size_t>& chord) {
+  const auto from = loop.begin() + static_cast<std::ptrdiff_t>(chord.first);
+  const auto to = loop.begin() + static_cast<std::ptrdiff_t>(chord.second);
+  std::pair<Positions, Positions> halves;
+  halves.first.assign(from, to + 1);
+  halves.second.assign(loop.begin(), from + 1);
+  halves.second.insert(halves.second.end(), to, loop.end());
+  return halves;
+}
+
+}  // namespace
+
+LoopTriangulation triangulate_loop(std::span<const Vec3d> points, std::span<const Vec3d> apex,
+                                   const LoopTriangulationOptions& options) {
+  LoopTriangulation result;
+  std::vector<Positions> loops(1, Positions(points.size()));
+  for (std::uint32_t i = 0; i < points.size(); ++i) loops[0][i] = i;
+  while (!loops.empty()) {
+    const Positions loop = std::move(loops.back());
+    loops.pop_back();
+    if (loop.size() > std::max(options.most_edges, kFewestCut)) {
+      auto [a, b] = cut(loop, choose_chord(points, loop));
+      loops.push_back(std::move(b));
+      loops.push_back(std::move(a));
+      if (options.poll) options.poll();
+    } else {
+      BestTriangulation(points, apex, loop).run(options.poll, result);
+    }
+    result.too_large = result.area > options.largest_area;
+    if (result.too_large) break;
+  }
+  return result;
+}
+
+double least_area(std::span<const Vec3d> points) {
+  Vec3d sum = Vec3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum += points[i].cross(points[(i + 1) % points.size()]);
+  }
+  return 0.5 * sum.norm();
+}
+
+}  // namespace meshrepair::internal

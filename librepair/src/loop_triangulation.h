@@ -1,0 +1,43 @@
+// A triangulation of a closed loop in space with little area and few folds.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <bsp/soup.h>
+
+namespace meshrepair::internal {
+
+struct LoopTriangulation {
+  // Positions in the loop, ascending: all triangles have the direction of the loop.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  double area = 0;
+  bool too_large = false;  // more than `largest_area`: triangles are missing
+};
+
+struct LoopTriangulationOptions {
+  // Loops of up to so many edges get the optimum, which takes the cube of it; larger ones are first
+  // cut along short chords.
+  std::size_t most_edges = 200;
+  // No use in going on beyond that.
+  double largest_area = 0;
+  std::function<void()> poll;  // may throw; unless empty
+};
+
+// `points` has three or more, all different. `apex[i]` is the third corner of the surface's
+// triangle at the edge from point i to the next: a triangle that turns back onto it counts double.
+//
+// Liepa, "Filling holes in meshes" (2003), with one sum of areas, those of folded triangles
+// weighted, instead of the largest angle first and then the area.
+[[nodiscard]] LoopTriangulation triangulate_loop(std::span<const Vec3d> points,
+                                                 std::span<const Vec3d> apex,
+                                                 const LoopTriangulationOptions& options);
+
+// No surface with this border has less area.
+[[nodiscard]] double least_area(std::span<const Vec3d> points);
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <repair/hole_patches.h>
+#include <repair/orient_parts.h>
+#include <repair/repair.h>
+
+#include "degenerate_soups.h"
+#include "random_geometry.h"
+#include "shapes.h"
+#include "trees.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+TriangleSoup without(TriangleSoup soup, const std::set<std::size_t>& gone) {
+  TriangleSoup kept;
+  kept.points = soup.points;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    if (!gone.contains(t)) kept.triangles.push_back(soup.triangles[t]);
+  }
+  return kept;
+}
+
+struct Patched {
+  CleanSoup soup;
+  HoleReport report;
+  Topology topology;
+};
+
+Patched patched(const TriangleSoup& soup, const HoleOptions& options = {}) {
+  Patched result;
+  result.soup = cleaned(soup);
+  const std::size_t given = result.soup.triangles.size();
+  patch_holes(result.soup, options, result.report);
+  EXPECT_EQ(result.report.triangles, result.soup.triangles.size() - given);
+  for (TriangleId t(0u); t < result.soup.triangles.end_id(); ++t.value) {
+    EXPECT_EQ(result.soup.triangles[t].source == Triangle::kNoSource, t.index() >= given);
+  }
+  result.topology = examine_topology(index_triangles(result.soup), result.soup.points.size());
+  return result;
+}
+
+double repaired_volume(const TriangleSoup& soup) { return repair(soup).report.output_volume; }
+
+TEST(PatchHoles, AClosedSoupIsNotChanged) {
+  for (const TriangleSoup& soup : {cube(), torus(12, 9), random_cubes(5, 1)}) {
+    EXPECT_EQ(patched(soup).report.loops, 0u);
+    EXPECT_EQ(patched(soup).report.triangles, 0u);
+  }
+}
+
+TEST(PatchHoles, AMissingTriangleComesBack) {
+  for (std::size_t gone = 0; gone < 12; ++gone) {
+    SCOPED_TRACE(gone);
+    const Patched p = patched(without(cube(), {gone}));
+    EXPECT_EQ(p.report.closed, 1u);
+    EXPECT_EQ(p.report.triangles, 1u);
+    EXPECT_DOUBLE_EQ(p.report.area, 0.5);
+    EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+    EXPECT_EQ(repaired_volume(without(cube(), {gone})), 1);
+  }
+}
+
+TEST(PatchHoles, AMissingFaceIsClosedInItsPlane) {
+  const Patched p = patched(without(cube(), {4, 5}));
+  EXPECT_EQ(p.report.longest_loop, 4u);
+  EXPECT_DOUBLE_EQ(p.report.area, 1);
+  EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+}
+
+TEST(PatchHoles, ALargeLoopThatIsNotConvexGetsNoMoreThanItsArea) {
+  // A star-shaped prism without its lid: all triangulations inside the outline have one area.
+  constexpr std::uint32_t kPoints = 40;
+  TriangleSoup prism;
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const double a = 2 * std::numbers::pi * i / kPoints;
+    const double r = i % 2 == 0 ? 1024 : 512;
+    for (const double z : {0.0, 300.0}) {
+      prism.points.emplace_back(std::round(r * std::cos(a)), std::round(r * std::sin(a)), z);
+    }
+  }
+  prism.points.emplace_back(0, 0, 0);
+  double floor = 0;
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % kPoints);
+    prism.triangles.push_back({a, b, b + 1});
+    prism.triangles.push_back({a, b + 1, a + 1});
+    prism.triangles.push_back({2 * kPoints, b, a});
+    floor += 0.5 * prism.points[a].cross(prism.points[b]).z();
+  }
+  for (const std::size_t most_edges : {200u, 12u}) {
+    SCOPED_TRACE(most_edges);
+    HoleOptions options;
+    options.most_edges = most_edges;
+    const Patched p = patched(prism, options);
+    EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+    EXPECT_EQ(p.report.triangles, kPoints - 2);
+    // Cut along chords first, some triangles may lie outside the outline.
+    EXPECT_NEAR(p.report.area, floor, most_edges == 200 ? 1e-9 * floor : 0.5 * floor);
+  }
+  EXPECT_NEAR(repaired_volume(prism), 300 * floor, 1e-9 * floor);
+}
+
+TEST(PatchHoles, HolesOfASphereAreClosedSmoothly) {
+  const TriangleSoup whole = sphere(5000);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriangleSoup broken = without_some(whole, 0.05, seed);
+    const Patched p = patched(broken);
+    EXPECT_EQ(p.report.closed, p.report.loops);
+    EXPECT_EQ(p.report.stray_edges, 0u);
+    EXPECT_TRUE(p.topology.closed());
+    EXPECT_NEAR(repaired_volume(broken), signed_volume(whole), 1e-3 * signed_volume(whole));
+  }
+}
+
+TEST(PatchHoles, OrientationPlaysNoPart) {
+  const TriangleSoup broken = without_some(torus(40, 20), 0.1, 1);
+  const Patched straight = patched(broken);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const Patched turned = patched(with_some_flipped(broken, 0.5, seed));
+    ASSERT_EQ(turned.soup.triangles.size(), straight.soup.triangles.size());
+    for (TriangleId t(0u); t < straight.soup.triangles.end_id(); ++t.value) {
+      auto a = straight.soup.triangles[t].corners, b = turned.soup.triangles[t].corners;
+      std::sort(a.begin(), a.end());
+      std::sort(b.begin(), b.end());
+      EXPECT_EQ(a, b);
+    }
+  }
+}
+
+TEST(PatchHoles, HolesThatTouchInAPointAreTwo) {
+  // Two triangles of a sphere's pole that share nothing else.
+  const TriangleSoup whole = sphere(200);
+  std::vector<std::size_t> at_pole;
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    const auto& c = whole.triangles[t];
+    if (std::find(c.begin(), c.end(), 0u) != c.end()) at_pole.push_back(t);
+  }
+  ASSERT_GE(at_pole.size(), 6u);
+  const Patched p = patched(without(whole, {at_pole[0], at_pole[3]}));
+  EXPECT_EQ(p.report.closed, 2u);
+  EXPECT_EQ(p.report.triangles, 2u);
+  EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+}
+
+TEST(PatchHoles, ALoopIsFoundWhereThreeTrianglesMeet) {
+  // Two cubes that share an edge, one of them without a triangle at that edge.
+  TriangleSoup cubes = cube();
+  append(cubes, moved(cube(), {1, 1, 0}));
+  for (std::size_t gone = 12; gone < 24; ++gone) {
+    SCOPED_TRACE(gone);
+    const Patched p = patched(without(cubes, {gone}));
+    EXPECT_EQ(p.report.closed, 1u);
+    EXPECT_EQ(p.report.triangles, 1u);
+    EXPECT_TRUE(p.topology.closed());
+  }
+}
+
+TEST(PatchHoles, AWallBetweenTwoSolidsIsNoHole) {
+  TriangleSoup cubes = cube();
+  append(cubes, moved(cube(), {1, 0, 0}));
+  EXPECT_EQ(patched(cubes).report.loops, 0u);
+  EXPECT_EQ(repaired_volume(cubes), 2);
+}
+
+TEST(PatchHoles, AnOpenSheetIsLeftOpen) {
+  TriangleSoup sheet;
+  sheet.points = {{0, 0, 0}, {4, 0, 1}, {4, 4, 0}, {0, 4, 1}, {2, 2, 3}};
+  sheet.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}};
+  const Patched p = patched(sheet);
+  EXPECT_EQ(p.report.loops, 1u);
+  EXPECT_EQ(p.report.too_large, 1u);
+  EXPECT_EQ(p.report.triangles, 0u);
+}
+
+TEST(PatchHoles, TheShareSaysWhichHolesAreClosed) {
+  // The lid that is missing is a fifth of the area that is there.
+  HoleOptions options;
+  options.largest_share = 0.21;
+  EXPECT_EQ(patched(without(cube(), {4, 5}), options).report.closed, 1u);
+  options.largest_share = 0.19;
+  EXPECT_EQ(patched(without(cube(), {4, 5}), options).report.too_large, 1u);
+  options.largest_share = -1;
+  EXPECT_THROW((void)patched(cube(), options), UsageError);
+}
+
+TEST(PatchHoles, ATriangleThatJutsIntoAHoleIsNotThereTwice) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Patched p = patched(without_some(sphere(300), 0.4, seed));
+    std::set<std::array<PointId, 3>> seen;
+    for (const Triangle& t : p.soup.triangles) {
+      auto key = t.corners;
+      std::sort(key.begin(), key.end());
+      EXPECT_TRUE(seen.insert(key).second);
+    }
+  }
+}
+
+TEST(PatchHoles, DegenerateSoupsKeepTheirInvariants) {
+  for (const SoupFamily& family : degenerate_families()) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      SCOPED_TRACE(std::string(family.name) + " " + std::to_string(seed));
+      HoleOptions options;
+      options.largest_share = 100;
+      const Patched p = patched(family.make(seed), options);
+      for (const Triangle& t : p.soup.triangles) {
+        for (const PointId c : t.corners) {
+          EXPECT_EQ(side(p.soup.grid_points[c], p.soup.planes[t.plane]), 0);
+        }
+      }
+    }
+  }
+}
+
+TEST(PatchHoles, NoneClosesNothing) {
+  RepairOptions options;
+  options.holes.mode = HoleMode::none;
+  TriangleSoup soup = without(cube(), {3});
+  RepairReport report;
+  EXPECT_THROW((void)repair(soup, options, report), NoSolidError);
+  append(soup, moved(sphere(300), {9, 0, 0}));
+  EXPECT_NEAR(repair(soup, options).report.output_volume, signed_volume(sphere(300)), 1e-6);
+  options.holes.mode = HoleMode::extend;
+  EXPECT_NEAR(repair(soup, options).report.output_volume, 1 + signed_volume(sphere(300)), 1e-6);
+}
+
+TEST(PatchHoles, AConeWithoutItsBaseIsClosed) {
+  TriangleSoup open = cone(100);
+  open.triangles.resize(100);
+  const double whole = signed_volume(cone(100));
+  EXPECT_NEAR(repaired_volume(open), whole, 1e-6 * whole);
+}
+
+}  // namespace
+}  // namespace meshrepair
