@@ -118,6 +118,15 @@ Json section_of(const ExtractReport& extract) {
           {"middle_vertices", extract.middle_vertices}};
 }
 
+Json section_of(const PartsAndArea& parts) {
+  return {{"parts", parts.parts}, {"area", parts.area}};
+}
+
+Json section_of(const PartFates& parts) {
+  return {{"enclosing_nothing", section_of(parts.enclosing_nothing)},
+          {"inside_solid", section_of(parts.inside_solid)}};
+}
+
 const char* verdict(bool holds) { return holds ? "PASS" : "FAIL"; }
 
 Json certificate_of(const RepairReport& repair) {
@@ -141,7 +150,8 @@ Json result_of(const Findings& findings) {
   const Topology& output = repair.output;
   return {{"triangles", output.triangles},
           {"points", findings.output_points},
-          {"untouched_triangles", repair.untouched_triangles},
+          {"untouched_triangles", repair.triangles.untouched},
+          {"cut_triangles", repair.triangles.cut},
           {"parts", output.parts},
           {"closed", output.closed()},
           {"manifold", output.manifold()},
@@ -178,7 +188,10 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));
   if (was_begun(repair, "inside")) report.set_section("inside", section_of(repair.inside));
-  if (was_begun(repair, "extract")) report.set_section("extract", section_of(repair.extract));
+  if (was_begun(repair, "extract")) {
+    report.set_section("removed", section_of(repair.parts));
+    report.set_section("extract", section_of(repair.extract));
+  }
   if (was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));
     report.set_section("certificate", certificate_of(repair));

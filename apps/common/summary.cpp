@@ -118,6 +118,25 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
   lines.add("closed", texts);
 }
 
+std::string kept_triangles(const RepairReport& repair) {
+  std::string text = fmt::format("{} of {} untouched", grouped(repair.triangles.untouched),
+                                 number_of(repair.clean.triangles_in, "triangle"));
+  if (repair.triangles.cut > 0) text += ", cut " + grouped(repair.triangles.cut);
+  return text;
+}
+
+std::vector<std::string> removed_parts(const RepairReport& repair) {
+  std::vector<std::string> texts;
+  const auto add = [&](const PartsAndArea& parts, std::string_view what) {
+    if (parts.parts == 0) return;
+    texts.push_back(fmt::format("{} that {} {}, area {:.6g}", number_of(parts.parts, "part"),
+                                parts.parts == 1 ? "is" : "are", what, parts.area));
+  };
+  add(repair.parts.enclosing_nothing, "open and no wall of the solid");
+  add(repair.parts.inside_solid, "inside the solid");
+  return texts;
+}
+
 void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
@@ -125,9 +144,9 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
                                    number_of(output.triangles, "triangle"),
                                    number_of(output.parts, "part"), seconds));
   if (repair.clean.triangles_in > 0) {
-    lines.add("kept", fmt::format("{} of {} untouched", grouped(repair.untouched_triangles),
-                                  number_of(repair.clean.triangles_in, "triangle")));
+    lines.add("kept", kept_triangles(repair));
   }
+  lines.add("removed", removed_parts(repair));
   lines.add("checked", joined({output.closed() ? "closed" : "NOT CLOSED",
                                output.manifold() ? "manifold" : "NOT MANIFOLD",
                                output.oriented() ? "oriented" : "NOT ORIENTED",

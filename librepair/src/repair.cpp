@@ -162,24 +162,9 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   return repair(soup, again, report);
 }
 
-std::size_t count_untouched(const CleanSoup& input, const Surface& surface) {
-  std::size_t untouched = 0;
-  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    if (surface.source[t] == Surface::kNoSource) continue;
-    // Sources ascend.
-    const auto found = std::lower_bound(
-        input.triangles.begin(), input.triangles.end(), surface.source[t],
-        [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
-    if (found == input.triangles.end()) continue;
-    const auto& from = found->corners;
-    const auto& to = surface.mesh.triangles[t];
-    untouched += std::all_of(from.begin(), from.end(), [&](PointId p) {
-      return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
-        return surface.mesh.points[q] == input.points[p];
-      });
-    });
-  }
-  return untouched;
+Surface extract(const CoveredCells& covered, const std::vector<char>& solid, RepairReport& report) {
+  report.parts = find_part_fates(covered.complex, covered.cover, solid);
+  return extract_surface(covered.complex, covered.cover, solid, report.extract);
 }
 
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
@@ -192,7 +177,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
         report.certify);
   }
   meter.begin("check");
-  report.untouched_triangles = count_untouched(input, surface);
+  report.triangles = find_triangle_fates(input, surface);
   report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
   report.output_volume = signed_volume(surface.mesh);
   report.output_area = surface_area(surface.mesh);
@@ -208,8 +193,7 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
   {
     const CoveredCells covered = make_cells(tree, windings_of(tree.input), options, report, meter);
     meter.begin("extract");
-    surface = extract_surface(covered.complex, covered.cover, solid_cells(tree, covered.complex),
-                              report.extract);
+    surface = extract(covered, solid_cells(tree, covered.complex), report);
   }
   return finish(tree.input, std::move(surface), options, report, meter);
 }
@@ -229,7 +213,7 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
     tree.leaves = {};
     const CellLabels labels = find_solid(covered, options, report, meter);
     meter.begin("extract");
-    surface = extract_surface(covered.complex, covered.cover, labels.solid, report.extract);
+    surface = extract(covered, labels.solid, report);
   }
   return finish(tree.input, std::move(surface), options, report, meter);
 }

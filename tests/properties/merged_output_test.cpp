@@ -47,7 +47,7 @@ TEST(MergedOutput, SoundMeshesComeOutBitForBit) {
         transformed(torus(13, 9), turned), moved(cube(), {1e3, 2e-3, 0.1})}) {
     const RepairResult result = repaired(soup);
     EXPECT_EQ(triangles_of(result.surface.mesh), triangles_of(soup));
-    EXPECT_EQ(result.report.untouched_triangles, soup.triangles.size());
+    EXPECT_EQ(result.report.triangles.untouched, soup.triangles.size());
   }
 }
 
@@ -73,7 +73,7 @@ TEST(MergedOutput, PolygonsMayHaveHoles) {
   // Whole: ten of the large box, two of the small one. The two with half a hole each have six
   // corners and the places where the diagonals of the small box's sides arrive, two each: twelve
   // triangles. Each side of the small box is a triangle and a quadrangle: twelve again.
-  EXPECT_EQ(result.report.untouched_triangles, 12u);
+  EXPECT_EQ(result.report.triangles.untouched, 12u);
   EXPECT_EQ(result.surface.mesh.triangles.size(), 36u);
 }
 

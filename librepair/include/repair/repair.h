@@ -19,6 +19,7 @@
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
+#include <repair/part_fates.h>
 #include <repair/stage_meter.h>
 
 namespace meshrepair {
@@ -47,9 +48,10 @@ struct RepairReport {
   OrientReport orient;
   std::size_t links = 0;
   InsideReport inside;
+  PartFates parts;
   ExtractReport extract;
   CertifyReport certify;
-  std::size_t untouched_triangles = 0;  // that came out with their own coordinates, bit for bit
+  TriangleFates triangles;
   Topology output;
   double output_volume = 0;  // in the input's units, cubed
   double output_area = 0;

@@ -1,0 +1,39 @@
+// What became of the input's triangles and parts.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <bsp/clean_soup.h>
+#include <extract/cell_complex.h>
+#include <extract/cover_facets.h>
+#include <extract/surface.h>
+
+namespace meshrepair {
+
+struct PartsAndArea {
+  std::size_t parts = 0;
+  double area = 0;  // of the parts, in the input's units, squared
+};
+
+// A part is what is connected through edges, patches over holes included.
+struct PartFates {
+  PartsAndArea enclosing_nothing;  // not a piece bounds the solid, and some lies outside it
+  PartsAndArea inside_solid;       // not a piece bounds the solid, and all lies inside it
+};
+
+// `solid` has one entry for each cell. Linear but for parts that were removed, for which edges are
+// sorted.
+[[nodiscard]] PartFates find_part_fates(const CellComplex& complex,
+                                        const IdVector<FacetId, Cover>& cover,
+                                        const std::vector<char>& solid);
+
+// Of the input's triangles.
+struct TriangleFates {
+  std::size_t untouched = 0;  // came out with their own coordinates, bit for bit
+  std::size_t cut = 0;        // came out in part, in several pieces, or moved
+};
+
+[[nodiscard]] TriangleFates find_triangle_fates(const CleanSoup& input, const Surface& surface);
+
+}  // namespace meshrepair

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <Eigen/Geometry>
+
+#include <bsp/disjoint_sets.h>
+#include <bsp/edge_table.h>
+#include <repair/orient_parts.h>
+#include <repair/part_fates.h>
+
+namespace meshrepair {
+namespace {
+
+// Where pieces of a triangle or of a part lie; bits.
+constexpr std::uint8_t kBoundary = 1;
+constexpr std::uint8_t kInside = 2;
+constexpr std::uint8_t kOutside = 4;
+
+using Places = std::vector<std::uint8_t>;
+
+bool is_solid(const std::vector<char>& solid, CellId cell) {
+  return cell.valid() && solid[cell.index()] != 0;
+}
+
+Places places_of_triangles(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
+                           const std::vector<char>& solid) {
+  Places places(complex.soup().triangles.size(), 0);
+  for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
+    if (!cover[f].opaque()) continue;
+    const bool above = is_solid(solid, complex.facets[f].above);
+    const bool below = is_solid(solid, complex.facets[f].below);
+    places[cover[f].triangle.index()] |= above != below ? kBoundary : above ? kInside : kOutside;
+  }
+  return places;
+}
+
+DisjointSets parts_of(const std::vector<IndexTriangle>& triangles) {
+  DisjointSets parts(triangles.size());
+  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+    for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
+  });
+  return parts;
+}
+
+double area_of(const CleanSoup& soup, const Triangle& triangle) {
+  const Vec3d& a = soup.points[triangle.corners[0]];
+  return 0.5 *
+         (soup.points[triangle.corners[1]] - a).cross(soup.points[triangle.corners[2]] - a).norm();
+}
+
+}  // namespace
+
+PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
+                          const std::vector<char>& solid) {
+  const CleanSoup& soup = complex.soup();
+  PartFates fates;
+  const Places places = places_of_triangles(complex, cover, solid);
+  if (std::all_of(places.begin(), places.end(),
+                  [](std::uint8_t p) { return (p & kBoundary) != 0; })) {
+    return fates;
+  }
+  DisjointSets parts = parts_of(index_triangles(soup));
+  Places places_of_part(places.size(), 0);
+  std::vector<double> area(places.size(), 0);
+  for (std::uint32_t t = 0; t < places.size(); ++t) {
+    places_of_part[parts.root(t)] |= places[t];
+    const Triangle& triangle = soup.triangles[TriangleId(t)];
+    if (triangle.source != Triangle::kNoSource) area[parts.root(t)] += area_of(soup, triangle);
+  }
+  for (std::uint32_t t = 0; t < places.size(); ++t) {
+    if (parts.root(t) != t || (places_of_part[t] & kBoundary) != 0) continue;
+    // A part that coincides with another one in all its pieces has the fate of that one.
+    if (places_of_part[t] == 0) continue;
+    const bool outside = (places_of_part[t] & kOutside) != 0;
+    PartsAndArea& fate = outside ? fates.enclosing_nothing : fates.inside_solid;
+    ++fate.parts;
+    fate.area += area[t];
+  }
+  return fates;
+}
+
+TriangleFates find_triangle_fates(const CleanSoup& input, const Surface& surface) {
+  enum : char { kGone, kCut, kUntouched };
+  std::vector<char> fate(input.triangles.size(), kGone);
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    if (surface.source[t] == Surface::kNoSource) continue;
+    // Sources ascend.
+    const auto found = std::lower_bound(
+        input.triangles.begin(), input.triangles.end(), surface.source[t],
+        [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
+    if (found == input.triangles.end()) continue;
+    const auto& to = surface.mesh.triangles[t];
+    const bool same = std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
+      return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
+        return surface.mesh.points[q] == input.points[p];
+      });
+    });
+    fate[static_cast<std::size_t>(found - input.triangles.begin())] = same ? kUntouched : kCut;
+  }
+  TriangleFates fates;
+  fates.untouched = static_cast<std::size_t>(std::count(fate.begin(), fate.end(), kUntouched));
+  fates.cut = static_cast<std::size_t>(std::count(fate.begin(), fate.end(), kCut));
+  return fates;
+}
+
+}  // namespace meshrepair
