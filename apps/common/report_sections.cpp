@@ -58,6 +58,7 @@ Json defects_of(const RepairReport& repair) {
 Json section_of(const HoleReport& holes) {
   return {{"loops", holes.loops},
           {"closed", holes.closed},
+          {"rings", holes.rings},
           {"too_large", holes.too_large},
           {"stray_edges", holes.stray_edges},
           {"triangles", holes.triangles},

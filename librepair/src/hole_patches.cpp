@@ -15,7 +15,10 @@
 #include <repair/orient_parts.h>
 
 #include "boundary_loops.h"
+#include "facing_rims.h"
 #include "loop_triangulation.h"
+#include "rim.h"
+#include "strip_triangulation.h"
 
 namespace meshrepair {
 namespace {
@@ -23,7 +26,13 @@ namespace {
 using internal::BoundaryLoops;
 using internal::LoopTriangulation;
 using internal::LoopTriangulationOptions;
+using internal::Rim;
+using internal::StripTriangulation;
 using Corners = std::array<PointId, 3>;
+
+// A ring between two rims takes the product of their lengths; beyond that they are closed one by
+// one.
+constexpr std::size_t kLargestRing = 4'000'000;
 
 struct Sheets {
   DisjointSets sets;         // of triangles, joined where two meet at an edge
@@ -36,8 +45,8 @@ Vec3d position(const CleanSoup& soup, PointId p) {
 }
 
 double area_of(const CleanSoup& soup, const Corners& corners) {
-  const Vec3d a = position(soup, corners[0]);
-  return 0.5 * (position(soup, corners[1]) - a).cross(position(soup, corners[2]) - a).norm();
+  return internal::triangle_area(position(soup, corners[0]), position(soup, corners[1]),
+                                 position(soup, corners[2]));
 }
 
 Corners sorted(Corners corners) {
@@ -65,9 +74,10 @@ class HolePatcher {
       if (loops_.loops() == 0) return;
       measure_sheets(table);
     }
-    std::vector<LoopTriangulation> patches(loops_.loops());
-    triangulate(patches);
-    for (std::size_t l = 0; l < patches.size(); ++l) add(l, patches[l]);
+    find_rims();
+    triangulate();
+    close_rings();
+    for (std::size_t l = 0; l < patches_.size(); ++l) close_hole(l);
     drop_copies();
     report_.area *= soup_.grid.unit * soup_.grid.unit;
     report_.largest_area *= soup_.grid.unit * soup_.grid.unit;
@@ -84,76 +94,107 @@ class HolePatcher {
     }
   }
 
-  // Of the sheets that end at this loop.
-  double area_around(std::size_t loop) {
-    roots_.clear();
-    for (const std::uint32_t e : loops_.edges_of(loop)) {
-      roots_.push_back(sheets_.sets.root(loops_.edges[e].side / 3));
+  // In grid steps: where the mesh is makes no difference.
+  void find_rims() {
+    rims_.resize(loops_.loops());
+    for (std::size_t l = 0; l < rims_.size(); ++l) {
+      for (const std::uint32_t p : loops_.points_of(l)) {
+        rims_[l].points.push_back(position(soup_, PointId(p)));
+      }
+      for (const std::uint32_t e : loops_.edges_of(l)) {
+        const std::uint32_t side = loops_.edges[e].side;
+        const std::uint32_t third = side_start(triangles_, next_side(next_side(side)));
+        rims_[l].apex.push_back(position(soup_, PointId(third)));
+      }
     }
-    std::sort(roots_.begin(), roots_.end());
-    double area = 0;
-    for (std::size_t i = 0; i < roots_.size(); ++i) {
-      if (i == 0 || roots_[i] != roots_[i - 1]) area += sheets_.area[roots_[i]];
-    }
-    return area;
   }
 
-  void triangulate(std::vector<LoopTriangulation>& patches) {
-    std::vector<double> allowed(patches.size());
-    for (std::size_t l = 0; l < patches.size(); ++l) {
-      allowed[l] = options_.largest_share * area_around(l);
-    }
-    SharedProgress shared(progress_, patches.size());
-    tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t l) {
-      patches[l] = triangulate(l, allowed[l], shared);
+  void triangulate() {
+    std::vector<double> allowed(rims_.size());
+    for (std::size_t l = 0; l < rims_.size(); ++l) allowed[l] = largest_area(l, l);
+    patches_.resize(rims_.size());
+    SharedProgress shared(progress_, rims_.size());
+    tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
+      patches_[l].too_large = internal::least_area(rims_[l]) > allowed[l];
+      if (patches_[l].too_large) return;
+      LoopTriangulationOptions options;
+      options.most_edges = options_.most_edges;
+      options.largest_area = allowed[l];
+      options.poll = [&shared] { shared.poll(); };
+      patches_[l] = internal::triangulate_loop(rims_[l], options);
       shared.done();
     });
   }
 
-  // In coordinates relative to the loop, so that the choice does not depend on where the mesh is.
-  LoopTriangulation triangulate(std::size_t loop, double allowed, SharedProgress& shared) const {
-    const auto ids = loops_.points_of(loop);
-    const auto edges = loops_.edges_of(loop);
-    const Vec3d base = position(soup_, PointId(ids[0]));
-    std::vector<Vec3d> points, apex;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      points.push_back(position(soup_, PointId(ids[i])) - base);
-      const std::uint32_t side = loops_.edges[edges[i]].side;
-      const std::uint32_t third = side_start(triangles_, next_side(next_side(side)));
-      apex.push_back(position(soup_, PointId(third)) - base);
+  // That a patch between two loops may have, or over one that is given twice: a share of the sheets
+  // that end there.
+  double largest_area(std::size_t loop, std::size_t other) {
+    roots_.clear();
+    for (const std::size_t l : {loop, other}) {
+      for (const std::uint32_t e : loops_.edges_of(l)) {
+        roots_.push_back(sheets_.sets.root(loops_.edges[e].side / 3));
+      }
     }
-    LoopTriangulation patch;
-    patch.too_large = internal::least_area(points) > allowed;
-    if (patch.too_large) return patch;
-    LoopTriangulationOptions options;
-    options.most_edges = options_.most_edges;
-    options.largest_area = allowed;
-    options.poll = [&shared] { shared.poll(); };
-    return internal::triangulate_loop(points, apex, options);
+    std::sort(roots_.begin(), roots_.end());
+    roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
+    double area = 0;
+    for (const std::uint32_t root : roots_) area += sheets_.area[root];
+    return options_.largest_share * area;
   }
 
-  void add(std::size_t loop, const LoopTriangulation& patch) {
+  // Joins two rims by a ring where that takes less area than to close each of them.
+  void close_rings() {
+    closed_.assign(rims_.size(), 0);
+    for (const auto& [a, b] : internal::find_facing_rims(rims_)) {
+      if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
+      if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
+      const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
+      if (ring.folded || ring.area > largest_area(a, b)) continue;
+      const bool closable = !patches_[a].too_large && !patches_[b].too_large;
+      if (closable && ring.area >= patches_[a].area + patches_[b].area) continue;
+      closed_[a] = closed_[b] = 1;
+      ++report_.rings;
+      note_patch(2, ring.area, std::max(rims_[a].size(), rims_[b].size()));
+      const auto id = [&](std::uint32_t i) {
+        return PointId(i < rims_[a].size() ? loops_.points_of(a)[i]
+                                           : loops_.points_of(b)[i - rims_[a].size()]);
+      };
+      const bool turn = runs_along_surface(a);
+      for (const auto& t : ring.triangles) add({id(t[0]), id(t[1]), id(t[2])}, turn);
+    }
+  }
+
+  void close_hole(std::size_t loop) {
+    if (closed_[loop] != 0) return;
+    const LoopTriangulation& patch = patches_[loop];
     if (patch.too_large) {
       ++report_.too_large;
       return;
     }
-    ++report_.closed;
-    report_.area += patch.area;
-    report_.largest_area = std::max(report_.largest_area, patch.area);
+    note_patch(1, patch.area, rims_[loop].size());
     const auto ids = loops_.points_of(loop);
-    report_.longest_loop = std::max(report_.longest_loop, ids.size());
-    const bool along = runs_along_surface(loop);
+    const bool turn = runs_along_surface(loop);
     for (const auto& t : patch.triangles) {
-      Corners corners = {PointId(ids[t[0]]), PointId(ids[t[1]]), PointId(ids[t[2]])};
-      if (along) std::swap(corners[1], corners[2]);
-      const auto& at = soup_.grid_points;
-      Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
-      // Three points in a line need no triangle: the edge across bounds the same region.
-      if (is_null(plane)) continue;
-      const auto interned = soup_.planes.intern(plane);
-      soup_.triangles.push_back(
-          {corners, interned.id, interned.turned ? -1 : 1, Triangle::kNoSource});
+      add({PointId(ids[t[0]]), PointId(ids[t[1]]), PointId(ids[t[2]])}, turn);
     }
+  }
+
+  void note_patch(std::size_t loops, double area, std::size_t longest) {
+    report_.closed += loops;
+    report_.area += area;
+    report_.largest_area = std::max(report_.largest_area, area);
+    report_.longest_loop = std::max(report_.longest_loop, longest);
+  }
+
+  void add(Corners corners, bool turn) {
+    if (turn) std::swap(corners[1], corners[2]);
+    const auto& at = soup_.grid_points;
+    Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
+    // Three points in a line need no triangle: the edge across bounds the same region.
+    if (is_null(plane)) return;
+    const auto interned = soup_.planes.intern(plane);
+    soup_.triangles.push_back(
+        {corners, interned.id, interned.turned ? -1 : 1, Triangle::kNoSource});
   }
 
   // Most of the triangles at the loop pass it in its own direction, so that a patch has to turn.
@@ -206,7 +247,10 @@ class HolePatcher {
   std::vector<IndexTriangle> triangles_;
   Sheets sheets_;
   BoundaryLoops loops_;
-  std::vector<std::uint32_t> roots_;  // scratch
+  std::vector<Rim> rims_;                   // of each loop
+  std::vector<LoopTriangulation> patches_;  // of each loop
+  std::vector<char> closed_;                // of each loop: by a ring
+  std::vector<std::uint32_t> roots_;        // scratch
 };
 
 }  // namespace

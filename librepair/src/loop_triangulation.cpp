@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 namespace meshrepair::internal {
 namespace {
 
@@ -19,29 +17,19 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Positions = std::vector<std::uint32_t>;
 
-double area_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  return 0.5 * (b - a).cross(c - a).norm();
-}
-
 // What the edge p q costs between triangles with the third corners a and b: nothing up to a right
 // angle between them, and the smaller one's area if one lies on the other.
 double fold_cost(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b) {
-  const Vec3d edge = q - p;
-  const Vec3d u = edge.cross(a - p);
-  const Vec3d v = edge.cross(b - p);
-  const double cosine_and_lengths = u.dot(v);
-  if (cosine_and_lengths <= 0) return 0;
-  return 0.5 * cosine_and_lengths / std::max(u.norm(), v.norm());
+  const double cosine = fold_cosine(p, q, a, b);
+  return cosine <= 0 ? 0 : cosine * std::min(triangle_area(p, q, a), triangle_area(p, q, b));
 }
 
 // The dynamic programme over all chords of one loop.
 class BestTriangulation {
  public:
   // Chords that cut this loop from a larger one have no apex: nothing is known beyond.
-  BestTriangulation(std::span<const Vec3d> points, std::span<const Vec3d> apex,
-                    const Positions& loop)
-      : points_(points),
-        apex_(apex),
+  BestTriangulation(const Rim& rim, const Positions& loop)
+      : rim_(rim),
         loop_(loop),
         size_(loop.size()),
         cost_(size_ * size_, 0),
@@ -62,7 +50,7 @@ class BestTriangulation {
     for (std::size_t m = i + 1; m < j; ++m) {
       double cost = cost_[i * size_ + m] + cost_[m * size_ + j];
       if (cost >= best) continue;
-      cost += area_of(at(i), at(m), at(j));
+      cost += triangle_area(at(i), at(m), at(j));
       if (cost >= best) continue;
       cost += fold_over(i, m, j) + fold_over(m, j, i);
       if (i == 0 && j + 1 == size_) cost += fold_over(j, i, m);
@@ -78,8 +66,8 @@ class BestTriangulation {
   [[nodiscard]] double fold_over(std::size_t i, std::size_t j, std::size_t third) const {
     const bool is_edge = (i + 1) % size_ == j;
     if (!is_edge) return fold_cost(at(i), at(j), at(third_[i * size_ + j]), at(third));
-    const bool is_border = (loop_[i] + 1) % points_.size() == loop_[j];
-    return is_border ? fold_cost(at(i), at(j), apex_[loop_[i]], at(third)) : 0;
+    const bool is_border = (loop_[i] + 1) % rim_.size() == loop_[j];
+    return is_border ? fold_cost(at(i), at(j), rim_.apex[loop_[i]], at(third)) : 0;
   }
 
   void collect(LoopTriangulation& result) {
@@ -91,16 +79,15 @@ class BestTriangulation {
       if (j - i < 2) continue;
       const std::uint32_t m = third_[i * size_ + j];
       result.triangles.push_back({loop_[i], loop_[m], loop_[j]});
-      result.area += area_of(at(i), at(m), at(j));
+      result.area += triangle_area(at(i), at(m), at(j));
       chords.emplace_back(m, j);
       chords.emplace_back(i, m);
     }
   }
 
-  [[nodiscard]] const Vec3d& at(std::size_t i) const { return points_[loop_[i]]; }
+  [[nodiscard]] const Vec3d& at(std::size_t i) const { return rim_.points[loop_[i]]; }
 
-  std::span<const Vec3d> points_;
-  std::span<const Vec3d> apex_;
+  const Rim& rim_;
   const Positions& loop_;
   std::size_t size_;
   std::vector<double> cost_;
@@ -108,8 +95,7 @@ class BestTriangulation {
 };
 
 // The shortest of the chords looked at that leave a quarter of the points or more on each side.
-std::pair<std::size_t, std::size_t> choose_chord(std::span<const Vec3d> points,
-                                                 const Positions& loop) {
+std::pair<std::size_t, std::size_t> choose_chord(const Rim& rim, const Positions& loop) {
   const std::size_t n = loop.size();
   const std::size_t step = std::max<std::size_t>(1, n / kOffers);
   double best = kInfinite;
@@ -117,7 +103,7 @@ std::pair<std::size_t, std::size_t> choose_chord(std::span<const Vec3d> points,
   for (std::size_t i = 0; i < n; i += step) {
     for (std::size_t k = n / 4; k <= n - n / 4; ++k) {
       const std::size_t j = (i + k) % n;
-      const double length = (points[loop[j]] - points[loop[i]]).squaredNorm();
+      const double length = (rim.points[loop[j]] - rim.points[loop[i]]).squaredNorm();
       if (length >= best) continue;
       best = length;
       chord = std::minmax(i, j);
@@ -139,21 +125,20 @@ std::pair<Positions, Positions> cut(const Positions& loop,
 
 }  // namespace
 
-LoopTriangulation triangulate_loop(std::span<const Vec3d> points, std::span<const Vec3d> apex,
-                                   const LoopTriangulationOptions& options) {
+LoopTriangulation triangulate_loop(const Rim& rim, const LoopTriangulationOptions& options) {
   LoopTriangulation result;
-  std::vector<Positions> loops(1, Positions(points.size()));
-  for (std::uint32_t i = 0; i < points.size(); ++i) loops[0][i] = i;
+  std::vector<Positions> loops(1, Positions(rim.size()));
+  for (std::uint32_t i = 0; i < rim.size(); ++i) loops[0][i] = i;
   while (!loops.empty()) {
     const Positions loop = std::move(loops.back());
     loops.pop_back();
     if (loop.size() > std::max(options.most_edges, kFewestCut)) {
-      auto [a, b] = cut(loop, choose_chord(points, loop));
+      auto [a, b] = cut(loop, choose_chord(rim, loop));
       loops.push_back(std::move(b));
       loops.push_back(std::move(a));
       if (options.poll) options.poll();
     } else {
-      BestTriangulation(points, apex, loop).run(options.poll, result);
+      BestTriangulation(rim, loop).run(options.poll, result);
     }
     result.too_large = result.area > options.largest_area;
     if (result.too_large) break;
@@ -161,10 +146,10 @@ LoopTriangulation triangulate_loop(std::span<const Vec3d> points, std::span<cons
   return result;
 }
 
-double least_area(std::span<const Vec3d> points) {
+double least_area(const Rim& rim) {
   Vec3d sum = Vec3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sum += points[i].cross(points[(i + 1) % points.size()]);
+  for (std::size_t i = 1; i + 1 < rim.size(); ++i) {
+    sum += (rim.points[i] - rim.points[0]).cross(rim.points[i + 1] - rim.points[0]);
   }
   return 0.5 * sum.norm();
 }

@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
-#include <bsp/soup.h>
+#include "rim.h"
 
 namespace meshrepair::internal {
 
@@ -28,16 +27,14 @@ struct LoopTriangulationOptions {
   std::function<void()> poll;  // may throw; unless empty
 };
 
-// `points` has three or more, all different. `apex[i]` is the third corner of the surface's
-// triangle at the edge from point i to the next: a triangle that turns back onto it counts double.
+// A triangle that turns back onto the surface counts double.
 //
 // Liepa, "Filling holes in meshes" (2003), with one sum of areas, those of folded triangles
 // weighted, instead of the largest angle first and then the area.
-[[nodiscard]] LoopTriangulation triangulate_loop(std::span<const Vec3d> points,
-                                                 std::span<const Vec3d> apex,
+[[nodiscard]] LoopTriangulation triangulate_loop(const Rim& rim,
                                                  const LoopTriangulationOptions& options);
 
 // No surface with this border has less area.
-[[nodiscard]] double least_area(std::span<const Vec3d> points);
+[[nodiscard]] double least_area(const Rim& rim);
 
 }  // namespace meshrepair::internal

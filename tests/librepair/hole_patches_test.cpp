@@ -233,6 +233,72 @@ TEST(PatchHoles, NoneClosesNothing) {
   EXPECT_NEAR(repair(soup, options).report.output_volume, 1 + signed_volume(sphere(300)), 1e-6);
 }
 
+// Without the triangles of which all corners satisfy the condition.
+template <class Condition>
+TriangleSoup without_where(const TriangleSoup& soup, Condition condition) {
+  std::set<std::size_t> gone;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto& c = soup.triangles[t];
+    if (std::all_of(c.begin(), c.end(),
+                    [&](std::uint32_t p) { return condition(soup.points[p]); })) {
+      gone.insert(t);
+    }
+  }
+  return without(soup, gone);
+}
+
+TEST(PatchHoles, AMissingRingIsClosedByARing) {
+  const TriangleSoup whole = sphere(5000);
+  const TriangleSoup broken =
+      without_where(whole, [](const Vec3d& p) { return std::abs(p.z()) < 0.1; });
+  ASSERT_LT(broken.triangles.size(), whole.triangles.size());
+  const Patched p = patched(broken);
+  EXPECT_EQ(p.report.rings, 1u);
+  EXPECT_EQ(p.report.closed, 2u);
+  EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+  EXPECT_EQ(p.topology.parts, 1u);
+  EXPECT_NEAR(repaired_volume(broken), signed_volume(whole), 2e-3 * signed_volume(whole));
+}
+
+TEST(PatchHoles, TwoHalvesOfABoxAreJoined) {
+  const auto high = [](const Vec3d& p) { return p.x() == 1; };
+  const auto low = [](const Vec3d& p) { return p.x() == 1.25; };
+  TriangleSoup halves = without_where(box({0, 0, 0}, {1, 1, 1}), high);
+  append(halves, without_where(box({1.25, 0, 0}, {2, 1, 1}), low));
+  ASSERT_EQ(halves.triangles.size(), 20u);
+  const Patched p = patched(halves);
+  EXPECT_EQ(p.report.rings, 1u);
+  EXPECT_DOUBLE_EQ(p.report.area, 1);
+  EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+  EXPECT_EQ(repaired_volume(halves), 2);
+}
+
+TEST(PatchHoles, ABowlOfTwoSheetsGetsARim) {
+  const auto upper = [](const Vec3d& p) { return p.z() > -0.01; };
+  TriangleSoup bowl = without_where(sphere(3000), upper);
+  append(bowl, flipped(without_where(sphere(3000, 0.8), upper)));
+  const Patched p = patched(bowl);
+  EXPECT_EQ(p.report.rings, 1u);
+  EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+  const double half_shell = 0.5 * signed_volume(sphere(3000)) * (1 - 0.8 * 0.8 * 0.8);
+  EXPECT_NEAR(repaired_volume(bowl), half_shell, 0.05 * half_shell);
+}
+
+TEST(PatchHoles, AShortTubeIsClosedByTwoLids) {
+  // A ring between its rims would be the tube itself.
+  TriangleSoup tube = box({0, 0, 0}, {4, 4, 0.5});
+  tube = without_where(tube, [](const Vec3d& p) { return p.z() == 0; });
+  tube = without_where(tube, [](const Vec3d& p) { return p.z() == 0.5; });
+  ASSERT_EQ(tube.triangles.size(), 8u);
+  HoleOptions options;
+  options.largest_share = 4;
+  const Patched p = patched(tube, options);
+  EXPECT_EQ(p.report.rings, 0u);
+  EXPECT_EQ(p.report.closed, 2u);
+  EXPECT_DOUBLE_EQ(p.report.area, 32);
+  EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+}
+
 TEST(PatchHoles, AConeWithoutItsBaseIsClosed) {
   TriangleSoup open = cone(100);
   open.triangles.resize(100);

@@ -30,6 +30,7 @@ struct HoleOptions {
 struct HoleReport {
   std::size_t loops = 0;         // closed walks of edges at which an odd number of triangles meet
   std::size_t closed = 0;        // of these
+  std::size_t rings = 0;         // between two of these
   std::size_t too_large = 0;     // left open, as the options say
   std::size_t stray_edges = 0;   // open edges on no loop
   std::size_t triangles = 0;     // added
@@ -41,8 +42,9 @@ struct HoleReport {
 // Adds triangles with Triangle::source kNoSource that close the holes: over each loop a
 // triangulation of its own points, of little area and with few folds (Liepa 2003). A loop is found
 // whatever the orientation of the triangles around it, and also where three or more meet at an
-// edge. Patches may cross anything. Two loops that bound one gap, as the rims of a missing ring do,
-// are closed one by one. Does nothing unless options.mode is `patch`. Throws UsageError where the
+// edge. Two loops that face each other across a gap, as the rims of a missing ring or of
+// two halves do, are joined by a ring where that has less area than two patches. Patches may cross
+// anything. Does nothing unless options.mode is `patch`. Throws UsageError where the
 // share is not a number from 0 on, Cancelled.
 void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report,
                  ProgressObserver* progress = nullptr);

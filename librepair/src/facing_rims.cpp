@@ -1,0 +1,108 @@
+#include "facing_rims.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace meshrepair::internal {
+namespace {
+
+constexpr std::size_t kSamples = 16;
+constexpr std::size_t kNone = ~std::size_t{0};
+
+struct RimPoint {
+  Vec3d at;
+  std::size_t rim;
+};
+
+// All points of all rims in order along the axis on which they spread most.
+class SortedPoints {
+ public:
+  explicit SortedPoints(std::span<const Rim> rims) {
+    Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
+    Vec3d high = -low;
+    for (std::size_t r = 0; r < rims.size(); ++r) {
+      for (const Vec3d& p : rims[r].points) {
+        points_.push_back({p, r});
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+    }
+    (high - low).maxCoeff(&axis_);
+    std::stable_sort(points_.begin(), points_.end(), [this](const RimPoint& a, const RimPoint& b) {
+      return a.at[axis_] < b.at[axis_];
+    });
+  }
+
+  // The rim other than `own` that comes nearest to a point; kNone if there is none.
+  [[nodiscard]] std::size_t nearest_rim(const Vec3d& p, std::size_t own) const {
+    const auto middle =
+        std::lower_bound(points_.begin(), points_.end(), p[axis_],
+                         [this](const RimPoint& q, double x) { return q.at[axis_] < x; });
+    Nearest nearest;
+    for (auto q = middle; q != points_.end() && !out_of_reach(*q, p, nearest); ++q) {
+      note(*q, p, own, nearest);
+    }
+    for (auto q = middle; q != points_.begin() && !out_of_reach(*(q - 1), p, nearest);) {
+      note(*--q, p, own, nearest);
+    }
+    return nearest.rim;
+  }
+
+ private:
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();  // squared
+    std::size_t rim = kNone;
+  };
+
+  [[nodiscard]] bool out_of_reach(const RimPoint& q, const Vec3d& p, const Nearest& nearest) const {
+    const double along = q.at[axis_] - p[axis_];
+    return along * along > nearest.distance;
+  }
+
+  static void note(const RimPoint& q, const Vec3d& p, std::size_t own, Nearest& nearest) {
+    if (q.rim == own) return;
+    const double distance = (q.at - p).squaredNorm();
+    if (distance > nearest.distance) return;
+    if (distance == nearest.distance && nearest.rim < q.rim) return;
+    nearest = {distance, q.rim};
+  }
+
+  std::vector<RimPoint> points_;
+  Eigen::Index axis_ = 0;
+};
+
+std::size_t nearest_to_most(const SortedPoints& points, const Rim& rim, std::size_t own) {
+  const std::size_t samples = std::min(kSamples, rim.size());
+  std::vector<std::size_t> votes;
+  for (std::size_t k = 0; k < samples; ++k) {
+    votes.push_back(points.nearest_rim(rim.points[k * rim.size() / samples], own));
+  }
+  std::sort(votes.begin(), votes.end());
+  for (std::size_t k = 0; k < samples; ++k) {
+    if (std::upper_bound(votes.begin(), votes.end(), votes[k]) -
+            std::lower_bound(votes.begin(), votes.end(), votes[k]) >
+        static_cast<std::ptrdiff_t>(samples / 2)) {
+      return votes[k];
+    }
+  }
+  return kNone;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::size_t, std::size_t>> find_facing_rims(std::span<const Rim> rims) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  if (rims.size() < 2) return pairs;
+  const SortedPoints points(rims);
+  std::vector<std::size_t> partner(rims.size());
+  for (std::size_t r = 0; r < rims.size(); ++r) partner[r] = nearest_to_most(points, rims[r], r);
+  for (std::size_t r = 0; r < rims.size(); ++r) {
+    if (partner[r] != kNone && partner[r] > r && partner[partner[r]] == r) {
+      pairs.emplace_back(r, partner[r]);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace meshrepair::internal
