@@ -34,6 +34,10 @@ using Corners = std::array<PointId, 3>;
 // one.
 constexpr std::size_t kLargestRing = 4'000'000;
 
+// A ring has to have less than this share of the area of two patches: those over holes that touch
+// in a point are a ring, too.
+constexpr double kWorthARing = 0.9;
+
 struct Sheets {
   DisjointSets sets;         // of triangles, joined where two meet at an edge
   std::vector<double> area;  // of each root, in square grid steps
@@ -151,7 +155,8 @@ class HolePatcher {
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
       if (ring.folded || ring.area > largest_area(a, b)) continue;
       const bool closable = !patches_[a].too_large && !patches_[b].too_large;
-      if (closable && ring.area >= patches_[a].area + patches_[b].area) continue;
+      const double one_by_one = patches_[a].area + patches_[b].area;
+      if (closable && ring.area >= kWorthARing * one_by_one) continue;
       closed_[a] = closed_[b] = 1;
       ++report_.rings;
       note_patch(2, ring.area, std::max(rims_[a].size(), rims_[b].size()));
