@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   app.add_option("TREE", options.input, "Labelled tree of bspsolid; - is standard input")
       ->required();
   add_output_option(app, options.output, "OUT", "Mesh to write; - is standard output");
+  add_touching_option(app, options.repair.extract.touching);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_certify_options(app, options.repair.certify, options.strict);

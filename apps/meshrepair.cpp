@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
   add_inside_option(app, options.repair.inside.rule);
+  add_touching_option(app, options.repair.extract.touching);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_certify_options(app, options.repair.certify, options.strict);

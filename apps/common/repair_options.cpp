@@ -29,6 +29,9 @@ constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl
 constexpr std::array<Choice<Precision>, 2> kPrecisions = {
     {{"float64", Precision::float64}, {"float32", Precision::float32}}};
 
+constexpr std::array<Choice<Touching>, 2> kTouchings = {
+    {{"separate", Touching::separate}, {"join", Touching::join}}};
+
 // An option whose value is one of the names. `set` gets the value of the name.
 template <class Choices, class Set>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& choices, Set set,
@@ -60,6 +63,17 @@ void add_inside_option(CLI::App& app, InsideRule& rule) {
       "  parity    looks at no orientation; voids and overlaps are empty\n"
       "  winding   trusts the orientation; overlaps are solid, voids empty\n")
       ->default_str(std::string(rule_name(rule)))
+      ->group("Repair");
+}
+
+void add_touching_option(CLI::App& app, Touching& touching) {
+  add_choice(
+      app, "--touching", kTouchings, [&touching](Touching value) { touching = value; },
+      "Solids that touch along an edge:\n"
+      "  separate  are parts of their own\n"
+      "  join      are one part, connected there\n"
+      "Those that touch in a point are separate either way.")
+      ->default_str("separate")
       ->group("Repair");
 }
 

@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 
 #include <bsp/soup_io.h>
+#include <extract/cut_nonmanifold.h>
 #include <repair/certify.h>
 #include <repair/inside_rule.h>
 
@@ -14,6 +15,9 @@ namespace meshrepair {
 
 // --inside: which parts of space are solid.
 void add_inside_option(CLI::App& app, InsideRule& rule);
+
+// --touching: what becomes of solids that touch along an edge.
+void add_touching_option(CLI::App& app, Touching& touching);
 
 // -o: the file to write, where it does not stand beside IN.
 void add_output_option(CLI::App& app, std::string& output, const std::string& type,

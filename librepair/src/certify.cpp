@@ -133,7 +133,7 @@ class Certifier {
     const Attempt before = attempt;
     for (const double distance : {2 * spacing_, 8 * spacing_, 32 * spacing_}) {
       Attempt apart = before;
-      internal::separate_copies(apart.surface.mesh, distance);
+      internal::separate_copies(apart.surface.mesh, distance, options_.touching);
       test(apart, before.surface.mesh.points);
       if (apart.faults() < attempt.faults()) attempt = std::move(apart);
       if (attempt.faults() == 0) return;

@@ -166,8 +166,10 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
                RepairReport& report, StageMeter& meter) {
   if (options.certify.wanted) {
     meter.begin("certify");
+    CertifyOptions certify_options = options.certify;
+    certify_options.touching = options.extract.touching;
     surface = certify(
-        std::move(surface), input.grid, options.certify,
+        std::move(surface), input.grid, certify_options,
         [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,
         report.certify);
   }
@@ -189,7 +191,7 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
     const CoveredCells covered = make_cells(tree, windings_of(tree.input), options, report, meter);
     meter.begin("extract");
     surface = extract_surface(covered.complex, covered.cover, solid_cells(tree, covered.complex),
-                              report.extract);
+                              report.extract, options.extract);
   }
   return finish(tree.input, std::move(surface), options, report, meter);
 }
@@ -209,7 +211,8 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
     tree.leaves = {};
     const CellLabels labels = find_solid(covered, options, report, meter);
     meter.begin("extract");
-    surface = extract_surface(covered.complex, covered.cover, labels.solid, report.extract);
+    surface = extract_surface(covered.complex, covered.cover, labels.solid, report.extract,
+                              options.extract);
   }
   return finish(tree.input, std::move(surface), options, report, meter);
 }

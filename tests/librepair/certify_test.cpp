@@ -88,6 +88,25 @@ TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
   EXPECT_NEAR(signed_volume(back), 3, 1e-5);
 }
 
+// Two cubes joined along an edge are one solid still when a reader of STL welds their corners.
+TEST(Certify, WidensJoinedEdgesForFormatsThatJoinPoints) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {1, 1, 0}));  // along an edge
+  append(soup, moved(cube(), {2, 2, 1}));  // in a corner
+  RepairOptions options;
+  options.extract.touching = Touching::join;
+  options.certify.precision = Precision::float32;
+  options.certify.welded = true;
+  const RepairResult result = repair(soup, options);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_EQ(result.report.certify.rounds, 0u);
+  const TriangleSoup back = as_read_back(result.surface.mesh, SoupFormat::stl_binary);
+  expect_closed_manifold(back);
+  const Topology t = examine_topology(back.triangles, back.points.size());
+  EXPECT_EQ(t.parts, 2u);
+  EXPECT_NEAR(signed_volume(back), 3, 1e-5);
+}
+
 TEST(Certify, DropsPartsThatRoundingFlattens) {
   TriangleSoup soup = cube();
   append(soup, box({2, 2, 2}, {2.5, 2.5, 2 + 1e-9}));
@@ -107,8 +126,10 @@ TEST(Certify, RepairsOfDegenerateSoupsPass) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       SCOPED_TRACE(family.name + " " + std::to_string(seed));
       RepairReport report;
+      RepairOptions options;
+      options.extract.touching = seed % 2 == 0 ? Touching::separate : Touching::join;
       try {
-        const Surface surface = repair(family.make(seed), {}, report);
+        const Surface surface = repair(family.make(seed), options, report);
         EXPECT_TRUE(report.certify.passed());
         EXPECT_EQ(self_intersections(surface.mesh).count, 0u);
         EXPECT_EQ(surface.source.size(), surface.mesh.triangles.size());

@@ -25,6 +25,7 @@ namespace meshrepair {
 struct RepairOptions {
   BuildTreeOptions tree;
   InsideOptions inside;
+  ExtractOptions extract;
   CertifyOptions certify;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
