@@ -90,6 +90,13 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
       ->group("Output");
 }
 
+void add_sources_option(CLI::App& app, bool& sources) {
+  app.add_flag("--sources", sources,
+               "PLY: give each face the property source_triangle, the number from 0 of the\n"
+               "input triangle that it lies in, or -1 where a gap was closed")
+      ->group("Output");
+}
+
 void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
   add_choice(
       app, "--precision", kPrecisions, [&certify](Precision value) { certify.precision = value; },

@@ -26,6 +26,9 @@ void add_output_option(CLI::App& app, std::string& output, const std::string& ty
 // --format: the format of the mesh that is written, whatever its name.
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format);
 
+// --sources: write of each triangle which one of the input it lies in.
+void add_sources_option(CLI::App& app, bool& sources);
+
 // --precision and --strict: what is to be certified, and what happens when it cannot be.
 void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict);
 

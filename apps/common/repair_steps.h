@@ -52,6 +52,7 @@ struct StepOptions {
   std::string input;
   std::string output;
   std::optional<SoupFormat> format;
+  bool sources = false;  // write of each triangle which one of the input it lies in
   bool strict = false;
   RepairOptions repair;
 };
@@ -75,9 +76,8 @@ void check_files(const std::string& input, const std::string& output, Run& run);
 // that do not name it are given its name.
 ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
 
-// Throws UsageError where no format can be told.
-[[nodiscard]] WriteOptions mesh_format(const std::string& output,
-                                       const std::optional<SoupFormat>& format);
+// Throws UsageError where no format can be told, or it cannot hold the sources that are asked for.
+[[nodiscard]] WriteOptions mesh_format(const StepOptions& options);
 
 // The same options, to be certified at the precision of the format.
 [[nodiscard]] RepairOptions certified_for(SoupFormat format, RepairOptions options);
@@ -86,9 +86,10 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
 [[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
 // Stage "write".
-// Finds which guarantees the file would not hold; if `strict` and there are any, writes nothing.
-void write_mesh_stage(const Surface& surface, WriteOptions options, bool strict, Run& run,
-                      Findings& findings);
+// Finds which guarantees the file would not hold; if options.strict and there are any, writes
+// nothing. `format` is that of mesh_format(options).
+void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOptions& options,
+                      Run& run, Findings& findings);
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings);
 
 }  // namespace meshrepair

@@ -120,6 +120,28 @@ TEST(Certify, DropsPartsThatRoundingFlattens) {
   EXPECT_TRUE(report.passed());
 }
 
+// Rounded to float32 the two boxes have a common face, and are repaired again.
+TEST(Certify, SourcesAreThoseOfTheFirstInput) {
+  TriangleSoup soup = moved(cube(), {1 + 5e-8, 0.25, 0.125});
+  append(soup, cube());
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  const RepairResult result = repair(soup, options);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_GT(result.report.certify.rounds, 0u);
+  const TriangleSoup& mesh = result.surface.mesh;
+  ASSERT_EQ(result.surface.source.size(), mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    ASSERT_NE(result.surface.source[t], Surface::kNoSource);
+    const auto& from = soup.triangles.at(result.surface.source[t]);
+    const Vec3d& a = soup.points[from[0]];
+    const Vec3d normal = (soup.points[from[1]] - a).cross(soup.points[from[2]] - a).normalized();
+    for (const std::uint32_t p : mesh.triangles[t]) {
+      EXPECT_NEAR(normal.dot(mesh.points[p] - a), 0, 1e-6);
+    }
+  }
+}
+
 // Whatever goes in, the numbers that come out bound a solid.
 TEST(Certify, RepairsOfDegenerateSoupsPass) {
   for (const SoupFamily& family : degenerate_families()) {
