@@ -8,8 +8,9 @@ namespace {
 void repair_mesh(const StepOptions& options, Run& run, Findings& findings) {
   const WriteOptions format = mesh_format(options);
   const TriangleSoup soup = read_mesh_stage(run, findings);
-  const Surface surface =
-      repair(soup, certified_for(*format.format, options.repair), findings.repair);
+  const RepairOptions repair_options = certified_for(*format.format, options.repair);
+  const Surface surface = repair(soup, repair_options, findings.repair);
+  measure_distance_stage(soup, surface, repair_options.certify.precision, run, findings);
   write_mesh_stage(surface, format, options, run, findings);
 }
 

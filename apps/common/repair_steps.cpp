@@ -221,6 +221,14 @@ Tree read_tree_stage(Run& run, Findings& findings) {
   return tree;
 }
 
+void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
+                            Run& run, Findings& findings) {
+  if (run.options.report.empty()) return;
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("distance");
+  findings.fidelity = measure_fidelity(input, surface, {precision, &run.progress});
+}
+
 void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOptions& options,
                       Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);

@@ -10,6 +10,7 @@
 
 #include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
+#include <repair/fidelity.h>
 #include <repair/repair.h>
 
 #include "common/program.h"
@@ -42,6 +43,7 @@ struct Findings {
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
+  std::optional<Fidelity> fidelity;
   std::size_t output_points = 0;
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
   bool withheld = false;           // not written because of these
@@ -85,6 +87,10 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
 // Stage "read". What a reader passed over is logged as warnings.
 [[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
+// Stage "distance", where there will be a report to say it in. It comes before the writing, so that
+// it cannot fail once there is an output. The surface is as repair() leaves it, at this precision.
+void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
+                            Run& run, Findings& findings);
 // Stage "write".
 // Finds which guarantees the file would not hold; if options.strict and there are any, writes
 // nothing. `format` is that of mesh_format(options).
