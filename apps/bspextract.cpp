@@ -6,11 +6,11 @@ namespace meshrepair {
 namespace {
 
 void extract(const StepOptions& options, Run& run, Findings& findings) {
-  const WriteOptions format = mesh_format(options.output, options.format);
+  const WriteOptions format = mesh_format(options);
   const Tree tree = read_tree_stage(run, findings);
   const Surface surface =
       extract_mesh(tree, certified_for(*format.format, options.repair), findings.repair);
-  write_mesh_stage(surface, format, options.strict, run, findings);
+  write_mesh_stage(surface, format, options, run, findings);
 }
 
 }  // namespace
@@ -26,8 +26,10 @@ int main(int argc, char** argv) {
   app.add_option("TREE", options.input, "Labelled tree of bspsolid; - is standard input")
       ->required();
   add_output_option(app, options.output, "OUT", "Mesh to write; - is standard output");
+  add_touching_option(app, options.repair.extract.touching);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
+  add_sources_option(app, options.sources);
   add_certify_options(app, options.repair.certify, options.strict);
   return run_steps(program, argc, argv, options, extract);
 }

@@ -6,11 +6,12 @@ namespace meshrepair {
 namespace {
 
 void repair_mesh(const StepOptions& options, Run& run, Findings& findings) {
-  const WriteOptions format = mesh_format(options.output, options.format);
+  const WriteOptions format = mesh_format(options);
   const TriangleSoup soup = read_mesh_stage(run, findings);
-  const Surface surface =
-      repair(soup, certified_for(*format.format, options.repair), findings.repair);
-  write_mesh_stage(surface, format, options.strict, run, findings);
+  const RepairOptions repair_options = certified_for(*format.format, options.repair);
+  const Surface surface = repair(soup, repair_options, findings.repair);
+  measure_distance_stage(soup, surface, repair_options.certify.precision, run, findings);
+  write_mesh_stage(surface, format, options, run, findings);
 }
 
 }  // namespace
@@ -32,8 +33,10 @@ int main(int argc, char** argv) {
   add_inside_option(app, options.repair.inside.rule);
   add_holes_option(app, options.repair.holes);
   add_max_hole_option(app, options.repair.holes);
+  add_touching_option(app, options.repair.extract.touching);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
+  add_sources_option(app, options.sources);
   add_certify_options(app, options.repair.certify, options.strict);
   return run_steps(program, argc, argv, options, repair_mesh);
 }

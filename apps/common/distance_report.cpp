@@ -67,4 +67,14 @@ Json distance_section(const MeshDistance& distance, const DistanceOptions& optio
           {"seed", options.seed}};
 }
 
+Json distance_section(const Fidelity& fidelity) {
+  Json kept;
+  if (fidelity.kept_to_output) kept = way_section(*fidelity.kept_to_output, fidelity.diagonal);
+  return {{"output_to_input", way_section(fidelity.output_to_input, fidelity.diagonal)},
+          {"kept_to_output", kept},
+          {"kept_triangles", fidelity.kept_triangles},
+          {"kept_area", fidelity.kept_area},
+          {"diagonal", fidelity.diagonal}};
+}
+
 }  // namespace meshrepair

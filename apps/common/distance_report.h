@@ -1,9 +1,10 @@
-// What meshdist has measured, for people and for scripts.
+// How far meshes are apart, for people and for scripts.
 #pragma once
 
 #include <string>
 
 #include <extract/mesh_distance.h>
+#include <repair/fidelity.h>
 
 #include "common/json_report.h"
 
@@ -12,7 +13,10 @@ namespace meshrepair {
 // Mean, RMS and largest distance each way, as they are and as shares of the first mesh's diagonal.
 [[nodiscard]] std::string distance_table(const MeshDistance& distance);
 
-// The section "distance" of the report.
+// The section "distance" of meshdist's report.
 [[nodiscard]] Json distance_section(const MeshDistance& distance, const DistanceOptions& options);
+
+// The section "distance" of meshrepair's report.
+[[nodiscard]] Json distance_section(const Fidelity& fidelity);
 
 }  // namespace meshrepair

@@ -33,6 +33,9 @@ constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl
 constexpr std::array<Choice<Precision>, 2> kPrecisions = {
     {{"float64", Precision::float64}, {"float32", Precision::float32}}};
 
+constexpr std::array<Choice<Touching>, 2> kTouchings = {
+    {{"separate", Touching::separate}, {"join", Touching::join}}};
+
 // An option whose value is one of the names. `set` gets the value of the name.
 template <class Choices, class Set>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& choices, Set set,
@@ -94,6 +97,17 @@ void add_max_hole_option(CLI::App& app, HoleOptions& holes) {
       ->group("Repair");
 }
 
+void add_touching_option(CLI::App& app, Touching& touching) {
+  add_choice(
+      app, "--touching", kTouchings, [&touching](Touching value) { touching = value; },
+      "Solids that touch along an edge:\n"
+      "  separate  are parts of their own\n"
+      "  join      are one part, connected there\n"
+      "Those that touch in a point are separate either way.")
+      ->default_str("separate")
+      ->group("Repair");
+}
+
 void add_output_option(CLI::App& app, std::string& output, const std::string& type,
                        const std::string& description) {
   app.add_option("-o,--output", output, description)->required()->type_name(type)->group("Output");
@@ -104,6 +118,13 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
       "Format of OUT: stl, stl-ascii, obj, off, ply, ply-ascii")
       ->default_str("by the name of OUT")
+      ->group("Output");
+}
+
+void add_sources_option(CLI::App& app, bool& sources) {
+  app.add_flag("--sources", sources,
+               "PLY: give each face the property source_triangle, the number from 0 of the\n"
+               "input triangle that it lies in, or -1 where a gap was closed")
       ->group("Output");
 }
 

@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 
 #include <bsp/soup_io.h>
+#include <extract/cut_nonmanifold.h>
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
@@ -20,6 +21,8 @@ void add_inside_option(CLI::App& app, InsideRule& rule);
 void add_holes_option(CLI::App& app, HoleOptions& holes);
 // --max-hole: how large a patch may be.
 void add_max_hole_option(CLI::App& app, HoleOptions& holes);
+// --touching: what becomes of solids that touch along an edge.
+void add_touching_option(CLI::App& app, Touching& touching);
 
 // -o: the file to write, where it does not stand beside IN.
 void add_output_option(CLI::App& app, std::string& output, const std::string& type,
@@ -27,6 +30,9 @@ void add_output_option(CLI::App& app, std::string& output, const std::string& ty
 
 // --format: the format of the mesh that is written, whatever its name.
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format);
+
+// --sources: write of each triangle which one of the input it lies in.
+void add_sources_option(CLI::App& app, bool& sources);
 
 // --precision and --strict: what is to be certified, and what happens when it cannot be.
 void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict);

@@ -171,14 +171,21 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
   return code;
 }
 
-WriteOptions mesh_format(const std::string& output, const std::optional<SoupFormat>& format) {
-  WriteOptions options;
-  options.format = format ? format : format_of_extension(output);
-  if (options.format) return options;
-  throw UsageError(output == "-" ? "standard output has no name that tells a format: use --format"
-                                 : output +
-                                       ": no mesh format has this extension (.stl, .obj, "
-                                       ".off, .ply): use --format");
+WriteOptions mesh_format(const StepOptions& options) {
+  const std::string& output = options.output;
+  WriteOptions format;
+  format.format = options.format ? options.format : format_of_extension(output);
+  if (!format.format) {
+    throw UsageError(output == "-" ? "standard output has no name that tells a format: use --format"
+                                   : output +
+                                         ": no mesh format has this extension (.stl, .obj, "
+                                         ".off, .ply): use --format");
+  }
+  if (options.sources && !is_ply(*format.format)) {
+    throw UsageError("--sources: " + std::string(format_name(*format.format)) +
+                     " cannot hold them, only PLY can");
+  }
+  return format;
 }
 
 RepairOptions certified_for(SoupFormat format, RepairOptions options) {
@@ -214,17 +221,26 @@ Tree read_tree_stage(Run& run, Findings& findings) {
   return tree;
 }
 
-void write_mesh_stage(const Surface& surface, WriteOptions options, bool strict, Run& run,
-                      Findings& findings) {
+void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
+                            Run& run, Findings& findings) {
+  if (run.options.report.empty()) return;
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("distance");
+  findings.fidelity = measure_fidelity(input, surface, {precision, &run.progress});
+}
+
+void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOptions& options,
+                      Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
-  look_at_file(surface, *options.format, findings);
-  findings.missing_guarantees = missing_guarantees(findings, *options.format);
-  findings.withheld = strict && !findings.missing_guarantees.empty();
+  look_at_file(surface, *format.format, findings);
+  findings.missing_guarantees = missing_guarantees(findings, *format.format);
+  findings.withheld = options.strict && !findings.missing_guarantees.empty();
   if (findings.withheld) return;
-  options.progress = &run.progress;
-  write_soup(surface.mesh, findings.output, options);
-  run.report.set_output({{"path", findings.output}, {"format", format_name(*options.format)}});
+  if (options.sources) format.sources = surface.source;
+  format.progress = &run.progress;
+  write_soup(surface.mesh, findings.output, format);
+  run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
 }
 
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {

@@ -10,6 +10,7 @@
 
 #include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
+#include <repair/fidelity.h>
 #include <repair/repair.h>
 
 #include "common/program.h"
@@ -42,6 +43,7 @@ struct Findings {
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
+  std::optional<Fidelity> fidelity;
   std::size_t output_points = 0;
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
   bool withheld = false;           // not written because of these
@@ -52,6 +54,7 @@ struct StepOptions {
   std::string input;
   std::string output;
   std::optional<SoupFormat> format;
+  bool sources = false;  // write of each triangle which one of the input it lies in
   bool strict = false;
   RepairOptions repair;
 };
@@ -75,9 +78,8 @@ void check_files(const std::string& input, const std::string& output, Run& run);
 // that do not name it are given its name.
 ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
 
-// Throws UsageError where no format can be told.
-[[nodiscard]] WriteOptions mesh_format(const std::string& output,
-                                       const std::optional<SoupFormat>& format);
+// Throws UsageError where no format can be told, or it cannot hold the sources that are asked for.
+[[nodiscard]] WriteOptions mesh_format(const StepOptions& options);
 
 // The same options, to be certified at the precision of the format.
 [[nodiscard]] RepairOptions certified_for(SoupFormat format, RepairOptions options);
@@ -85,10 +87,15 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
 // Stage "read". What a reader passed over is logged as warnings.
 [[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
+// Stage "distance", where there will be a report to say it in. It comes before the writing, so that
+// it cannot fail once there is an output. The surface is as repair() leaves it, at this precision.
+void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
+                            Run& run, Findings& findings);
 // Stage "write".
-// Finds which guarantees the file would not hold; if `strict` and there are any, writes nothing.
-void write_mesh_stage(const Surface& surface, WriteOptions options, bool strict, Run& run,
-                      Findings& findings);
+// Finds which guarantees the file would not hold; if options.strict and there are any, writes
+// nothing. `format` is that of mesh_format(options).
+void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOptions& options,
+                      Run& run, Findings& findings);
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings);
 
 }  // namespace meshrepair

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "common/distance_report.h"
+
 namespace meshrepair {
 namespace {
 
@@ -197,6 +199,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("result", result_of(findings));
     report.set_section("certificate", certificate_of(repair));
   }
+  if (findings.fidelity) report.set_section("distance", distance_section(*findings.fidelity));
   report.set_stages(stages_of(repair));
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <bsp/assert.h>
+
 #include "face_list.h"
 #include "ply_cursor.h"
 #include "ply_header.h"
@@ -246,14 +248,16 @@ class PlyBody {
 };
 
 std::string format_header(const TriangleSoup& soup, std::string_view format,
-                          const std::vector<std::string>& comments) {
+                          const std::vector<std::string>& comments,
+                          std::span<const std::uint32_t> sources) {
+  MESHREPAIR_ASSERT(sources.empty() || sources.size() == soup.triangles.size());
   std::string out = "ply\nformat " + std::string(format) + " 1.0\n";
   for (const std::string& comment : comments) out += "comment " + comment + "\n";
   out += "element vertex " + std::to_string(soup.points.size()) +
          "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-         std::to_string(soup.triangles.size()) +
-         "\nproperty list uchar uint vertex_indices\nend_header\n";
-  return out;
+         std::to_string(soup.triangles.size()) + "\nproperty list uchar uint vertex_indices\n";
+  if (!sources.empty()) out += "property int source_triangle\n";
+  return out + "end_header\n";
 }
 
 }  // namespace
@@ -272,23 +276,28 @@ ReadResult read_ply(const MeshSource& source) {
   return PlyBody<PlyBinaryCursor<std::endian::big>>(source, header, SoupFormat::ply_binary).run();
 }
 
-std::string format_ply_binary(const TriangleSoup& soup, const std::vector<std::string>& comments) {
+std::string format_ply_binary(const TriangleSoup& soup, const std::vector<std::string>& comments,
+                              std::span<const std::uint32_t> sources) {
   static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
-  std::string out = format_header(soup, "binary_little_endian", comments);
-  out.reserve(out.size() + 24 * soup.points.size() + 13 * soup.triangles.size());
+  std::string out = format_header(soup, "binary_little_endian", comments, sources);
+  out.reserve(out.size() + 24 * soup.points.size() + 13 * soup.triangles.size() +
+              sources.size_bytes());
   for (const Vec3d& point : soup.points) {
     out.append(reinterpret_cast<const char*>(point.data()), 3 * sizeof(double));
   }
-  for (const auto& triangle : soup.triangles) {
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     out += '\3';
-    out.append(reinterpret_cast<const char*>(triangle.data()), sizeof triangle);
+    out.append(reinterpret_cast<const char*>(soup.triangles[t].data()), sizeof soup.triangles[t]);
+    // As an int all ones are -1.
+    if (!sources.empty()) out.append(reinterpret_cast<const char*>(&sources[t]), sizeof sources[t]);
   }
   return out;
 }
 
-std::string format_ply_ascii(const TriangleSoup& soup, const std::vector<std::string>& comments) {
-  std::string out = format_header(soup, "ascii", comments);
-  append_mesh_lines(out, soup);
+std::string format_ply_ascii(const TriangleSoup& soup, const std::vector<std::string>& comments,
+                             std::span<const std::uint32_t> sources) {
+  std::string out = format_header(soup, "ascii", comments, sources);
+  append_mesh_lines(out, soup, sources);
   return out;
 }
 

@@ -1,6 +1,8 @@
 // PLY, ASCII and binary of both byte orders.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,10 +20,13 @@ namespace meshrepair {
 // read behind it.
 [[nodiscard]] ReadResult read_ply(const MeshSource& source);
 
-// Coordinates in double.
+// Coordinates in double. `sources` has a number for each triangle, written as the property
+// `int source_triangle` of its face, with all ones as -1; if it is empty there is no such property.
 [[nodiscard]] std::string format_ply_binary(const TriangleSoup& soup,
-                                            const std::vector<std::string>& comments);
+                                            const std::vector<std::string>& comments,
+                                            std::span<const std::uint32_t> sources);
 [[nodiscard]] std::string format_ply_ascii(const TriangleSoup& soup,
-                                           const std::vector<std::string>& comments);
+                                           const std::vector<std::string>& comments,
+                                           std::span<const std::uint32_t> sources);
 
 }  // namespace meshrepair

@@ -124,6 +124,10 @@ ReadResult read_soup(std::string_view bytes, const std::string& name) {
   return result;
 }
 
+bool is_ply(SoupFormat format) {
+  return format == SoupFormat::ply_binary || format == SoupFormat::ply_ascii;
+}
+
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                 const WriteOptions& options) {
   const auto format = options.format ? options.format : format_of_extension(path);
@@ -131,11 +135,16 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
     throw UsageError(path.string() +
                      ": no mesh format has this extension (.stl, .obj, .off, .ply)");
   }
-  write_file_atomically(path, format_soup(soup, *format, options.comments), options.progress);
+  write_file_atomically(path, format_soup(soup, *format, options.comments, options.sources),
+                        options.progress);
 }
 
 std::string format_soup(const TriangleSoup& soup, SoupFormat format,
-                        const std::vector<std::string>& comments) {
+                        const std::vector<std::string>& comments,
+                        std::span<const std::uint32_t> sources) {
+  if (!sources.empty() && !is_ply(format)) {
+    throw UsageError(std::string(format_name(format)) + " cannot hold the sources of triangles");
+  }
   switch (format) {
     case SoupFormat::stl_binary:
       return format_stl_binary(soup);
@@ -146,11 +155,11 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
     case SoupFormat::off:
       return format_off(soup, comments);
     case SoupFormat::ply_binary:
-      return format_ply_binary(soup, comments);
+      return format_ply_binary(soup, comments, sources);
     case SoupFormat::ply_ascii:
       break;
   }
-  return format_ply_ascii(soup, comments);
+  return format_ply_ascii(soup, comments, sources);
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {

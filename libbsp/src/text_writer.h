@@ -3,6 +3,8 @@
 
 #include <array>
 #include <charconv>
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include <bsp/soup.h>
@@ -26,15 +28,21 @@ void append_triple(std::string& text, const Triple& triple) {
   append_number(text, triple[2]);
 }
 
-// A line "x y z" for each point, then one "3 a b c" for each triangle, as OFF and PLY have them.
-inline void append_mesh_lines(std::string& text, const TriangleSoup& soup) {
+// A line "x y z" for each point, then one "3 a b c" for each triangle, as OFF and PLY have them;
+// with `sources`, if there are any, its number at the end, signed.
+inline void append_mesh_lines(std::string& text, const TriangleSoup& soup,
+                              std::span<const std::uint32_t> sources = {}) {
   for (const Vec3d& point : soup.points) {
     append_triple(text, point);
     text += '\n';
   }
-  for (const auto& triangle : soup.triangles) {
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     text += "3 ";
-    append_triple(text, triangle);
+    append_triple(text, soup.triangles[t]);
+    if (!sources.empty()) {
+      text += ' ';
+      append_number(text, static_cast<std::int32_t>(sources[t]));
+    }
     text += '\n';
   }
 }

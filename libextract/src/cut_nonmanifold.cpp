@@ -1,8 +1,9 @@
 // Cutting at singular edges and vertices.
 //
 // Steps: pair the sides of polygons along each edge of the complex (two sides: with each other;
-// more: with the next boundary facet met when turning through solid cells). Join the corners that
-// paired sides have in common. Each class of corners is one fan, and becomes one vertex.
+// more: with the next boundary facet met when turning through solid cells, or through empty ones if
+// what touches is to be joined). Join the corners that paired sides have in common. Each class of
+// corners is one fan, and becomes one vertex.
 #include <algorithm>
 #include <utility>
 
@@ -43,10 +44,11 @@ class SidesByEdge {
 class NonmanifoldCutter {
  public:
   NonmanifoldCutter(const CellComplex& complex, const Boundary& boundary,
-                    const std::vector<char>& solid)
+                    const std::vector<char>& solid, Touching touching)
       : complex_(complex),
         boundary_(boundary),
         solid_(solid),
+        wedge_is_solid_(touching == Touching::separate),
         sides_(complex, boundary),
         fans_(boundary.sides()) {}
 
@@ -70,10 +72,26 @@ class NonmanifoldCutter {
         continue;
       }
       ++result_.singular_edges;
-      for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
-        if (result_.mate[s] == kNone) pair_through_solid(first, s);
+      pair_sides_of_edge(first);
+    }
+  }
+
+  void pair_sides_of_edge(std::uint32_t first) {
+    std::uint32_t at_outside = kNone;
+    for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
+      if (result_.mate[s] != kNone) continue;
+      const UseId end = end_of_wedge(boundary_.use[s]);
+      if (end.valid()) {
+        join(s, side_along(first, end));
+      } else if (at_outside == kNone) {
+        at_outside = s;
+      } else {
+        join(s, at_outside);
+        at_outside = kNone;
       }
     }
+    // What lies outside the box is part of one empty wedge, which has two ends.
+    MESHREPAIR_ASSERT(at_outside == kNone);
   }
 
   void join(std::uint32_t a, std::uint32_t b) {
@@ -81,28 +99,29 @@ class NonmanifoldCutter {
     result_.mate[b] = a;
   }
 
-  // Turns around the edge from a side's facet through its solid cell until the next boundary facet.
-  void pair_through_solid(std::uint32_t first, std::uint32_t side) {
-    UseId use = boundary_.use[side];
-    CellId cell = solid_side(complex_.uses[use].facet);
-    for (;;) {
+  // Turns around the edge through the cells of a wedge until the next boundary facet. Invalid where
+  // that leads out of the box.
+  [[nodiscard]] UseId end_of_wedge(UseId use) const {
+    const Facet& start = complex_.facets[complex_.uses[use].facet];
+    CellId cell = is_solid(start.above) == wedge_is_solid_ ? start.above : start.below;
+    while (cell.valid()) {
       use = complex_.mate(use, cell);
       const Facet& facet = complex_.facets[complex_.uses[use].facet];
-      const CellId beyond = facet.above == cell ? facet.below : facet.above;
-      if (!beyond.valid() || solid_[beyond.index()] == 0) break;
-      cell = beyond;
+      cell = facet.above == cell ? facet.below : facet.above;
+      if (is_solid(cell) != wedge_is_solid_) return use;
     }
-    for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
-      if (boundary_.use[s] != use) continue;
-      join(side, s);
-      return;
-    }
-    throw InternalError("internal error: a wedge of solid cells does not end at a boundary facet");
+    return {};
   }
 
-  [[nodiscard]] CellId solid_side(FacetId f) const {
-    const Facet& facet = complex_.facets[f];
-    return facet.above.valid() && solid_[facet.above.index()] != 0 ? facet.above : facet.below;
+  [[nodiscard]] bool is_solid(CellId cell) const {
+    return cell.valid() && solid_[cell.index()] != 0;
+  }
+
+  [[nodiscard]] std::uint32_t side_along(std::uint32_t first, UseId use) const {
+    for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
+      if (boundary_.use[s] == use) return s;
+    }
+    throw InternalError("internal error: a wedge of cells does not end at a boundary facet");
   }
 
   void join_corners() {
@@ -152,6 +171,7 @@ class NonmanifoldCutter {
   const CellComplex& complex_;
   const Boundary& boundary_;
   const std::vector<char>& solid_;
+  bool wedge_is_solid_;
   SidesByEdge sides_;
   DisjointSets fans_;
   ManifoldCorners result_;
@@ -160,9 +180,27 @@ class NonmanifoldCutter {
 }  // namespace
 
 ManifoldCorners cut_nonmanifold(const CellComplex& complex, const Boundary& boundary,
-                                const std::vector<char>& solid) {
-  return NonmanifoldCutter(complex, boundary, solid).run();
+                                const std::vector<char>& solid, Touching touching) {
+  return NonmanifoldCutter(complex, boundary, solid, touching).run();
 }
+
+namespace {
+
+// Have two of the pairs of sides along an edge the same two end vertices?
+bool pairs_share_ends(const Boundary& boundary, const ManifoldCorners& corners,
+                      const SidesByEdge& sides, std::uint32_t first) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> taken;
+  for (std::uint32_t s = first; s != kNone; s = sides.next(s)) {
+    if (corners.mate[s] < s) continue;
+    const std::pair<std::uint32_t, std::uint32_t> ends =
+        std::minmax({corners.vertex[s], corners.vertex[boundary.next(s)]});
+    if (std::find(taken.begin(), taken.end(), ends) != taken.end()) return true;
+    taken.push_back(ends);
+  }
+  return false;
+}
+
+}  // namespace
 
 MiddleVertices separate_common_edges(const CellComplex& complex, const Boundary& boundary,
                                      const ManifoldCorners& corners) {
@@ -170,18 +208,10 @@ MiddleVertices separate_common_edges(const CellComplex& complex, const Boundary&
   if (corners.singular_edges == 0) return middles;
   middles.of_side.assign(boundary.sides(), kNone);
   const SidesByEdge sides(complex, boundary);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> taken;
   for (const std::uint32_t first : sides.first()) {
-    if (!sides.singular(first)) continue;
-    taken.clear();
+    if (!sides.singular(first) || !pairs_share_ends(boundary, corners, sides, first)) continue;
     for (std::uint32_t s = first; s != kNone; s = sides.next(s)) {
       if (corners.mate[s] < s) continue;
-      const auto ends = std::minmax(corners.vertex[s], corners.vertex[boundary.next(s)]);
-      const std::pair<std::uint32_t, std::uint32_t> key(ends.first, ends.second);
-      if (std::find(taken.begin(), taken.end(), key) == taken.end()) {
-        taken.push_back(key);
-        continue;
-      }
       const auto middle = static_cast<std::uint32_t>(middles.count++);
       middles.of_side[s] = middles.of_side[corners.mate[s]] = middle;
     }

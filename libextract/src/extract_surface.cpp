@@ -21,12 +21,12 @@ constexpr std::uint32_t kNone = ManifoldCorners::kNone;
 class SurfaceExtractor {
  public:
   SurfaceExtractor(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-                   const std::vector<char>& solid)
+                   const std::vector<char>& solid, const ExtractOptions& options)
       : complex_(complex),
         cover_(cover),
         solid_(solid),
         boundary_(find_boundary(complex, solid)),
-        corners_(cut_nonmanifold(complex, boundary_, solid)),
+        corners_(cut_nonmanifold(complex, boundary_, solid, options.touching)),
         merged_(merge_facets(complex, cover, solid, boundary_, corners_)),
         middles_(separate_common_edges(complex, boundary_, corners_)),
         input_points_(complex.soup()) {}
@@ -160,8 +160,9 @@ class SurfaceExtractor {
 }  // namespace
 
 Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-                        const std::vector<char>& solid, ExtractReport& report) {
-  return SurfaceExtractor(complex, cover, solid).run(report);
+                        const std::vector<char>& solid, ExtractReport& report,
+                        const ExtractOptions& options) {
+  return SurfaceExtractor(complex, cover, solid, options).run(report);
 }
 
 }  // namespace meshrepair

@@ -48,6 +48,11 @@ struct FiniteMesh {
     }
     return most;
   }
+  [[nodiscard]] double diagonal() const {
+    const Vec3d low(box.low[0], box.low[1], box.low[2]);
+    const Vec3d high(box.high[0], box.high[1], box.high[2]);
+    return (high - low).norm();
+  }
 };
 
 FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
@@ -158,6 +163,11 @@ class OneWay {
   const DistanceOptions& options_;
 };
 
+void require_sense(const DistanceOptions& options) {
+  if (options.samples == 0) throw UsageError("no samples were asked for");
+  if (!(options.bound_factor > 1)) throw UsageError("the bound's factor has to be above 1");
+}
+
 OneSidedDistance distance_between(const FiniteMesh& from, const FiniteMesh& to,
                                   const DistanceOptions& options) {
   const NearestTriangle nearest(to.triangles);
@@ -182,18 +192,23 @@ std::optional<double> MeshDistance::bound() const {
 
 MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second,
                            const DistanceOptions& options) {
-  if (options.samples == 0) throw UsageError("no samples were asked for");
-  if (!(options.bound_factor > 1)) throw UsageError("the bound's factor has to be above 1");
+  require_sense(options);
   const FiniteMesh a = finite_mesh(first, "A");
   const FiniteMesh b = finite_mesh(second, "B");
   MeshDistance distance;
   distance.forth = distance_between(a, b, options);
   distance.back = distance_between(b, a, options);
-  const Vec3d low(a.box.low[0], a.box.low[1], a.box.low[2]);
-  const Vec3d high(a.box.high[0], a.box.high[1], a.box.high[2]);
-  distance.diagonal = (high - low).norm();
+  distance.diagonal = a.diagonal();
   distance.not_finite = a.not_finite + b.not_finite;
   return distance;
 }
+
+OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup& to,
+                                    const DistanceOptions& options) {
+  require_sense(options);
+  return distance_between(finite_mesh(from, "A"), finite_mesh(to, "B"), options);
+}
+
+double bounding_diagonal(const TriangleSoup& soup) { return finite_mesh(soup, "A").diagonal(); }
 
 }  // namespace meshrepair

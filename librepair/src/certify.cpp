@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,6 +20,7 @@
 
 #include "drop_turned_parts.h"
 #include "nudge_points.h"
+#include "number_spacing.h"
 #include "separate_copies.h"
 
 namespace meshrepair {
@@ -50,23 +50,12 @@ GridCell cell_of(const Vec3d& p, double step) {
   return {q.x(), q.y(), q.z()};
 }
 
-// The distance of neighbouring numbers at the mesh's largest coordinate.
-double spacing_of_numbers(const TriangleSoup& mesh, Precision precision) {
-  double largest = 0;
-  for (const Vec3d& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return std::ldexp(
-      1.0, exponent - (precision == Precision::float32 ? std::numeric_limits<float>::digits
-                                                       : std::numeric_limits<double>::digits));
-}
-
 class Certifier {
  public:
   Certifier(Surface surface, const Grid& grid, const CertifyOptions& options,
             const RepairAgain& repair_again, ProgressObserver* progress, CertifyReport& report)
       : options_(options), repair_again_(repair_again), progress_(progress), report_(report) {
-    spacing_ = spacing_of_numbers(surface.mesh, options.precision);
+    spacing_ = internal::number_spacing(surface.mesh, options.precision);
     step_ = options.precision == Precision::float32 ? std::max(grid.unit, spacing_) : grid.unit;
     current_.surface = std::move(surface);
   }
@@ -133,7 +122,7 @@ class Certifier {
     const Attempt before = attempt;
     for (const double distance : {2 * spacing_, 8 * spacing_, 32 * spacing_}) {
       Attempt apart = before;
-      internal::separate_copies(apart.surface.mesh, distance);
+      internal::separate_copies(apart.surface.mesh, distance, options_.touching);
       test(apart, before.surface.mesh.points);
       if (apart.faults() < attempt.faults()) attempt = std::move(apart);
       if (attempt.faults() == 0) return;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -10,20 +9,14 @@
 #include <bsp/float32.h>
 #include <bsp/hash_index.h>
 
+#include "number_spacing.h"
+
 namespace meshrepair::internal {
 namespace {
 
 constexpr std::uint32_t kTries = 24;
 // Beyond this there are too many faults for chance to be a remedy.
 constexpr std::size_t kMostTriangles = 20'000;
-
-double last_place(double x, Precision precision) {
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  const int digits = precision == Precision::float32 ? std::numeric_limits<float>::digits
-                                                     : std::numeric_limits<double>::digits;
-  return std::ldexp(1.0, exponent - digits);
-}
 
 class PointNudger {
  public:
@@ -114,7 +107,8 @@ class PointNudger {
       const std::int64_t steps =
           static_cast<std::int64_t>((chance >> 20) % static_cast<std::uint64_t>(2 * reach + 1)) -
           reach;
-      to[axis] += static_cast<double>(steps) * last_place(from.cwiseAbs().maxCoeff(), precision_);
+      to[axis] +=
+          static_cast<double>(steps) * number_spacing(from.cwiseAbs().maxCoeff(), precision_);
       if (precision_ == Precision::float32) to[axis] = rounded_to_float32(to[axis]);
     }
     return to;

@@ -162,17 +162,20 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   return repair(soup, again, report);
 }
 
-Surface extract(const CoveredCells& covered, const std::vector<char>& solid, RepairReport& report) {
+Surface extract(const CoveredCells& covered, const std::vector<char>& solid,
+                const RepairOptions& options, RepairReport& report) {
   report.parts = find_part_fates(covered.complex, covered.cover, solid);
-  return extract_surface(covered.complex, covered.cover, solid, report.extract);
+  return extract_surface(covered.complex, covered.cover, solid, report.extract, options.extract);
 }
 
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   if (options.certify.wanted) {
     meter.begin("certify");
+    CertifyOptions certify_options = options.certify;
+    certify_options.touching = options.extract.touching;
     surface = certify(
-        std::move(surface), input.grid, options.certify,
+        std::move(surface), input.grid, certify_options,
         [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,
         report.certify);
   }
@@ -193,7 +196,7 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
   {
     const CoveredCells covered = make_cells(tree, windings_of(tree.input), options, report, meter);
     meter.begin("extract");
-    surface = extract(covered, solid_cells(tree, covered.complex), report);
+    surface = extract(covered, solid_cells(tree, covered.complex), options, report);
   }
   return finish(tree.input, std::move(surface), options, report, meter);
 }
@@ -213,7 +216,7 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
     tree.leaves = {};
     const CellLabels labels = find_solid(covered, options, report, meter);
     meter.begin("extract");
-    surface = extract(covered, labels.solid, report);
+    surface = extract(covered, labels.solid, options, report);
   }
   return finish(tree.input, std::move(surface), options, report, meter);
 }

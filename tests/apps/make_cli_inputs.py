@@ -35,6 +35,13 @@ def two_tetrahedra(size):
     return "".join(parts).encode()
 
 
+def touching_tetrahedra():
+    """OBJ text: the second is the first turned half round an edge that they share."""
+    faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
+    parts = (f"v 0 0 0\nv {s} 0 0\nv 0 {s} 0\nv 0 0 1\n{faces}" for s in (1, -1))
+    return "".join(parts).encode()
+
+
 def row_of_tetrahedra(count):
     """OBJ text of some 100 bytes for each."""
     faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
@@ -81,6 +88,7 @@ def main():
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
         "open.obj": tetrahedron(f3=""),
+        "touching.obj": touching_tetrahedra(),
         "far_point.obj": two_tetrahedra(size=10 ** 9),
         "larger_than_a_pipe.obj": row_of_tetrahedra(4000),
         "much_work.off": random_triangles(1000),

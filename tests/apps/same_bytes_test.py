@@ -28,25 +28,25 @@ class Programs:
         return result.stdout
 
     def repaired(self, mesh, *arguments, environment=None):
-        return self.run("meshrepair", mesh, "-", "--format", "obj", *self.rule, *arguments,
+        return self.run("meshrepair", mesh, "-", "--format", "ply", "--sources", *self.rule, *arguments,
                         environment=environment)
 
     def by_files(self, mesh, before=None):
         """`before`: a rule by which the tree is labelled first."""
         with tempfile.TemporaryDirectory(prefix="same_bytes_") as name:
             folder = pathlib.Path(name)
-            tree, solid, out = folder / "tree.bsp", folder / "solid.bsp", folder / "out.obj"
+            tree, solid, out = folder / "tree.bsp", folder / "solid.bsp", folder / "out.ply"
             self.run("bspbuild", mesh, "-o", tree)
             if before:
                 self.run("bspsolid", tree, "-o", tree, "--inside", before)
             self.run("bspsolid", tree, "-o", solid, *self.rule)
-            self.run("bspextract", solid, "-o", out)
+            self.run("bspextract", solid, "-o", out, "--sources")
             return out.read_bytes()
 
     def by_pipes(self, mesh):
         data = self.run("bspbuild", "-", "-o", "-", data=pathlib.Path(mesh).read_bytes())
         data = self.run("bspsolid", "-", "-o", "-", *self.rule, data=data)
-        return self.run("bspextract", "-", "-o", "-", "--format", "obj", data=data)
+        return self.run("bspextract", "-", "-o", "-", "--format", "ply", "--sources", data=data)
 
 
 def outputs(programs, way, mesh):

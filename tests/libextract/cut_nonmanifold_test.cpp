@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <extract/cut_nonmanifold.h>
+#include <extract/self_intersections.h>
 
 #include "complexes.h"
 #include "degenerate_soups.h"
@@ -21,8 +22,11 @@ struct Extracted {
   ExtractReport report;
 };
 
+constexpr std::array<Touching, 2> kBothWays = {Touching::separate, Touching::join};
+
 // The complex has all the planes x, y, z = 0, 1, 2, 3; the solid is just these cubes.
-Extracted extract_cubes(const std::vector<Cube>& solid_cubes) {
+Extracted extract_cubes(const std::vector<Cube>& solid_cubes,
+                        Touching touching = Touching::separate) {
   TriangleSoup soup;
   for (int x = 0; x < 3; ++x) {
     append(soup, box(Vec3d(x, 0, 0), Vec3d(x + 1, 3, 3)));
@@ -39,8 +43,9 @@ Extracted extract_cubes(const std::vector<Cube>& solid_cubes) {
     return false;
   });
   Extracted result;
-  result.surface = extract_surface(cells.complex, cover, solid, result.report);
+  result.surface = extract_surface(cells.complex, cover, solid, result.report, {touching});
   expect_closed_manifold(result.surface.mesh);
+  EXPECT_EQ(self_intersections(result.surface.mesh).count, 0u);
   EXPECT_NEAR(signed_volume(result.surface.mesh), static_cast<double>(solid_cubes.size()), 1e-9);
   return result;
 }
@@ -77,6 +82,37 @@ TEST(CutNonmanifold, FourCubesAroundAVertexAreFourParts) {
   EXPECT_EQ(parts_of(e.surface), 4u);
 }
 
+TEST(CutNonmanifold, CubesThatShareAnEdgeAreJoined) {
+  const Extracted e = extract_cubes({{0, 0, 1}, {1, 1, 1}}, Touching::join);
+  EXPECT_EQ(e.report.singular_edges, 1u);
+  EXPECT_EQ(e.report.singular_vertices, 0u);
+  EXPECT_EQ(e.report.middle_vertices, 2u);
+  EXPECT_EQ(parts_of(e.surface), 1u);
+}
+
+TEST(CutNonmanifold, CubesThatShareAVertexAreNotJoined) {
+  const Extracted e = extract_cubes({{0, 0, 0}, {1, 1, 1}}, Touching::join);
+  EXPECT_EQ(e.report.singular_vertices, 1u);
+  EXPECT_EQ(parts_of(e.surface), 2u);
+}
+
+TEST(CutNonmanifold, FourCubesAroundAVertexAreJoinedToOnePart) {
+  const Extracted e = extract_cubes({{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}, Touching::join);
+  EXPECT_EQ(e.report.singular_edges, 6u);
+  EXPECT_EQ(e.report.singular_vertices, 1u);
+  EXPECT_EQ(parts_of(e.surface), 1u);
+}
+
+TEST(CutNonmanifold, CheckerboardIsSeparatedOrJoined) {
+  std::vector<Cube> cubes;
+  for (int k = 0; k < 27; k += 2) cubes.push_back({k % 3, k / 3 % 3, k / 9});
+  const Extracted apart = extract_cubes(cubes, Touching::separate);
+  EXPECT_EQ(parts_of(apart.surface), 14u);
+  const Extracted joined = extract_cubes(cubes, Touching::join);
+  EXPECT_LT(parts_of(joined.surface), 14u);
+  EXPECT_EQ(joined.report.singular_edges, apart.report.singular_edges);
+}
+
 // Two cubes touch along an edge; slabs above and below, each with a notch, join them round both of
 // its ends. Either end is one vertex then, and the edge needs a second copy all the same.
 TEST(CutNonmanifold, AnEdgeWithBothEndsInOneFanGetsAMiddleVertex) {
@@ -89,8 +125,12 @@ TEST(CutNonmanifold, AnEdgeWithBothEndsInOneFanGetsAMiddleVertex) {
   const Extracted e = extract_cubes(cubes);
   EXPECT_EQ(e.report.singular_edges, 1u);
   EXPECT_EQ(e.report.singular_vertices, 0u);
-  EXPECT_EQ(e.report.middle_vertices, 1u);
+  EXPECT_EQ(e.report.middle_vertices, 2u);  // one for each copy, so that none lies inside an edge
   EXPECT_EQ(parts_of(e.surface), 1u);
+  // To be joined it needs none: the empty wedges have ends of their own.
+  const Extracted joined = extract_cubes(cubes, Touching::join);
+  EXPECT_EQ(joined.report.singular_vertices, 2u);
+  EXPECT_EQ(joined.report.middle_vertices, 0u);
 }
 
 // The same for the space around solids: a cavity that touches itself along an edge.
@@ -101,12 +141,12 @@ TEST(CutNonmanifold, EveryChoiceOfEightCubesIsManifold) {
     for (int k = 0; k < 8; ++k) {
       if ((mask >> k & 1) != 0) cubes.push_back({k & 1, k >> 1 & 1, k >> 2 & 1});
     }
-    extract_cubes(cubes);
+    for (const Touching touching : kBothWays) extract_cubes(cubes, touching);
   }
 }
 
 TEST(CutNonmanifold, RandomChoicesOfCubesAreManifold) {
-  std::size_t middles = 0;
+  std::array<std::size_t, 2> middles{};
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -115,9 +155,11 @@ TEST(CutNonmanifold, RandomChoicesOfCubesAreManifold) {
       const Cube c = {k % 3, k / 3 % 3, k / 9};
       if (k != 13 && random.chance(0.5)) cubes.push_back(c);
     }
-    middles += extract_cubes(cubes).report.middle_vertices;
+    for (std::size_t k = 0; k < 2; ++k) {
+      middles[k] += extract_cubes(cubes, kBothWays[k]).report.middle_vertices;
+    }
   }
-  EXPECT_GT(middles, 3u);
+  for (const std::size_t count : middles) EXPECT_GT(count, 3u);
 }
 
 // Any set of cells of any complex is the solid of a closed manifold.
@@ -131,10 +173,17 @@ TEST(CutNonmanifold, RandomCellsOfDegenerateComplexesAreManifold) {
       std::vector<char> solid(cells.complex.cells.size(), 0);
       for (char& s : solid) s = random.chance(0.4) ? 1 : 0;
       solid[0] = 1;
-      ExtractReport report;
-      const Surface surface = extract_surface(cells.complex, cover, solid, report);
-      expect_closed_manifold(surface.mesh);
-      EXPECT_EQ(surface.source.size(), surface.mesh.triangles.size());
+      std::array<double, 2> volume{};
+      for (std::size_t k = 0; k < 2; ++k) {
+        ExtractReport report;
+        const Surface surface =
+            extract_surface(cells.complex, cover, solid, report, {kBothWays[k]});
+        expect_closed_manifold(surface.mesh);
+        EXPECT_EQ(surface.source.size(), surface.mesh.triangles.size());
+        volume[k] = signed_volume(surface.mesh);
+      }
+      EXPECT_GT(volume[0], 0);
+      EXPECT_NEAR(volume[1] / volume[0], 1, 1e-9);
     }
   }
 }

@@ -194,5 +194,16 @@ TEST(SquaredDistance, ToInsideSidesAndCorners) {
                    25);
 }
 
+TEST(MeshDistance, OneWayAloneIsThatWay) {
+  const TriangleSoup a = testing::sphere(500);
+  const TriangleSoup b = testing::moved(testing::sphere(300, 1.1), {0.1, 0, 0});
+  const MeshDistance both = mesh_distance(a, b);
+  const OneSidedDistance forth = one_sided_distance(a, b);
+  EXPECT_EQ(forth.mean, both.forth.mean);
+  EXPECT_EQ(forth.largest, both.forth.largest);
+  EXPECT_EQ(one_sided_distance(b, a).largest, both.back.largest);
+  EXPECT_EQ(bounding_diagonal(a), both.diagonal);
+}
+
 }  // namespace
 }  // namespace meshrepair

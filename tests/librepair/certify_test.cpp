@@ -88,6 +88,25 @@ TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
   EXPECT_NEAR(signed_volume(back), 3, 1e-5);
 }
 
+// Two cubes joined along an edge are one solid still when a reader of STL welds their corners.
+TEST(Certify, WidensJoinedEdgesForFormatsThatJoinPoints) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {1, 1, 0}));  // along an edge
+  append(soup, moved(cube(), {2, 2, 1}));  // in a corner
+  RepairOptions options;
+  options.extract.touching = Touching::join;
+  options.certify.precision = Precision::float32;
+  options.certify.welded = true;
+  const RepairResult result = repair(soup, options);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_EQ(result.report.certify.rounds, 0u);
+  const TriangleSoup back = as_read_back(result.surface.mesh, SoupFormat::stl_binary);
+  expect_closed_manifold(back);
+  const Topology t = examine_topology(back.triangles, back.points.size());
+  EXPECT_EQ(t.parts, 2u);
+  EXPECT_NEAR(signed_volume(back), 3, 1e-5);
+}
+
 TEST(Certify, DropsPartsThatRoundingFlattens) {
   TriangleSoup soup = cube();
   append(soup, box({2, 2, 2}, {2.5, 2.5, 2 + 1e-9}));
@@ -101,14 +120,38 @@ TEST(Certify, DropsPartsThatRoundingFlattens) {
   EXPECT_TRUE(report.passed());
 }
 
+// Rounded to float32 the two boxes have a common face, and are repaired again.
+TEST(Certify, SourcesAreThoseOfTheFirstInput) {
+  TriangleSoup soup = moved(cube(), {1 + 5e-8, 0.25, 0.125});
+  append(soup, cube());
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  const RepairResult result = repair(soup, options);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_GT(result.report.certify.rounds, 0u);
+  const TriangleSoup& mesh = result.surface.mesh;
+  ASSERT_EQ(result.surface.source.size(), mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    ASSERT_NE(result.surface.source[t], Surface::kNoSource);
+    const auto& from = soup.triangles.at(result.surface.source[t]);
+    const Vec3d& a = soup.points[from[0]];
+    const Vec3d normal = (soup.points[from[1]] - a).cross(soup.points[from[2]] - a).normalized();
+    for (const std::uint32_t p : mesh.triangles[t]) {
+      EXPECT_NEAR(normal.dot(mesh.points[p] - a), 0, 1e-6);
+    }
+  }
+}
+
 // Whatever goes in, the numbers that come out bound a solid.
 TEST(Certify, RepairsOfDegenerateSoupsPass) {
   for (const SoupFamily& family : degenerate_families()) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       SCOPED_TRACE(family.name + " " + std::to_string(seed));
       RepairReport report;
+      RepairOptions options;
+      options.extract.touching = seed % 2 == 0 ? Touching::separate : Touching::join;
       try {
-        const Surface surface = repair(family.make(seed), {}, report);
+        const Surface surface = repair(family.make(seed), options, report);
         EXPECT_TRUE(report.certify.passed());
         EXPECT_EQ(self_intersections(surface.mesh).count, 0u);
         EXPECT_EQ(surface.source.size(), surface.mesh.triangles.size());

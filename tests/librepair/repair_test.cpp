@@ -32,6 +32,24 @@ TEST(Repair, CubeStaysACube) {
   EXPECT_DOUBLE_EQ(result.report.output_volume, 1);
 }
 
+// Joined they share the two ends of the edge, with a vertex for each of the two copies in between.
+TEST(Repair, CubesThatShareAnEdgeAreSeparatedOrJoined) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {1, 1, 0}));
+  const RepairResult apart = repair(soup);
+  expect_solid(apart);
+  EXPECT_EQ(apart.report.output.parts, 2u);
+  EXPECT_EQ(apart.surface.mesh.points.size(), 16u);
+  RepairOptions options;
+  options.extract.touching = Touching::join;
+  const RepairResult joined = repair(soup, options);
+  expect_solid(joined);
+  EXPECT_EQ(joined.report.output.parts, 1u);
+  EXPECT_EQ(joined.surface.mesh.points.size(), 16u);
+  EXPECT_TRUE(joined.report.certify.passed());
+  EXPECT_DOUBLE_EQ(joined.report.output_volume, 2);
+}
+
 // Radii through the tip of a cone would cut each triangle of its base into very many pieces.
 TEST(Repair, BaseOfAConeFallsIntoFewPieces) {
   const RepairResult result = repair(cone(2000));

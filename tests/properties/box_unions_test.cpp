@@ -100,11 +100,14 @@ double filled_volume(const std::vector<int>& counts, std::int32_t size) {
   return sum;
 }
 
-double volume_by(const TriangleSoup& soup, InsideRule rule) {
+double volume_by(const TriangleSoup& soup, InsideRule rule,
+                 Touching touching = Touching::separate) {
   RepairOptions options;
+  options.extract.touching = touching;
   options.inside.rule = rule;
   const RepairResult result = repair(soup, options);
   expect_closed_manifold(result.surface.mesh);
+  EXPECT_TRUE(result.report.certify.passed());
   EXPECT_EQ(result.report.clip.fallbacks(), 0u);
   EXPECT_EQ(result.report.tree.lost_fragments, 0u);
   return result.report.output_volume;
@@ -130,6 +133,7 @@ TEST(BoxUnions, WindingGivesTheExactVolume) {
     const double truth = covered_volume(voxel_counts(boxes, size));
     EXPECT_NEAR(volume_by(soup, InsideRule::winding), truth, 1e-9 * truth);
     EXPECT_NEAR(volume_by(soup, InsideRule::automatic), truth, 1e-9 * truth);
+    EXPECT_NEAR(volume_by(soup, InsideRule::winding, Touching::join), truth, 1e-9 * truth);
   }
   EXPECT_GT(tried, 80);
 }
@@ -163,6 +167,25 @@ TEST(BoxUnions, ParityAndSolidityGiveTheExactVolume) {
     EXPECT_NEAR(volume_by(soup, InsideRule::parity), odd, 1e-9 * odd);
     const double filled = filled_volume(counts, size);
     EXPECT_NEAR(volume_by(soup, InsideRule::solidity), filled, 1e-9 * filled);
+  }
+}
+
+// Unit cubes that share corners and edges, mostly.
+TEST(BoxUnions, CubesThatTouchAreSeparatedOrJoined) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    TriangleSoup soup;
+    double truth = 0;
+    for (int k = 0; k < 125; ++k) {
+      const int x = k % 5, y = k / 5 % 5, z = k / 25;
+      // No two cubes of a checkerboard have a face in common.
+      if ((x + y + z) % 2 != 0 || !random.chance(0.7)) continue;
+      append(soup, box(Vec3d(x, y, z), Vec3d(x + 1, y + 1, z + 1)));
+      ++truth;
+    }
+    EXPECT_NEAR(volume_by(soup, InsideRule::winding), truth, 1e-9 * truth);
+    EXPECT_NEAR(volume_by(soup, InsideRule::winding, Touching::join), truth, 1e-9 * truth);
   }
 }
 

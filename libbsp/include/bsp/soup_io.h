@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,20 +67,28 @@ struct WriteOptions {
   std::optional<SoupFormat> format;
   // Comment lines for formats that have them; no newlines inside.
   std::vector<std::string> comments;
+  // For PLY alone, not owned: one number for each triangle, written as the property
+  // `source_triangle` of its face, with all ones as -1. Empty: no such property.
+  std::span<const std::uint32_t> sources = {};
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
 };
 
 // The format that an extension stands for, if any. Case does not matter.
 [[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
 
+[[nodiscard]] bool is_ply(SoupFormat format);
+
 // Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format
-// can be told, OutputError when anything cannot be written in full; the target is then as it was.
+// can be told, or there are sources and it is not PLY; OutputError when anything cannot be written
+// in full; the target is then as it was.
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 
-// The bytes of the file. Coordinates are rounded to float32 for binary STL alone.
+// The bytes of the file, with comments and sources as in WriteOptions. Coordinates are rounded to
+// float32 for binary STL alone.
 [[nodiscard]] std::string format_soup(const TriangleSoup& soup, SoupFormat format,
-                                      const std::vector<std::string>& comments = {});
+                                      const std::vector<std::string>& comments = {},
+                                      std::span<const std::uint32_t> sources = {});
 
 // The soup that a reader gets back from a file in this format: STL has no indices, so corners with
 // equal coordinates become one point, and binary STL rounds coordinates to float32 before. For the

@@ -9,6 +9,10 @@
 
 namespace meshrepair {
 
+// The two ways of making a manifold of solids that touch along an edge: apart, or one part that is
+// connected there.
+enum class Touching { separate, join };
+
 struct ManifoldCorners {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::vector<std::uint32_t> mate;    // for each side the one it is joined to
@@ -23,15 +27,18 @@ struct ManifoldCorners {
   [[nodiscard]] std::size_t vertices() const { return vertex_corner.size(); }
 };
 
-// Around an edge the polygons that bound the same solid wedge are joined, so solids that only touch
-// are separated; around a vertex each fan of joined polygons gets a copy of its own. The result is
-// a closed 2-manifold of polygons, by construction; as an indexed mesh it still needs
-// separate_common_edges(). Linear, but for edges with very many polygons.
+// Around an edge the polygons that bound the same wedge are joined, a solid wedge to separate what
+// touches there, an empty one to join it; around a vertex each fan of joined polygons gets a copy
+// of its own. So solids that touch in a point alone are separate either way: no manifold joins
+// them. The result is a closed 2-manifold of polygons, by construction; as an indexed mesh it still
+// needs separate_common_edges(). Linear, but for edges with very many polygons.
 [[nodiscard]] ManifoldCorners cut_nonmanifold(const CellComplex& complex, const Boundary& boundary,
-                                              const std::vector<char>& solid);
+                                              const std::vector<char>& solid,
+                                              Touching touching = Touching::separate);
 
 // Where two wedges at an edge share both end vertices, the edge would have four triangles in an
-// indexed mesh: says at which pairs of joined sides to put a vertex in the middle.
+// indexed mesh: says at which pairs of joined sides to put a vertex in the middle. If one wedge at
+// an edge needs one, all get one, as no vertex may lie inside an edge of another triangle.
 struct MiddleVertices {
   std::vector<std::uint32_t> of_side;  // its number, or kNone; empty when there are none
   std::size_t count = 0;

@@ -6,9 +6,14 @@
 
 #include <extract/cell_complex.h>
 #include <extract/cover_facets.h>
+#include <extract/cut_nonmanifold.h>
 #include <extract/surface.h>
 
 namespace meshrepair {
+
+struct ExtractOptions {
+  Touching touching = Touching::separate;  // what becomes of solids that touch along an edge
+};
 
 struct ExtractReport {
   std::size_t boundary_facets = 0;
@@ -16,7 +21,7 @@ struct ExtractReport {
   std::size_t regions = 0;             // that the facets were merged into
   std::size_t singular_edges = 0;
   std::size_t singular_vertices = 0;
-  std::size_t middle_vertices = 0;  // put into edges at which solids touch along their whole length
+  std::size_t middle_vertices = 0;  // put into edges at which solids touch, see MiddleVertices
 };
 
 // `solid` has one entry for each cell. Points of the input keep their original coordinates bit for
@@ -24,6 +29,7 @@ struct ExtractReport {
 // solid.
 [[nodiscard]] Surface extract_surface(const CellComplex& complex,
                                       const IdVector<FacetId, Cover>& cover,
-                                      const std::vector<char>& solid, ExtractReport& report);
+                                      const std::vector<char>& solid, ExtractReport& report,
+                                      const ExtractOptions& options = {});
 
 }  // namespace meshrepair

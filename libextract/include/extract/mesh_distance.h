@@ -47,4 +47,11 @@ struct MeshDistance {
 [[nodiscard]] MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second,
                                          const DistanceOptions& options = {});
 
+// The one way alone: from the points of one mesh to the other. As above; `bound` too.
+[[nodiscard]] OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup& to,
+                                                  const DistanceOptions& options = {});
+
+// Of the box around the triangles that are finite. Throws InputError where there is none.
+[[nodiscard]] double bounding_diagonal(const TriangleSoup& soup);
+
 }  // namespace meshrepair

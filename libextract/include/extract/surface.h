@@ -10,7 +10,7 @@ namespace meshrepair {
 
 // Triangles counter-clockwise seen from outside the solid. As an indexed mesh it is closed and
 // 2-manifold: each edge has two triangles that pass it in opposite directions, each vertex one fan.
-// Points of parts that only touch have equal coordinates and different indices.
+// Where parts touch, or one part itself, points have equal coordinates and different indices.
 struct Surface {
   TriangleSoup mesh;
   // For each triangle the index of the input triangle that it lies in, or kNoSource where a gap was

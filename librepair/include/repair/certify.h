@@ -7,6 +7,7 @@
 #include <bsp/grid.h>
 #include <bsp/progress.h>
 #include <bsp/soup.h>
+#include <extract/cut_nonmanifold.h>
 #include <extract/surface.h>
 
 namespace meshrepair {
@@ -18,8 +19,10 @@ struct CertifyOptions {
   bool wanted = true;
   Precision precision = Precision::float64;
   // The format has no indices, as STL: points with equal coordinates are one to its readers. Then
-  // solids that touch are moved apart, by a few units in the last place.
+  // solids that touch are moved apart, or made to overlap where they were joined along an edge, by
+  // a few units in the last place.
   bool welded = false;
+  Touching touching = Touching::separate;  // of the surface; repair() sets it to that of `extract`
   // How often the places that fail may be brought onto a coarser grid and repaired again.
   std::size_t most_rounds = 6;
 };

@@ -28,6 +28,7 @@ struct RepairOptions {
   HoleOptions holes;
   BuildTreeOptions tree;
   InsideOptions inside;
+  ExtractOptions extract;
   CertifyOptions certify;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;

@@ -1,0 +1,23 @@
+#include "number_spacing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meshrepair::internal {
+
+double number_spacing(double x, Precision precision) {
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  const int digits = precision == Precision::float32 ? std::numeric_limits<float>::digits
+                                                     : std::numeric_limits<double>::digits;
+  return std::ldexp(1.0, exponent - digits);
+}
+
+double number_spacing(const TriangleSoup& mesh, Precision precision) {
+  double largest = 0;
+  for (const Vec3d& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return number_spacing(largest, precision);
+}
+
+}  // namespace meshrepair::internal

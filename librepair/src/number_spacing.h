@@ -1,0 +1,15 @@
+// How far apart the numbers are that a file can hold.
+#pragma once
+
+#include <bsp/soup.h>
+#include <repair/certify.h>
+
+namespace meshrepair::internal {
+
+// The distance of neighbouring numbers at x. It grows with the magnitude of x.
+[[nodiscard]] double number_spacing(double x, Precision precision);
+
+// The same at the mesh's largest coordinate.
+[[nodiscard]] double number_spacing(const TriangleSoup& mesh, Precision precision);
+
+}  // namespace meshrepair::internal
