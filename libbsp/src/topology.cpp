@@ -86,7 +86,9 @@ Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t 
     count_edge(triangles, sides, topology);
     if (places != nullptr) note_edge(triangles, sides, *places);
     for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
-    if (sides.size() == 2) join_corners(triangles, sides[0], sides[1], corners);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      join_corners(triangles, sides[0], sides[i], corners);
+    }
   });
   topology.parts = parts.count();
   topology.nonmanifold_vertices = count_split_vertices(triangles, points, corners, places);

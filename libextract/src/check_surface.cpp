@@ -129,19 +129,25 @@ class SurfaceChecker {
     }
   }
 
+  // By the coordinates of their corners: what lies in one place is there twice, whatever the
+  // indices.
   void find_duplicates() {
+    const std::vector<std::uint32_t> place_of = weld();
     std::vector<IndexTriangle> sorted = triangles_;
-    for (IndexTriangle& corners : sorted) std::sort(corners.begin(), corners.end());
+    for (IndexTriangle& corners : sorted) {
+      for (std::uint32_t& corner : corners) corner = place_of[corner];
+      std::sort(corners.begin(), corners.end());
+    }
     std::vector<std::uint32_t> order(sorted.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(sorted[a], a) < std::pair(sorted[b], b);
     });
     for (std::size_t first = 0, i = 1; i < order.size(); ++i) {
-      if (sorted[order[i]] != sorted[order[first]]) {
-        first = i;
-        continue;
-      }
+      const IndexTriangle& corners = sorted[order[i]];
+      if (corners != sorted[order[first]]) first = i;
+      const bool flat = corners[0] == corners[1] || corners[1] == corners[2];
+      if (first == i || flat) continue;
       const std::uint32_t original = ids_[order[first]], copy = ids_[order[i]];
       mark(original, Defect::duplicate_triangle);
       add(Defect::duplicate_triangle, {{original, copy}, middle_of(triangles_[order[i]])}, {copy});

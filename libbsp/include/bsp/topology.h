@@ -18,8 +18,8 @@ struct Topology {
   std::size_t open_edges = 0;          // one triangle
   std::size_t nonmanifold_edges = 0;   // more than two
   std::size_t inconsistent_edges = 0;  // two that pass it in the same direction
-  std::size_t nonmanifold_vertices =
-      0;  // more than one fan of triangles joined at edges with two triangles
+  // More than one fan of triangles that are joined at edges of the vertex: they touch in it alone.
+  std::size_t nonmanifold_vertices = 0;
   std::size_t repeated_corners = 0;  // triangles with two equal corners
   std::size_t parts = 0;             // connected through edges
 

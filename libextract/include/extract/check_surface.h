@@ -22,7 +22,7 @@ enum class Defect {
   nonmanifold_vertex,   // with several fans of triangles
   degenerate_triangle,  // without an area: corners repeated, or on a line
   not_finite_triangle,  // with a coordinate that is infinite or no number
-  duplicate_triangle,   // with the same corners as one before, either way round
+  duplicate_triangle,   // with corners in the same places as one before, either way round
   self_intersection,    // two triangles that meet beyond what they share (self_intersections.h)
   inside_out_part,      // a closed part that faces what it should enclose
   unused_point,         // of no triangle; no fault of the surface
