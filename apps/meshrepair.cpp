@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
-  add_inside_option(app, options.repair.inside.rule);
+  add_inside_options(app, options.repair.inside);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_certify_options(app, options.repair.certify, options.strict);

@@ -12,8 +12,8 @@
 
 namespace meshrepair {
 
-// --inside: which parts of space are solid.
-void add_inside_option(CLI::App& app, InsideRule& rule);
+// --inside and --cavities: which parts of space are solid.
+void add_inside_options(CLI::App& app, InsideOptions& inside);
 
 // -o: the file to write, where it does not stand beside IN.
 void add_output_option(CLI::App& app, std::string& output, const std::string& type,

@@ -95,6 +95,10 @@ Json section_of(const InsideReport& inside) {
           {"converged", inside.solve.converged},
           {"winding_distance", inside.winding_distance},
           {"winding_contradiction", inside.winding_contradiction},
+          {"turned_parts", inside.turned_parts},
+          {"doubtful_parts", inside.doubtful_parts},
+          {"cavity_walls", inside.cavity_walls},
+          {"filled_voids", inside.filled_voids},
           {"solid_cells", inside.solid_cells}};
 }
 

@@ -46,7 +46,7 @@ TEST(CellGraph, LinksAreTheFacetsBetweenCells) {
         EXPECT_EQ(link.above, facet.above);
         EXPECT_EQ(link.winding, g.cover[f].winding);
         EXPECT_GT(link.area, 0);
-        opaque += link.opaque;
+        opaque += link.opaque();
       } else {
         unbounded.insert(facet.above.valid() ? facet.above : facet.below);
       }
@@ -91,7 +91,7 @@ TEST(CellGraph, ACubeHasOneBoundedCellBehindTwelveTriangles) {
     EXPECT_EQ(g.graph.links_of(c).size(), 12u);
     for (const std::uint32_t l : g.graph.links_of(c)) {
       const Link& link = g.graph.links()[l];
-      EXPECT_TRUE(link.opaque);
+      EXPECT_TRUE(link.opaque());
       EXPECT_EQ(link.winding, link.below == c ? 1 : -1);
     }
   }

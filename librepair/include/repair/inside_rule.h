@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <repair/cell_graph.h>
+#include <repair/orient_parts.h>
 #include <repair/solidity.h>
 
 namespace meshrepair {
@@ -20,8 +21,15 @@ enum class InsideRule {
 
 [[nodiscard]] std::string_view rule_name(InsideRule rule);
 
+// What becomes of a void, a hollow space that no way leads into from outside.
+enum class Cavities {
+  keep,  // what the rule says
+  fill,  // solid
+};
+
 struct InsideOptions {
   InsideRule rule = InsideRule::automatic;
+  Cavities cavities = Cavities::keep;
   SolveOptions solve;
   // `automatic` trusts the winding when its values are this near to integers (mean over the cells,
   // weighted by the area of their facets) ...
@@ -40,6 +48,11 @@ struct InsideReport {
   SolveReport solve;               // all 0 when nothing was solved
   double winding_distance = 0;     // as in the options; only where a winding was looked at
   double winding_contradiction = 0;
+  // Of the parts of the surface; `automatic` only.
+  std::size_t turned_parts = 0;    // inside out by their own triangles, and turned
+  std::size_t doubtful_parts = 0;  // whose triangles do not tell which way is out ...
+  std::size_t cavity_walls = 0;    // ... and that were found to be walls of cavities
+  std::size_t filled_voids = 0;    // made solid because of the rule or the option
   std::size_t solid_cells = 0;
 };
 
@@ -48,7 +61,15 @@ struct CellLabels {
   std::vector<float> confidence;  // 0 to 1
 };
 
-[[nodiscard]] CellLabels label_cells(const CellGraph& graph, const InsideOptions& options,
-                                     InsideReport& report);
+// The windings of the graph's links are those of the soup for the rule `winding`, those of the
+// orientation for `automatic`; the other rules look at none.
+//
+// `automatic` first looks whether the winding numbers can be trusted, then turns parts that are
+// inside out or do not tell which way is out: shells that lie in the solid of others are walls of
+// cavities, others face outward. Solid is what they wind around, and what winds the other way and
+// borders the outside. Where the winding cannot be trusted, it is `solidity`, but voids are kept
+// that are bounded by whole parts.
+[[nodiscard]] CellLabels label_cells(const CellGraph& graph, const Orientation& orientation,
+                                     const InsideOptions& options, InsideReport& report);
 
 }  // namespace meshrepair
