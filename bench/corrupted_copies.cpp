@@ -155,8 +155,10 @@ void measure_file(const std::string& path, Tally& tally) {
     const Volumes volumes = volumes_of(corruption.apply(soup));
     std::printf("| %s | %s |", name.c_str(), corruption.name.c_str());
     for (const double v : volumes.by_rule) std::printf(" %.4f |", v / truth);
-    std::printf(" %s: %s |\n", std::string(rule_name(volumes.automatic.used)).c_str(),
-                volumes.automatic.reason.c_str());
+    const InsideReport& automatic = volumes.automatic;
+    std::printf(" %.3f | %.3f | %s: %s |\n", automatic.winding_distance,
+                automatic.winding_contradiction, std::string(rule_name(automatic.used)).c_str(),
+                automatic.reason.c_str());
     std::fflush(stdout);
     ++tally.cases;
     const double share = volumes.by_rule.back() / truth;
@@ -176,8 +178,8 @@ void measure_file(const std::string& path, Tally& tally) {
 
 int main(int argc, char** argv) {
   std::printf(
-      "| mesh | copy | parity | solidity | winding | auto | why "
-      "|\n|---|---|---|---|---|---|---|\n");
+      "| mesh | copy | parity | solidity | winding | auto | distance | contradiction | why |\n"
+      "|---|---|---|---|---|---|---|---|---|\n");
   Tally tally;
   for (int i = 1; i < argc; ++i) {
     try {

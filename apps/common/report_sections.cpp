@@ -64,6 +64,7 @@ Json section_of(const BuildTreeReport& tree) {
 Json section_of(const OrientReport& orient) {
   return {{"parts", orient.parts},
           {"turned_triangles", orient.turned_triangles},
+          {"doubtful_parts", orient.doubtful_parts},
           {"unorientable_parts", orient.unorientable_parts}};
 }
 

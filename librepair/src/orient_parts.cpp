@@ -16,6 +16,7 @@
 
 #include "edge_fan.h"
 #include "surface_patches.h"
+#include "turn_sets.h"
 
 namespace meshrepair {
 namespace {
@@ -23,58 +24,23 @@ namespace {
 using internal::Patch;
 using internal::Patches;
 using internal::SurfaceSum;
+using internal::TurnSets;
 
-bool says_which_way(const SurfaceSum& sum) {
-  return sum.kept > 0 && sum.turned <= kBelievedShare * (sum.kept + sum.turned);
+double turned_share(const SurfaceSum& sum) {
+  return sum.kept > 0 ? sum.turned / (sum.kept + sum.turned) : 1;
 }
 
-// Sets of patches, each patch turned round or not against the first of its set. The patch that
-// stands for a set is one that has a say, if there is any, and those are never turned.
-class PatchSets {
- public:
-  explicit PatchSets(const std::vector<Patch>& patches) {
-    for (std::uint32_t p = 0; p < patches.size(); ++p) {
-      links_.push_back({p, false});
-      firm_.push_back(!patches[p].orientable || says_which_way(patches[p].sum) ? 1 : 0);
-    }
+bool says_which_way(const SurfaceSum& sum) { return turned_share(sum) <= kBelievedShare; }
+
+// The patches that have a say of their own.
+std::vector<char> firm_patches(const std::vector<Patch>& patches) {
+  std::vector<char> firm;
+  firm.reserve(patches.size());
+  for (const Patch& patch : patches) {
+    firm.push_back(says_which_way(patch.sum) ? 1 : 0);
   }
-
-  struct Place {
-    std::uint32_t root;
-    bool turned;
-  };
-
-  Place find(std::uint32_t patch) {
-    bool turned = false;
-    std::uint32_t root = patch;
-    for (; links_[root].root != root; root = links_[root].root) turned ^= links_[root].turned;
-    for (bool rest = turned; patch != root;) {
-      const Place next = std::exchange(links_[patch], {root, rest});
-      rest ^= next.turned;
-      patch = next.root;
-    }
-    return {root, turned};
-  }
-
-  // Joins two patches, one of them turned round if `turn`, unless both have another say.
-  void join(std::uint32_t a, std::uint32_t b, bool turn) {
-    Place to = find(a);
-    Place from = find(b);
-    const bool turned = to.turned ^ from.turned ^ turn;
-    if (to.root == from.root) return;
-    const bool both_firm = firm_[to.root] != 0 && firm_[from.root] != 0;
-    if (both_firm && turned) return;
-    if (firm_[to.root] < firm_[from.root] ||
-        (firm_[to.root] == firm_[from.root] && from.root < to.root)) {
-      std::swap(to, from);
-    }
-    links_[from.root] = {to.root, turned};
-  }
-
- private:
-  std::vector<Place> links_;
-  std::vector<char> firm_;
-};
+  return firm;
+}
 
 class PartOrienter {
  public:
@@ -86,12 +52,11 @@ class PartOrienter {
         table_(triangles_),
         patches_(internal::find_patches(soup, triangles_, table_, progress)),
         open_(patches_.patches.size(), 0),
-        joined_(patches_.patches.size(), 0),
         wall_(patches_.patches.size(), 0) {}
 
   Orientation run() {
     look_at_edges();
-    PatchSets sets(patches_.patches);
+    TurnSets sets(firm_patches(patches_.patches));
     bind(sets);
     gather(sets);
     count_crowded_edges();
@@ -109,12 +74,9 @@ class PartOrienter {
   void look_at_edges() {
     table_.for_each_edge([&](std::span<const std::uint32_t> sides) {
       check_.tick();
-      const std::uint32_t patch = patches_.of[sides[0] / 3];
       if (sides.size() == 1) {
-        ++open_[patch];
-      } else if (sides.size() == 2) {
-        ++joined_[patch];
-      } else {
+        ++open_[patches_.of[sides[0] / 3]];
+      } else if (sides.size() > 2) {
         crowded_.emplace_back(sides.begin(), sides.end());
       }
     });
@@ -122,11 +84,13 @@ class PartOrienter {
     for (const auto& sides : crowded_) find_bonds(sides);
   }
 
-  // A patch that is there both ways round and ends in the open, or at one that is not, is a wall:
+  // A patch that is there both ways round and is an open sheet, or at one that is not, is a wall:
   // both sides of it are inside, or neither.
   void find_walls() {
     const auto& patches = patches_.patches;
-    for (std::size_t p = 0; p < patches.size(); ++p) wall_[p] = patches[p].doubled && open_[p] > 0;
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      wall_[p] = patches[p].doubled && open_[p] > 0 && !patches[p].sum.nearly_closed();
+    }
     for (const auto& sides : crowded_) {
       const bool all_doubled = std::all_of(sides.begin(), sides.end(), [&](std::uint32_t s) {
         return patches[patches_.of[s / 3]].doubled;
@@ -148,8 +112,7 @@ class PartOrienter {
       const std::uint32_t t = sides[(i + 1) % sides.size()];
       const std::uint32_t a = patches_.of[s / 3];
       const std::uint32_t b = patches_.of[t / 3];
-      if (a == b || !patches_.patches[a].orientable || !patches_.patches[b].orientable) continue;
-      if (!ends_at(a, sides) || !ends_at(b, sides)) continue;
+      if (a == b || !ends_at(a, sides) || !ends_at(b, sides)) continue;
       bonds_.push_back({std::min(a, b), std::max(a, b), runs_up(s) != runs_up(t) ? 1 : -1});
     }
   }
@@ -169,7 +132,7 @@ class PartOrienter {
   }
 
   // The bonds on which most edges agree come first.
-  void bind(PatchSets& sets) {
+  void bind(TurnSets& sets) {
     const auto ends = [](const Bond& bond) { return std::pair(bond.a, bond.b); };
     std::sort(bonds_.begin(), bonds_.end(),
               [&](const Bond& x, const Bond& y) { return ends(x) < ends(y); });
@@ -191,26 +154,23 @@ class PartOrienter {
   }
 
   // Makes a part of each set of patches.
-  void gather(PatchSets& sets) {
+  void gather(TurnSets& sets) {
     const auto& patches = patches_.patches;
     constexpr std::uint32_t kNone = ~std::uint32_t{0};
     std::vector<std::uint32_t> part_of_root(patches.size(), kNone);
     for (std::uint32_t p = 0; p < patches.size(); ++p) {
-      const PatchSets::Place place = sets.find(p);
+      const TurnSets::Place place = sets.find(p);
       std::uint32_t& part = part_of_root[place.root];
       if (part == kNone) {
         part = static_cast<std::uint32_t>(result_.parts.size());
         result_.parts.emplace_back();
         sums_.emplace_back();
-        edges_.emplace_back();
-        orientable_.push_back(1);
+        part_open_.push_back(0);
       }
       part_.push_back(part);
       turn_.push_back(place.turned ? 1 : 0);
       sums_[part].add(place.turned ? patches[p].sum.turned_round() : patches[p].sum);
-      edges_[part].open += open_[p];
-      edges_[part].joined += joined_[p];
-      if (!patches[p].orientable) orientable_[part] = 0;
+      part_open_[part] += open_[p];
       report_.unorientable_parts += !patches[p].orientable;
     }
     report_.parts = result_.parts.size();
@@ -225,7 +185,7 @@ class PartOrienter {
       std::sort(parts.begin(), parts.end());
       for (auto first = parts.begin(); first != parts.end();) {
         const auto last = std::upper_bound(first, parts.end(), *first);
-        ++((last - first) % 2 == 0 ? edges_[*first].joined : edges_[*first].open);
+        part_open_[*first] += (last - first) % 2 != 0;
         first = last;
       }
     }
@@ -234,10 +194,11 @@ class PartOrienter {
   void decide(std::size_t p) {
     OrientedPart& part = result_.parts[p];
     SurfaceSum& sum = sums_[p];
-    bool turn = sum.turned > sum.kept && orientable_[p] != 0;
+    bool turn = sum.turned > sum.kept;
     if (turn) sum = sum.turned_round();
-    part.believed = orientable_[p] != 0 && says_which_way(sum);
-    part.shell = orientable_[p] != 0 && edges_[p].joined > edges_[p].open;
+    part.turned_share = turned_share(sum);
+    part.believed = says_which_way(sum);
+    part.shell = part_open_[p] == 0 || sum.nearly_closed();
     if (part.shell) part.outward = sum.outward();
     if (!part.believed && part.outward < 0) {
       part.outward = 1;
@@ -257,7 +218,7 @@ class PartOrienter {
       const bool turn =
           (patches_.turned[t.value] != 0) ^ (turn_[patch] != 0) ^ (turn_part_[part] != 0);
       std::int32_t winding = soup_.triangles[t].winding;
-      if (orientable_[part] != 0 && wall_[patch] == 0) {
+      if (wall_[patch] == 0) {
         winding = internal::side_of_corners(soup_, t) * (turn ? -1 : 1);
       }
       report_.turned_triangles += winding * soup_.triangles[t].winding < 0;
@@ -266,10 +227,6 @@ class PartOrienter {
     }
   }
 
-  struct EdgeCount {
-    std::size_t open = 0, joined = 0;
-  };
-
   const CleanSoup& soup_;
   OrientReport& report_;
   CancelCheck check_;
@@ -277,13 +234,13 @@ class PartOrienter {
   EdgeTable table_;
   Patches patches_;
   // Of each patch.
-  std::vector<std::size_t> open_, joined_;
+  std::vector<std::size_t> open_;  // edges
   std::vector<char> wall_, turn_;
   std::vector<std::uint32_t> part_;
   // Of each part.
   std::vector<SurfaceSum> sums_;
-  std::vector<EdgeCount> edges_;
-  std::vector<char> orientable_, turn_part_;
+  std::vector<std::size_t> part_open_;  // edges
+  std::vector<char> turn_part_;
   std::vector<std::vector<std::uint32_t>> crowded_;  // sides at edges with more than two
   std::vector<Bond> bonds_;
   Orientation result_;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
+
+#include "turn_sets.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -10,11 +13,21 @@ namespace {
 // Triangles that were made to close holes come without a source, and with an orientation that is
 // nobody's word.
 constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
+// A surface is nearly closed when what would close it has at most this share of its own area: a
+// cup twice as high as wide has its rim at 0.11, a hemisphere at 0.5, a flat sheet at 1.
+constexpr double kHoleShare = 0.25;
 
 // Across an edge with exactly two triangles: the neighbour, and whether they agree as they are.
 struct Neighbour {
   std::uint32_t triangle = ~std::uint32_t{0};
   bool agrees = true;
+};
+
+// An edge with exactly two triangles, of those in a patch that cannot be oriented.
+struct Fold {
+  double fold;
+  std::uint32_t a, b;
+  bool agrees;
 };
 
 using Neighbours = std::vector<std::array<Neighbour, 3>>;
@@ -39,11 +52,9 @@ SurfaceSum sum_of(const CleanSoup& soup, TriangleId t) {
   SurfaceSum sum;
   const Triangle& triangle = soup.triangles[t];
   const Plane plane = plane_of_corners(soup, t);
-  if (triangle.winding != 0 && triangle.source != kNoSource) {
-    sum.kept =
-        std::hypot(static_cast<double>(plane.normal[0]), static_cast<double>(plane.normal[1]),
-                   static_cast<double>(plane.normal[2]));
-  }
+  sum.area = std::hypot(static_cast<double>(plane.normal[0]), static_cast<double>(plane.normal[1]),
+                        static_cast<double>(plane.normal[2]));
+  if (triangle.winding != 0 && triangle.source != kNoSource) sum.kept = sum.area;
   sum.six_volumes = -plane.offset;
   for (std::size_t k = 0; k < 3; ++k) sum.normal[k] = plane.normal[k];
   for (const PointId p : triangle.corners) {
@@ -93,11 +104,64 @@ class PatchFinder {
         }
       }
     }
-    if (!patch.orientable) {
-      for (const std::uint32_t t : members_) result_.turned[t] = 0;
-    }
+    if (!patch.orientable) turn_unorientable();
     add_up(patch);
     result_.patches.push_back(patch);
+  }
+
+  // Joins the triangles over their flattest edges first, so that contradictions are left where the
+  // surface is folded most: there, the two triangles may be the rest of an edge of more. Turns
+  // nothing unless that takes away more than half of the contradictions: what is consistent but for
+  // such edges stays as it is.
+  void turn_unorientable() {
+    for (const std::uint32_t t : members_) result_.turned[t] = 0;
+    std::vector<Fold> folds;
+    for (const std::uint32_t t : members_) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const Neighbour& n = neighbours_[t][k];
+        if (n.triangle == ~std::uint32_t{0} || n.triangle < t) continue;
+        folds.push_back({fold_of(t, k, n.triangle), t, n.triangle, n.agrees});
+      }
+    }
+    std::sort(folds.begin(), folds.end(), [](const Fold& a, const Fold& b) {
+      return std::tie(a.fold, a.a, a.b) < std::tie(b.fold, b.a, b.b);
+    });
+    std::sort(members_.begin(), members_.end());
+    const auto place = [&](std::uint32_t t) {
+      return static_cast<std::uint32_t>(std::lower_bound(members_.begin(), members_.end(), t) -
+                                        members_.begin());
+    };
+    TurnSets sets(std::vector<char>(members_.size(), 0));
+    for (const Fold& f : folds) sets.join(place(f.a), place(f.b), !f.agrees);
+    std::size_t before = 0, after = 0;
+    for (const Fold& f : folds) {
+      before += !f.agrees;
+      after += (sets.find(place(f.a)).turned == sets.find(place(f.b)).turned) != f.agrees;
+    }
+    if (2 * after >= before) return;
+    for (const std::uint32_t t : members_) result_.turned[t] = sets.find(place(t)).turned ? 1 : 0;
+  }
+
+  // -1 where the triangles lie flat beside each other, 1 where they lie on each other. Rounded: it
+  // only ranks.
+  [[nodiscard]] double fold_of(std::uint32_t t, std::uint32_t k, std::uint32_t other) const {
+    const auto at = [&](PointId p) -> Vec3d {
+      const GridPoint& g = soup_.grid_points[p];
+      return {static_cast<double>(g.x), static_cast<double>(g.y), static_cast<double>(g.z)};
+    };
+    const auto& corners = soup_.triangles[TriangleId(t)].corners;
+    const PointId u = corners[k], v = corners[(k + 1) % 3];
+    const Vec3d along = (at(v) - at(u)).normalized();
+    const auto wing = [&](PointId tip) -> Vec3d {
+      const Vec3d out = at(tip) - at(u);
+      return (out - along * along.dot(out)).normalized();
+    };
+    PointId tip = corners[(k + 2) % 3];
+    const Vec3d first = wing(tip);
+    for (const PointId p : soup_.triangles[TriangleId(other)].corners) {
+      if (p != u && p != v) tip = p;
+    }
+    return first.dot(wing(tip));
   }
 
   void add_up(Patch& patch) {
@@ -122,6 +186,7 @@ class PatchFinder {
 }  // namespace
 
 void SurfaceSum::add(const SurfaceSum& other) {
+  area += other.area;
   kept += other.kept;
   turned += other.turned;
   six_volumes += other.six_volumes;
@@ -143,6 +208,11 @@ SurfaceSum SurfaceSum::turned_round() const {
 int SurfaceSum::outward() const {
   return sign_of(2 * six_volumes - normal[0] * (Int128{low.x} + high.x) -
                  normal[1] * (Int128{low.y} + high.y) - normal[2] * (Int128{low.z} + high.z));
+}
+
+bool SurfaceSum::nearly_closed() const {
+  return std::hypot(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                    static_cast<double>(normal[2])) <= kHoleShare * area;
 }
 
 Patches find_patches(const CleanSoup& soup, std::span<const IndexTriangle> triangles,

@@ -15,6 +15,7 @@ namespace meshrepair::internal {
 // What can be added up over triangles that are turned alike. Turning all of them round is
 // turned_round().
 struct SurfaceSum {
+  double area = 0;         // of all triangles, twice, in square grid steps
   double kept = 0;         // area of the triangles that are turned as they were given ...
   double turned = 0;       // ... and of those that are not; those that say nothing count in neither
   Int128 six_volumes = 0;  // of the tetrahedra over the origin of the grid
@@ -27,13 +28,16 @@ struct SurfaceSum {
   // The sign of the volume of the cone over the surface, seen from the middle of its box: 1 when it
   // faces outward. Exact, and for a closed surface the same from anywhere.
   [[nodiscard]] int outward() const;
+  // Whether its holes are small beside it: what closes them has the surface's vector area, turned
+  // round.
+  [[nodiscard]] bool nearly_closed() const;
 };
 
 // Triangles connected through edges with exactly two triangles.
 struct Patch {
   SurfaceSum sum;
   std::uint32_t triangles = 0;
-  bool orientable = true;  // if not, no triangle of it is turned
+  bool orientable = true;  // if not, as few of its edges contradict as was found
   bool doubled = true;     // all its triangles are there both ways round
 };
 

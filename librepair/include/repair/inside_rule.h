@@ -13,7 +13,7 @@
 namespace meshrepair {
 
 enum class InsideRule {
-  automatic,  // winding where the orientation can be trusted, else solidity
+  automatic,  // winding where the orientation can be trusted, else solidity: see label_cells()
   solidity,   // s > 0, then everything that a flood from infinity does not reach (WM 6.2)
   parity,     // s > 0 alone
   winding,    // w > 1/2, whatever the values
@@ -32,10 +32,12 @@ struct InsideOptions {
   Cavities cavities = Cavities::keep;
   SolveOptions solve;
   // `automatic` trusts the winding when its values are this near to integers (mean over the cells,
-  // weighted by the area of their facets) ...
-  double trusted_distance = 0.1;
+  // weighted by the area of their facets; values that mean nothing come to a quarter) ...
+  double trusted_distance = 0.25;
   // ... and at most this share of the covered area is passed with another change than its triangles
-  // say.
+  // say. Closed meshes with 1 to 10 % of their triangles missing have distances up to 0.17 and
+  // contradictions up to 0.03, and volumes within 2 %; orientation at random gives contradictions
+  // above 0.15.
   double trusted_contradiction = 0.05;
 };
 
