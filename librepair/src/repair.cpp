@@ -30,17 +30,18 @@ CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_
   return covered;
 }
 
-// The parts of the input, oriented where the rule asks for it.
-Orientation find_parts(const Tree& tree, const RepairOptions& options, RepairReport& report) {
-  OrientReport found;
-  Orientation orientation = orient_parts(tree.input, found, options.progress);
+// The parts of the input: oriented for `automatic`, else as they are connected through edges, which
+// does not depend on how their triangles are turned.
+Orientation find_parts(const CleanSoup& soup, const RepairOptions& options, RepairReport& report) {
   if (options.inside.rule == InsideRule::automatic) {
-    report.orient = found;
-  } else {
-    report.orient.parts = found.parts;
-    orientation.winding = windings_of(tree.input);
+    return orient_parts(soup, report.orient, options.progress);
   }
-  return orientation;
+  TopologyPlaces places;
+  report.orient.parts = examine_topology(index_triangles(soup), soup.points.size(), &places).parts;
+  Orientation as_given;
+  as_given.winding = windings_of(soup);
+  for (const std::uint32_t part : places.parts) as_given.part_of.push_back(part);
+  return as_given;
 }
 
 // Known before any work, and worth asking: overlaps in one plane fall into very many pieces.
@@ -117,7 +118,7 @@ void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) 
   StageMeter meter(report.stages, options.progress);
   require_space(tree.input);
   meter.begin("orient");
-  const Orientation orientation = find_parts(tree, options, report);
+  const Orientation orientation = find_parts(tree.input, options, report);
   const CoveredCells covered = make_cells(tree, orientation.winding, options, report, meter);
   const CellLabels labels = find_solid(covered, orientation, options, report, meter);
   for (CellId c(0u); c < covered.complex.cells.end_id(); ++c.value) {
@@ -209,7 +210,7 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   Surface surface;
   {
     meter.begin("orient");
-    const Orientation orientation = find_parts(tree, options, report);
+    const Orientation orientation = find_parts(tree.input, options, report);
     const CoveredCells covered = make_cells(tree, orientation.winding, options, report, meter);
     // From here on only the input is needed, not the partition.
     tree.nodes = {};

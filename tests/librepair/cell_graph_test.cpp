@@ -98,5 +98,25 @@ TEST(CellGraph, ACubeHasOneBoundedCellBehindTwelveTriangles) {
   EXPECT_EQ(bounded, 1u);
 }
 
+// Also where several triangles lie on one facet.
+TEST(CellGraph, WindingsThatAreSetAreThoseOfTheCover) {
+  TriangleSoup soup = random_grid_boxes(8, 4, 3);
+  append(soup, cube());
+  Cells cells = cells_of(soup);
+  const auto windings = own_windings(cells.tree->input);
+  CoverReport report;
+  std::vector<CoverLayer> layers;
+  const auto cover = cover_facets(cells.complex, windings, report, nullptr, &layers);
+  EXPECT_FALSE(layers.empty());
+  const CellGraph expected(cells.complex, cover);
+  CellGraph graph(cells.complex, cover, nullptr, layers);
+  graph.set_windings(IdVector<TriangleId, std::int32_t>(windings.size(), 0));
+  for (const Link& link : graph.links()) EXPECT_EQ(link.winding, 0);
+  graph.set_windings(windings);
+  for (std::size_t l = 0; l < graph.links().size(); ++l) {
+    EXPECT_EQ(graph.links()[l].winding, expected.links()[l].winding);
+  }
+}
+
 }  // namespace
 }  // namespace meshrepair

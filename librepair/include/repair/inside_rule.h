@@ -35,9 +35,9 @@ struct InsideOptions {
   // weighted by the area of their facets; values that mean nothing come to a quarter) ...
   double trusted_distance = 0.25;
   // ... and at most this share of the covered area is passed with another change than its triangles
-  // say. Closed meshes with 1 to 10 % of their triangles missing have distances up to 0.17 and
-  // contradictions up to 0.03, and volumes within 2 %; orientation at random gives contradictions
-  // above 0.15.
+  // say. Measured on 750 corrupted copies of 30 closed meshes, up to a tenth of the triangles
+  // missing: where the winding is right, distances reach 0.17 and contradictions 0.03. Of triangles
+  // without neighbours the share that is turned wrongly is the contradiction.
   double trusted_contradiction = 0.05;
 };
 
@@ -64,7 +64,8 @@ struct CellLabels {
 };
 
 // The windings of the graph's links are those of the soup for the rule `winding`, those of the
-// orientation for `automatic`; the other rules look at none.
+// orientation for `automatic`; the other rules look at none. Of the orientation, only `automatic`
+// looks at more than which part a triangle belongs to.
 //
 // `automatic` first looks whether the winding numbers can be trusted, then turns parts that are
 // inside out or do not tell which way is out: shells that lie in the solid of others are walls of
