@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
-  add_inside_option(app, options.repair.inside.rule);
+  add_inside_options(app, options.repair.inside);
   add_holes_option(app, options.repair.holes);
   add_max_hole_option(app, options.repair.holes);
   add_touching_option(app, options.repair.extract.touching);

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <bsp/build_tree.h>
 #include <extract/build_cells.h>
@@ -18,15 +19,23 @@ using namespace meshrepair;
 
 namespace {
 
-std::unique_ptr<CellGraph> make_graph(const TriangleSoup& soup) {
+struct Labelling {
+  Orientation orientation;
+  std::unique_ptr<CellGraph> graph;
+};
+
+Labelling make_labelling(const TriangleSoup& soup) {
   CleanReport clean;
   BuildTreeReport tree_report;
   const Tree tree = build_tree(clean_soup(soup, clean), {}, tree_report);
   ClipReport clip;
   CellComplex complex = build_cells(tree, {}, clip);
   CoverReport cover_report;
-  const auto cover = cover_facets(complex, windings_of(tree.input), cover_report);
-  return std::make_unique<CellGraph>(complex, cover);
+  OrientReport orient_report;
+  Orientation orientation = orient_parts(tree.input, orient_report);
+  orientation.winding = windings_of(tree.input);
+  const auto cover = cover_facets(complex, orientation.winding, cover_report);
+  return {std::move(orientation), std::make_unique<CellGraph>(complex, cover)};
 }
 
 }  // namespace
@@ -38,17 +47,17 @@ int main(int argc, char** argv) {
     ++argv;
   }
   for (const InsideRule rule : {InsideRule::parity, InsideRule::solidity, InsideRule::winding}) {
-    bench::run_cases<std::unique_ptr<CellGraph>>(
+    bench::run_cases<Labelling>(
         argc, argv, "label_cells, " + std::string(rule_name(rule)),
         [&](const TriangleSoup& soup) {
-          return make_graph(missing ? testing::without_some(soup, 0.05, 1) : soup);
+          return make_labelling(missing ? testing::without_some(soup, 0.05, 1) : soup);
         },
-        [&](std::unique_ptr<CellGraph>& graph) {
+        [&](Labelling& labelling) {
           InsideOptions options;
           options.rule = rule;
           InsideReport report;
-          (void)label_cells(*graph, options, report);
-          return std::to_string(graph->cells()) + " cells, " +
+          (void)label_cells(*labelling.graph, labelling.orientation, options, report);
+          return std::to_string(labelling.graph->cells()) + " cells, " +
                  std::to_string(report.solve.iterations) + " iterations";
         });
   }

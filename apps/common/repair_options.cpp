@@ -23,6 +23,9 @@ constexpr std::array<Choice<InsideRule>, 4> kRules = {{{"auto", InsideRule::auto
 constexpr std::array<Choice<HoleMode>, 3> kHoleModes = {
     {{"patch", HoleMode::patch}, {"extend", HoleMode::extend}, {"none", HoleMode::none}}};
 
+constexpr std::array<Choice<Cavities>, 2> kCavities = {
+    {{"keep", Cavities::keep}, {"fill", Cavities::fill}}};
+
 constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl_binary},
                                                          {"stl-ascii", SoupFormat::stl_ascii},
                                                          {"obj", SoupFormat::obj},
@@ -65,15 +68,22 @@ std::string why_no_share(const std::string& word) {
 
 }  // namespace
 
-void add_inside_option(CLI::App& app, InsideRule& rule) {
+void add_inside_options(CLI::App& app, InsideOptions& inside) {
   add_choice(
-      app, "--inside", kRules, [&rule](InsideRule value) { rule = value; },
+      app, "--inside", kRules, [&inside](InsideRule value) { inside.rule = value; },
       "How to decide what is solid:\n"
       "  auto      winding where the orientation can be trusted, else solidity\n"
       "  solidity  looks at no orientation; fills voids\n"
       "  parity    looks at no orientation; voids and overlaps are empty\n"
       "  winding   trusts the orientation; overlaps are solid, voids empty\n")
-      ->default_str(std::string(rule_name(rule)))
+      ->default_str(std::string(rule_name(inside.rule)))
+      ->group("Repair");
+  add_choice(
+      app, "--cavities", kCavities, [&inside](Cavities value) { inside.cavities = value; },
+      "What becomes of voids that no way leads into from outside:\n"
+      "  keep  as the rule of --inside says\n"
+      "  fill  solid, whatever the rule\n")
+      ->default_str("keep")
       ->group("Repair");
 }
 

@@ -14,8 +14,8 @@
 
 namespace meshrepair {
 
-// --inside: which parts of space are solid.
-void add_inside_option(CLI::App& app, InsideRule& rule);
+// --inside and --cavities: which parts of space are solid.
+void add_inside_options(CLI::App& app, InsideOptions& inside);
 
 // --holes: how gaps are closed.
 void add_holes_option(CLI::App& app, HoleOptions& holes);

@@ -78,6 +78,7 @@ Json section_of(const BuildTreeReport& tree) {
 Json section_of(const OrientReport& orient) {
   return {{"parts", orient.parts},
           {"turned_triangles", orient.turned_triangles},
+          {"doubtful_parts", orient.doubtful_parts},
           {"unorientable_parts", orient.unorientable_parts}};
 }
 
@@ -109,6 +110,10 @@ Json section_of(const InsideReport& inside) {
           {"converged", inside.solve.converged},
           {"winding_distance", inside.winding_distance},
           {"winding_contradiction", inside.winding_contradiction},
+          {"turned_parts", inside.turned_parts},
+          {"doubtful_parts", inside.doubtful_parts},
+          {"cavity_walls", inside.cavity_walls},
+          {"filled_voids", inside.filled_voids},
           {"solid_cells", inside.solid_cells}};
 }
 

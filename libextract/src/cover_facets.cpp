@@ -40,12 +40,13 @@ constexpr std::size_t kTicksPerQuestion = 256;
 class FacetCoverer {
  public:
   FacetCoverer(CellComplex& complex, const IdVector<TriangleId, std::int32_t>& winding,
-               CoverReport& report, ProgressObserver* progress)
+               CoverReport& report, ProgressObserver* progress, bool wants_layers)
       : complex_(complex),
         winding_(winding),
         report_(report),
         progress_(progress),
-        cover_(complex.facets.size()) {}
+        cover_(complex.facets.size()),
+        wants_layers_(wants_layers) {}
 
   IdVector<FacetId, Cover> run() {
     const std::size_t count = complex_.facets.size();
@@ -62,7 +63,26 @@ class FacetCoverer {
     return std::move(cover_);
   }
 
+  // After run().
+  [[nodiscard]] std::vector<CoverLayer> layers() const {
+    std::vector<CoverLayer> list;
+    for (FacetId f(0u); f.index() < top_layer_.size(); ++f.value) {
+      for (std::uint32_t l = top_layer_[f.index()]; l != kNoLayer; l = layers_[l].below) {
+        list.push_back({f, layers_[l].triangle});
+      }
+    }
+    return list;
+  }
+
  private:
+  static constexpr std::uint32_t kNoLayer = ~std::uint32_t{0};
+
+  // Facets that were split off one another share the layers that they had before.
+  struct Layer {
+    TriangleId triangle;
+    std::uint32_t below;
+  };
+
   struct Piece {
     FacetId facet;
     std::vector<TriangleId> undecided;
@@ -113,12 +133,21 @@ class FacetCoverer {
       const Coverage coverage = coverage_of(complex_, piece.facet, prepared(t));
       if (coverage == Coverage::part) piece.undecided[kept++] = t;
       if (coverage == Coverage::full) {
-        Cover& c = cover_[piece.facet];
-        if (!c.opaque() || t < c.triangle) c.triangle = t;
-        c.winding += winding_[t];
+        add_cover(piece.facet, t);
       }
     }
     piece.undecided.resize(kept);
+  }
+
+  void add_cover(FacetId facet, TriangleId t) {
+    Cover& c = cover_[facet];
+    c.winding += winding_[t];
+    if (c.opaque() && wants_layers_) {
+      top_layer_.resize(std::max(top_layer_.size(), facet.index() + 1), kNoLayer);
+      layers_.push_back({std::max(t, c.triangle), top_layer_[facet.index()]});
+      top_layer_[facet.index()] = static_cast<std::uint32_t>(layers_.size() - 1);
+    }
+    if (!c.opaque() || t < c.triangle) c.triangle = t;
   }
 
   // An edge that crosses the facet, cuts few of the undecided triangles and leaves both sides
@@ -197,6 +226,10 @@ class FacetCoverer {
     const int kept_side = side_of(complex_.target(complex_.uses[ends_[0]]), plane);
     const FacetId added = internal::split_facet(complex_, facet, ends_[0], ends_[1], plane);
     cover_.push_back(cover_[facet]);
+    if (facet.index() < top_layer_.size() && top_layer_[facet.index()] != kNoLayer) {
+      top_layer_.resize(cover_.size(), kNoLayer);
+      top_layer_.back() = top_layer_[facet.index()];
+    }
     return kept_side > 0 ? Halves{facet, added} : Halves{added, facet};
   }
 
@@ -224,6 +257,9 @@ class FacetCoverer {
   CoverReport& report_;
   ProgressObserver* progress_;
   IdVector<FacetId, Cover> cover_;
+  bool wants_layers_;
+  std::vector<std::uint32_t> top_layer_;  // of each facet, as far as there are any
+  std::vector<Layer> layers_;
   std::vector<Piece> pieces_;
   std::vector<UseId> crossed_, ends_;  // scratch
   PreparedTriangle prepared_;
@@ -235,9 +271,13 @@ class FacetCoverer {
 
 IdVector<FacetId, Cover> cover_facets(CellComplex& complex,
                                       const IdVector<TriangleId, std::int32_t>& winding,
-                                      CoverReport& report, ProgressObserver* progress) {
+                                      CoverReport& report, ProgressObserver* progress,
+                                      std::vector<CoverLayer>* layers) {
   report = {};
-  return FacetCoverer(complex, winding, report, progress).run();
+  FacetCoverer coverer(complex, winding, report, progress, layers != nullptr);
+  IdVector<FacetId, Cover> cover = coverer.run();
+  if (layers != nullptr) *layers = coverer.layers();
+  return cover;
 }
 
 }  // namespace meshrepair

@@ -13,9 +13,10 @@ constexpr double kLeastArea = 1e-6;
 }  // namespace
 
 CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-                     ProgressObserver* progress)
+                     ProgressObserver* progress, std::span<const CoverLayer> layers)
     : first_(complex.cells.size() + 1, 0), unbounded_(complex.cells.size(), 0) {
   CancelCheck check(progress);
+  std::size_t next_layer = 0;
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
     check.tick();
     const Facet& facet = complex.facets[f];
@@ -24,9 +25,12 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
     } else if (!facet.below.valid()) {
       unbounded_[facet.above.index()] = 1;
     } else {
+      for (; next_layer < layers.size() && layers[next_layer].facet <= f; ++next_layer) {
+        layers_.push_back({static_cast<std::uint32_t>(links_.size()), layers[next_layer].triangle});
+      }
       links_.push_back({facet.below, facet.above,
                         static_cast<float>(std::max(facet_area(complex, f), kLeastArea)),
-                        cover[f].winding, cover[f].opaque()});
+                        cover[f].winding, cover[f].triangle});
       ++first_[facet.below.index() + 1];
       ++first_[facet.above.index() + 1];
     }
@@ -39,6 +43,11 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
     of_cell_[filled[links_[l].below.index()]++] = l;
     of_cell_[filled[links_[l].above.index()]++] = l;
   }
+}
+
+void CellGraph::set_windings(const IdVector<TriangleId, std::int32_t>& winding) {
+  for (Link& link : links_) link.winding = link.opaque() ? winding[link.triangle] : 0;
+  for (const Layer& layer : layers_) links_[layer.link].winding += winding[layer.triangle];
 }
 
 }  // namespace meshrepair

@@ -19,7 +19,7 @@ std::vector<char> flood_from_infinity(const CellGraph& graph, const std::vector<
     for (const std::uint32_t l : graph.links_of(cell)) {
       const Link& link = graph.links()[l];
       const CellId next = other_end(link, cell);
-      if (link.opaque || inside[next.index()] == 0 || empty[next.index()] == 0) continue;
+      if (link.opaque() || inside[next.index()] == 0 || empty[next.index()] == 0) continue;
       inside[next.index()] = 0;
       queue.push_back(next);
     }

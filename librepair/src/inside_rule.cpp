@@ -1,34 +1,33 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <repair/flood.h>
 #include <repair/inside_rule.h>
 #include <repair/walk.h>
 
+#include "turn_parts.h"
+#include "voids.h"
+#include "winding_field.h"
+
 namespace meshrepair {
 namespace {
 
+std::string count_of(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 class InsideDecider {
  public:
-  InsideDecider(const CellGraph& graph, const InsideOptions& options, InsideReport& report)
-      : graph_(graph), options_(options), report_(report) {}
+  InsideDecider(const CellGraph& graph, const Orientation& orientation,
+                const InsideOptions& options, InsideReport& report)
+      : graph_(graph), orientation_(orientation), options_(options), report_(report) {}
 
   CellLabels run() {
     report_.asked = report_.used = options_.rule;
-    CellLabels labels;
-    switch (options_.rule) {
-      case InsideRule::parity:
-        labels = by_parity();
-        break;
-      case InsideRule::solidity:
-        labels = by_solidity();
-        break;
-      case InsideRule::winding:
-        labels = by_winding(winding());
-        break;
-      case InsideRule::automatic:
-        labels = by_trust();
-        break;
+    CellLabels labels = by_rule();
+    if (options_.cavities == Cavities::fill && report_.used == InsideRule::winding) {
+      report_.filled_voids = internal::fill_voids(graph_, labels.solid, options_.solve.progress);
     }
     if (report_.reason.empty()) report_.reason = "asked for";
     report_.solid_cells =
@@ -37,25 +36,30 @@ class InsideDecider {
   }
 
  private:
+  CellLabels by_rule() {
+    switch (options_.rule) {
+      case InsideRule::parity:
+        // Filled, parity is solidity, and overlaps are no voids there.
+        if (options_.cavities == Cavities::fill) return by_solidity(Cavities::fill);
+        return by_parity();
+      case InsideRule::solidity:
+        return by_solidity(Cavities::fill);
+      case InsideRule::winding:
+        return by_winding(internal::winding_field(graph_, options_.solve, report_));
+      case InsideRule::automatic:
+        break;
+    }
+    return by_trust();
+  }
+
   std::vector<double> solidity() {
     const Walk walk = walk_parity(graph_, options_.solve.progress);
-    note_walk(walk);
+    report_.exact = walk.consistent();
+    report_.contradictions = walk.contradictions;
     if (!walk.consistent()) return solve_solidity(graph_, options_.solve, report_.solve);
     std::vector<double> s(graph_.cells());
     for (std::size_t i = 0; i < s.size(); ++i) s[i] = 2.0 * walk.value[i] - 1.0;
     return s;
-  }
-
-  std::vector<double> winding() {
-    const Walk walk = walk_winding(graph_, options_.solve.progress);
-    note_walk(walk);
-    if (!walk.consistent()) return solve_winding(graph_, options_.solve, report_.solve);
-    return {walk.value.begin(), walk.value.end()};
-  }
-
-  void note_walk(const Walk& walk) {
-    report_.exact = walk.consistent();
-    report_.contradictions = walk.contradictions;
   }
 
   CellLabels by_parity() {
@@ -67,11 +71,20 @@ class InsideDecider {
     return labels;
   }
 
-  CellLabels by_solidity() {
+  CellLabels by_solidity(Cavities cavities) {
     CellLabels labels = by_parity();
     std::vector<char> empty(labels.solid.size());
     for (std::size_t i = 0; i < empty.size(); ++i) empty[i] = labels.solid[i] == 0;
     labels.solid = flood_from_infinity(graph_, empty, options_.solve.progress);
+    const internal::Voids voids = internal::find_voids(
+        graph_, labels.solid, empty, orientation_.part_of, options_.solve.progress);
+    if (cavities == Cavities::fill) {
+      report_.filled_voids = voids.count;
+    } else {
+      for (std::size_t i = 0; i < empty.size(); ++i) {
+        if (voids.marked[i] != 0) labels.solid[i] = 0;
+      }
+    }
     return labels;
   }
 
@@ -85,20 +98,61 @@ class InsideDecider {
   }
 
   CellLabels by_trust() {
-    std::vector<double> w = winding();
+    std::vector<double> w = internal::winding_field(graph_, options_.solve, report_);
     measure_trust(w);
-    const std::string doubt = why_not_winding(w);
-    if (doubt.empty()) {
-      // A soup that is inside out as a whole has negative windings; it is as solid as any other.
-      for (double& x : w) x = std::abs(x);
-      report_.used = InsideRule::winding;
-      report_.reason = report_.exact ? "the orientation is consistent everywhere"
-                                     : "the winding numbers are near integers";
-      return by_winding(w);
+    report_.reason = why_not_winding(w);
+    if (!report_.reason.empty()) {
+      report_.used = InsideRule::solidity;
+      return by_solidity(options_.cavities);
     }
-    report_.used = InsideRule::solidity;
-    report_.reason = doubt;
-    return by_solidity();
+    w = internal::turn_parts(graph_, orientation_, std::move(w), options_, report_);
+    report_.used = InsideRule::winding;
+    report_.reason = why_winding();
+    turn_outer_pockets(w);
+    return by_winding(w);
+  }
+
+  // A surface that crosses itself may wind the wrong way around a piece of space, like one half of
+  // a bow tie. What so borders the outside is solid as well; in a cavity it is not.
+  void turn_outer_pockets(std::vector<double>& w) const {
+    if (std::none_of(w.begin(), w.end(), [](double x) { return x < -0.5; })) return;
+    std::vector<char> seen(graph_.cells(), 0);
+    std::vector<CellId> queue;
+    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
+      if (!graph_.unbounded(c)) continue;
+      seen[c.index()] = 1;
+      queue.push_back(c);
+    }
+    // From empty cells into empty and negative ones, from those into negative ones only.
+    while (!queue.empty()) {
+      const CellId cell = queue.back();
+      queue.pop_back();
+      const bool in_pocket = w[cell.index()] > 0.5;
+      for (const std::uint32_t l : graph_.links_of(cell)) {
+        const CellId next = other_end(graph_.links()[l], cell);
+        double& x = w[next.index()];
+        if (seen[next.index()] != 0 || x > 0.5 || (in_pocket && x >= -0.5)) continue;
+        seen[next.index()] = 1;
+        if (x < -0.5) x = -x;
+        queue.push_back(next);
+      }
+    }
+  }
+
+  [[nodiscard]] std::string why_winding() const {
+    std::string why = report_.exact ? "the orientation is consistent everywhere"
+                                    : "the winding numbers are near integers";
+    if (report_.turned_parts > 0) {
+      why += "; " + count_of(report_.turned_parts, "part") + " inside out and turned";
+    }
+    if (report_.doubtful_parts > 0) {
+      why += "; " + count_of(report_.doubtful_parts, "part") +
+             " that may face either way turned outward";
+      if (report_.cavity_walls > 0) {
+        why += ", but " + std::to_string(report_.cavity_walls) + " of them as walls of cavities";
+      }
+    }
+    return why;
   }
 
   [[nodiscard]] std::string why_not_winding(const std::vector<double>& w) const {
@@ -108,11 +162,8 @@ class InsideDecider {
     if (report_.winding_contradiction > options_.trusted_contradiction) {
       return "the orientation contradicts itself";
     }
-    const bool positive = std::any_of(w.begin(), w.end(), [](double x) { return x > 0.5; });
-    const bool negative = std::any_of(w.begin(), w.end(), [](double x) { return x < -0.5; });
-    // Where a part that is inside out crosses another, their windings cancel.
-    if (positive && negative) return "some parts are inside out";
-    return positive || negative ? "" : "the winding numbers enclose nothing";
+    const bool any = std::any_of(w.begin(), w.end(), [](double x) { return std::abs(x) > 0.5; });
+    return any ? "" : "the winding numbers enclose nothing";
   }
 
   void measure_trust(const std::vector<double>& w) {
@@ -122,9 +173,12 @@ class InsideDecider {
         distance += link.area * std::abs(w[c.index()] - std::round(w[c.index()]));
         weight += link.area;
       }
-      if (!link.opaque) continue;
-      covered += link.area;
+      if (!link.opaque()) continue;
       const double change = w[link.below.index()] - w[link.above.index()];
+      // A loose sheet between two places alike says nothing of the orientation of the rest.
+      const bool shell = orientation_.parts[orientation_.part_of[link.triangle]].shell;
+      if (!shell && std::abs(change) < 0.5) continue;
+      covered += link.area;
       if (std::abs(change - link.winding) > 0.5) wrong += link.area;
     }
     report_.winding_distance = weight > 0 ? distance / weight : 0;
@@ -132,6 +186,7 @@ class InsideDecider {
   }
 
   const CellGraph& graph_;
+  const Orientation& orientation_;
   const InsideOptions& options_;
   InsideReport& report_;
 };
@@ -152,9 +207,10 @@ std::string_view rule_name(InsideRule rule) {
   return "auto";
 }
 
-CellLabels label_cells(const CellGraph& graph, const InsideOptions& options, InsideReport& report) {
+CellLabels label_cells(const CellGraph& graph, const Orientation& orientation,
+                       const InsideOptions& options, InsideReport& report) {
   report = {};
-  return InsideDecider(graph, options, report).run();
+  return InsideDecider(graph, orientation, options, report).run();
 }
 
 }  // namespace meshrepair

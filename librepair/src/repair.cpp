@@ -13,6 +13,7 @@ namespace {
 struct CoveredCells {
   CellComplex complex;
   IdVector<FacetId, Cover> cover;
+  std::vector<CoverLayer> layers;
 };
 
 CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_t>& winding,
@@ -21,19 +22,27 @@ CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_
   BuildCellsOptions cell_options;
   cell_options.check_every_clip = options.check_cells;
   cell_options.progress = options.progress;
-  CoveredCells covered{build_cells(tree, cell_options, report.clip), {}};
+  CoveredCells covered{build_cells(tree, cell_options, report.clip), {}, {}};
   report.cells = covered.complex.cells.size();
   meter.begin("cover");
-  covered.cover = cover_facets(covered.complex, winding, report.cover, options.progress);
+  covered.cover =
+      cover_facets(covered.complex, winding, report.cover, options.progress, &covered.layers);
   report.facets = covered.complex.facets.size();
   return covered;
 }
 
-IdVector<TriangleId, std::int32_t> chosen_windings(const Tree& tree, const RepairOptions& options,
-                                                   RepairReport& report) {
-  return options.inside.rule == InsideRule::automatic
-             ? orient_parts(tree.input, report.orient, options.progress)
-             : windings_of(tree.input);
+// The parts of the input: oriented for `automatic`, else as they are connected through edges, which
+// does not depend on how their triangles are turned.
+Orientation find_parts(const CleanSoup& soup, const RepairOptions& options, RepairReport& report) {
+  if (options.inside.rule == InsideRule::automatic) {
+    return orient_parts(soup, report.orient, options.progress);
+  }
+  TopologyPlaces places;
+  report.orient.parts = examine_topology(index_triangles(soup), soup.points.size(), &places).parts;
+  Orientation as_given;
+  as_given.winding = windings_of(soup);
+  for (const std::uint32_t part : places.parts) as_given.part_of.push_back(part);
+  return as_given;
 }
 
 // Known before any work, and worth asking: overlaps in one plane fall into very many pieces.
@@ -58,15 +67,15 @@ void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabel
   }
 }
 
-CellLabels find_solid(const CoveredCells& covered, const RepairOptions& options,
-                      RepairReport& report, StageMeter& meter) {
+CellLabels find_solid(const CoveredCells& covered, const Orientation& orientation,
+                      const RepairOptions& options, RepairReport& report, StageMeter& meter) {
   meter.begin("links");
-  const CellGraph graph(covered.complex, covered.cover, options.progress);
+  const CellGraph graph(covered.complex, covered.cover, options.progress, covered.layers);
   report.links = graph.links().size();
   meter.begin("inside");
   InsideOptions inside_options = options.inside;
   inside_options.solve.progress = options.progress;
-  CellLabels labels = label_cells(graph, inside_options, report.inside);
+  CellLabels labels = label_cells(graph, orientation, inside_options, report.inside);
   if (options.holes.mode == HoleMode::none) {
     drop_unsealed(graph, options.progress, labels, report.inside);
   }
@@ -129,9 +138,9 @@ void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) 
   StageMeter meter(report.stages, options.progress);
   require_space(tree.input);
   meter.begin("orient");
-  const auto winding = chosen_windings(tree, options, report);
-  const CoveredCells covered = make_cells(tree, winding, options, report, meter);
-  const CellLabels labels = find_solid(covered, options, report, meter);
+  const Orientation orientation = find_parts(tree.input, options, report);
+  const CoveredCells covered = make_cells(tree, orientation.winding, options, report, meter);
+  const CellLabels labels = find_solid(covered, orientation, options, report, meter);
   for (CellId c(0u); c < covered.complex.cells.end_id(); ++c.value) {
     tree.leaves[covered.complex.cells[c].leaf] = {
         labels.solid[c.index()] != 0 ? Label::solid : Label::empty, labels.confidence[c.index()]};
@@ -208,13 +217,13 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   Surface surface;
   {
     meter.begin("orient");
-    const auto winding = chosen_windings(tree, options, report);
-    const CoveredCells covered = make_cells(tree, winding, options, report, meter);
+    const Orientation orientation = find_parts(tree.input, options, report);
+    const CoveredCells covered = make_cells(tree, orientation.winding, options, report, meter);
     // From here on only the input is needed, not the partition.
     tree.nodes = {};
     tree.node_triangles = {};
     tree.leaves = {};
-    const CellLabels labels = find_solid(covered, options, report, meter);
+    const CellLabels labels = find_solid(covered, orientation, options, report, meter);
     meter.begin("extract");
     surface = extract(covered, labels.solid, options, report);
   }

@@ -40,7 +40,7 @@ Walk walk(const CellGraph& graph, ProgressObserver* progress, Step step) {
 
 Walk walk_parity(const CellGraph& graph, ProgressObserver* progress) {
   return walk(graph, progress, [](const Link& link, CellId, std::int32_t value) {
-    return link.opaque ? 1 - value : value;
+    return link.opaque() ? 1 - value : value;
   });
 }
 

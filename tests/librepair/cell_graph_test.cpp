@@ -46,7 +46,7 @@ TEST(CellGraph, LinksAreTheFacetsBetweenCells) {
         EXPECT_EQ(link.above, facet.above);
         EXPECT_EQ(link.winding, g.cover[f].winding);
         EXPECT_GT(link.area, 0);
-        opaque += link.opaque;
+        opaque += link.opaque();
       } else {
         unbounded.insert(facet.above.valid() ? facet.above : facet.below);
       }
@@ -91,11 +91,31 @@ TEST(CellGraph, ACubeHasOneBoundedCellBehindTwelveTriangles) {
     EXPECT_EQ(g.graph.links_of(c).size(), 12u);
     for (const std::uint32_t l : g.graph.links_of(c)) {
       const Link& link = g.graph.links()[l];
-      EXPECT_TRUE(link.opaque);
+      EXPECT_TRUE(link.opaque());
       EXPECT_EQ(link.winding, link.below == c ? 1 : -1);
     }
   }
   EXPECT_EQ(bounded, 1u);
+}
+
+// Also where several triangles lie on one facet.
+TEST(CellGraph, WindingsThatAreSetAreThoseOfTheCover) {
+  TriangleSoup soup = random_grid_boxes(8, 4, 3);
+  append(soup, cube());
+  Cells cells = cells_of(soup);
+  const auto windings = own_windings(cells.tree->input);
+  CoverReport report;
+  std::vector<CoverLayer> layers;
+  const auto cover = cover_facets(cells.complex, windings, report, nullptr, &layers);
+  EXPECT_FALSE(layers.empty());
+  const CellGraph expected(cells.complex, cover);
+  CellGraph graph(cells.complex, cover, nullptr, layers);
+  graph.set_windings(IdVector<TriangleId, std::int32_t>(windings.size(), 0));
+  for (const Link& link : graph.links()) EXPECT_EQ(link.winding, 0);
+  graph.set_windings(windings);
+  for (std::size_t l = 0; l < graph.links().size(); ++l) {
+    EXPECT_EQ(graph.links()[l].winding, expected.links()[l].winding);
+  }
 }
 
 }  // namespace

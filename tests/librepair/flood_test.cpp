@@ -53,7 +53,7 @@ TEST(Flood, BorderOfTheInsideIsOpaqueOrNotEmpty) {
       for (const CellId c : {link.below, link.above}) {
         const CellId other = other_end(link, c);
         if (inside[c.index()] == 0 || inside[other.index()] != 0) continue;
-        EXPECT_TRUE(link.opaque || empty[c.index()] == 0);
+        EXPECT_TRUE(link.opaque() || empty[c.index()] == 0);
       }
     }
     for (CellId c(0u); c.index() < g.graph.cells(); ++c.value) {

@@ -37,7 +37,7 @@ double solidity_energy(const CellGraph& graph, const std::vector<double>& s) {
   for (const Link& link : graph.links()) {
     const double a = s[link.below.index()];
     const double b = s[link.above.index()];
-    sum += link.area * (link.opaque ? (a + b) * (a + b) : (a - b) * (a - b));
+    sum += link.area * (link.opaque() ? (a + b) * (a + b) : (a - b) * (a - b));
   }
   return sum;
 }
@@ -74,7 +74,7 @@ TEST(Solidity, ACubeWithOpeningsMatchesTheClosedForm) {
     for (const std::uint32_t l : g.graph.links_of(CellId(inside))) {
       const Link& link = g.graph.links()[l];
       all += link.area;
-      if (link.opaque) opaque += link.area;
+      if (link.opaque()) opaque += link.area;
     }
     SolveReport report;
     const auto s = solve_solidity(g.graph, precise(), report);

@@ -157,12 +157,22 @@ TEST_P(Metamorphic, PermutedTrianglesEncloseTheSameVolume) {
       std::rotate(t.begin(), t.begin() + random.integer(0, 2), t.end());
     }
     // Another tree has other cells, and where input is missing other gaps are closed.
-    const auto a = try_repair(soup, InsideRule::parity);
-    const auto b = try_repair(shuffled, InsideRule::parity);
-    if (a && b) {
-      expect_closed_manifold(b->surface.mesh);
-      EXPECT_EQ(a->report.inside.exact, b->report.inside.exact);
+    for (const InsideRule rule : {InsideRule::parity, InsideRule::automatic}) {
+      const auto a = try_repair(soup, rule);
+      const auto b = try_repair(shuffled, rule);
+      if (a && b) {
+        expect_closed_manifold(b->surface.mesh);
+        EXPECT_EQ(a->report.inside.exact, b->report.inside.exact);
+      }
+      if (is_clear(a) && is_clear(b)) expect_same_volume(a, b);
     }
+  });
+}
+
+TEST_P(Metamorphic, TurningAllTrianglesEnclosesTheSameVolume) {
+  for_seeds(6, [](const TriangleSoup& soup, std::uint64_t) {
+    const auto a = try_repair(soup, InsideRule::automatic);
+    const auto b = try_repair(flipped(soup), InsideRule::automatic);
     if (is_clear(a) && is_clear(b)) expect_same_volume(a, b);
   });
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <repair/cell_graph.h>
+#include <repair/orient_parts.h>
 
 #include "complexes.h"
 
@@ -13,13 +14,16 @@ struct Graph {
   Cells cells;
   IdVector<FacetId, Cover> cover;
   CellGraph graph;
+  Orientation orientation;
 };
 
 inline Graph graph_of(const TriangleSoup& soup) {
   Cells cells = cells_of(soup);
   IdVector<FacetId, Cover> cover = cover_of(cells);
   CellGraph graph(cells.complex, cover);
-  return {std::move(cells), std::move(cover), std::move(graph)};
+  OrientReport report;
+  Orientation orientation = orient_parts(cells.tree->input, report);
+  return {std::move(cells), std::move(cover), std::move(graph), std::move(orientation)};
 }
 
 // Volume of the cells marked, in the input's units.

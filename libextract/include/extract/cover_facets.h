@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <bsp/progress.h>
 #include <extract/cell_complex.h>
@@ -17,6 +18,12 @@ struct Cover {
   [[nodiscard]] bool opaque() const { return triangle.valid(); }
 };
 
+// One more triangle on a facet that Cover::triangle covers already.
+struct CoverLayer {
+  FacetId facet;
+  TriangleId triangle;
+};
+
 struct CoverReport {
   std::size_t opaque_facets = 0;
   std::size_t split_facets = 0;  // how many cuts it took until no facet was covered in part
@@ -26,9 +33,10 @@ struct CoverReport {
 // triangle covers in part (coplanar triangles, open borders) is split along the triangle's edges;
 // its new vertices go into the neighbouring facets too, so the complex stays conforming. Frees the
 // facets' lists of triangles. `winding` is how each triangle is turned against the normal of its
-// plane (Triangle::winding, or that of another orientation of the soup).
+// plane (Triangle::winding, or that of another orientation of the soup). `layers`, unless null,
+// gets what lies on a facet beyond Cover::triangle, in the order of the facets.
 [[nodiscard]] IdVector<FacetId, Cover> cover_facets(
     CellComplex& complex, const IdVector<TriangleId, std::int32_t>& winding, CoverReport& report,
-    ProgressObserver* progress = nullptr);
+    ProgressObserver* progress = nullptr, std::vector<CoverLayer>* layers = nullptr);
 
 }  // namespace meshrepair

@@ -16,14 +16,21 @@ struct Link {
   CellId below, above;
   float area = 0;            // grid units, from rounded coordinates: a weight
   std::int32_t winding = 0;  // of the cover, against the direction from below to above
-  bool opaque = false;       // covered by input
+  TriangleId triangle;       // the lowest id of those that cover it; invalid: none
+
+  [[nodiscard]] bool opaque() const { return triangle.valid(); }
 };
 
 class CellGraph {
  public:
-  // `progress` is asked whether to go on.
+  // `layers` as cover_facets() gives them; without them set_windings() takes every facet to be
+  // covered by one triangle alone. `progress` is asked whether to go on.
   CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-            ProgressObserver* progress = nullptr);
+            ProgressObserver* progress = nullptr, std::span<const CoverLayer> layers = {});
+
+  // Sets the windings of the links to those of triangles that are turned otherwise, against the
+  // normals of their planes.
+  void set_windings(const IdVector<TriangleId, std::int32_t>& winding);
 
   [[nodiscard]] std::size_t cells() const { return first_.size() - 1; }
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
@@ -35,7 +42,14 @@ class CellGraph {
   [[nodiscard]] bool unbounded(CellId cell) const { return unbounded_[cell.index()] != 0; }
 
  private:
+  // One more triangle on a link.
+  struct Layer {
+    std::uint32_t link;
+    TriangleId triangle;
+  };
+
   std::vector<Link> links_;
+  std::vector<Layer> layers_;
   std::vector<std::uint32_t> first_;
   std::vector<std::uint32_t> of_cell_;
   std::vector<char> unbounded_;

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include <repair/cell_graph.h>
+#include <repair/orient_parts.h>
 #include <repair/solidity.h>
 
 namespace meshrepair {
 
 enum class InsideRule {
-  automatic,  // winding where the orientation can be trusted, else solidity
+  automatic,  // winding where the orientation can be trusted, else solidity: see label_cells()
   solidity,   // s > 0, then everything that a flood from infinity does not reach (WM 6.2)
   parity,     // s > 0 alone
   winding,    // w > 1/2, whatever the values
@@ -20,14 +21,23 @@ enum class InsideRule {
 
 [[nodiscard]] std::string_view rule_name(InsideRule rule);
 
+// What becomes of a void, a hollow space that no way leads into from outside.
+enum class Cavities {
+  keep,  // what the rule says
+  fill,  // solid
+};
+
 struct InsideOptions {
   InsideRule rule = InsideRule::automatic;
+  Cavities cavities = Cavities::keep;
   SolveOptions solve;
   // `automatic` trusts the winding when its values are this near to integers (mean over the cells,
-  // weighted by the area of their facets) ...
-  double trusted_distance = 0.1;
+  // weighted by the area of their facets; values that mean nothing come to a quarter) ...
+  double trusted_distance = 0.25;
   // ... and at most this share of the covered area is passed with another change than its triangles
-  // say.
+  // say. Measured on 750 corrupted copies of 30 closed meshes, up to a tenth of the triangles
+  // missing: where the winding is right, distances reach 0.17 and contradictions 0.03. Of triangles
+  // without neighbours the share that is turned wrongly is the contradiction.
   double trusted_contradiction = 0.05;
 };
 
@@ -40,6 +50,11 @@ struct InsideReport {
   SolveReport solve;               // all 0 when nothing was solved
   double winding_distance = 0;     // as in the options; only where a winding was looked at
   double winding_contradiction = 0;
+  // Of the parts of the surface; `automatic` only.
+  std::size_t turned_parts = 0;    // inside out by their own triangles, and turned
+  std::size_t doubtful_parts = 0;  // whose triangles do not tell which way is out ...
+  std::size_t cavity_walls = 0;    // ... and that were found to be walls of cavities
+  std::size_t filled_voids = 0;    // made solid because of the rule or the option
   std::size_t solid_cells = 0;
 };
 
@@ -48,7 +63,16 @@ struct CellLabels {
   std::vector<float> confidence;  // 0 to 1
 };
 
-[[nodiscard]] CellLabels label_cells(const CellGraph& graph, const InsideOptions& options,
-                                     InsideReport& report);
+// The windings of the graph's links are those of the soup for the rule `winding`, those of the
+// orientation for `automatic`; the other rules look at none. Of the orientation, only `automatic`
+// looks at more than which part a triangle belongs to.
+//
+// `automatic` first looks whether the winding numbers can be trusted, then turns parts that are
+// inside out or do not tell which way is out: shells that lie in the solid of others are walls of
+// cavities, others face outward. Solid is what they wind around, and what winds the other way and
+// borders the outside. Where the winding cannot be trusted, it is `solidity`, but voids are kept
+// that are bounded by whole parts.
+[[nodiscard]] CellLabels label_cells(const CellGraph& graph, const Orientation& orientation,
+                                     const InsideOptions& options, InsideReport& report);
 
 }  // namespace meshrepair
