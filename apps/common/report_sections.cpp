@@ -110,6 +110,7 @@ Json section_of(const InsideReport& inside) {
           {"converged", inside.solve.converged},
           {"winding_distance", inside.winding_distance},
           {"winding_contradiction", inside.winding_contradiction},
+          {"loose_share", inside.loose_share},
           {"turned_parts", inside.turned_parts},
           {"doubtful_parts", inside.doubtful_parts},
           {"cavity_walls", inside.cavity_walls},

@@ -162,27 +162,31 @@ class InsideDecider {
     if (report_.winding_contradiction > options_.trusted_contradiction) {
       return "the orientation contradicts itself";
     }
+    if (report_.loose_share > options_.trusted_loose_share) {
+      return "too much of the surface is open sheets";
+    }
     const bool any = std::any_of(w.begin(), w.end(), [](double x) { return std::abs(x) > 0.5; });
     return any ? "" : "the winding numbers enclose nothing";
   }
 
   void measure_trust(const std::vector<double>& w) {
-    double distance = 0, weight = 0, wrong = 0, covered = 0;
+    double distance = 0, weight = 0, wrong = 0, loose = 0, covered = 0;
     for (const Link& link : graph_.links()) {
       for (const CellId c : {link.below, link.above}) {
         distance += link.area * std::abs(w[c.index()] - std::round(w[c.index()]));
         weight += link.area;
       }
       if (!link.opaque()) continue;
+      covered += link.area;
       const double change = w[link.below.index()] - w[link.above.index()];
+      if (std::abs(change - link.winding) <= 0.5) continue;
       // A loose sheet between two places alike says nothing of the orientation of the rest.
       const bool shell = orientation_.parts[orientation_.part_of[link.triangle]].shell;
-      if (!shell && std::abs(change) < 0.5) continue;
-      covered += link.area;
-      if (std::abs(change - link.winding) > 0.5) wrong += link.area;
+      (!shell && std::abs(change) < 0.5 ? loose : wrong) += link.area;
     }
     report_.winding_distance = weight > 0 ? distance / weight : 0;
-    report_.winding_contradiction = covered > 0 ? wrong / covered : 0;
+    report_.winding_contradiction = covered > loose ? wrong / (covered - loose) : 0;
+    report_.loose_share = covered > 0 ? loose / covered : 0;
   }
 
   const CellGraph& graph_;

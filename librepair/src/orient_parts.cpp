@@ -92,10 +92,11 @@ class PartOrienter {
       wall_[p] = patches[p].doubled && open_[p] > 0 && !patches[p].sum.nearly_closed();
     }
     for (const auto& sides : crowded_) {
-      const bool all_doubled = std::all_of(sides.begin(), sides.end(), [&](std::uint32_t s) {
-        return patches[patches_.of[s / 3]].doubled;
+      const bool none_else = std::all_of(sides.begin(), sides.end(), [&](std::uint32_t s) {
+        const Patch& patch = patches[patches_.of[s / 3]];
+        return patch.doubled || patch.closes_holes;
       });
-      if (all_doubled) continue;
+      if (none_else) continue;
       for (const std::uint32_t s : sides) {
         const std::uint32_t p = patches_.of[s / 3];
         if (patches[p].doubled) wall_[p] = 1;

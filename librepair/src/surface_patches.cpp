@@ -168,15 +168,14 @@ class PatchFinder {
 
   void add_up(Patch& patch) {
     patch.triangles = static_cast<std::uint32_t>(members_.size());
-    bool any_doubled = false;
     for (const std::uint32_t t : members_) {
       const SurfaceSum sum = sum_of(soup_, TriangleId(t));
       patch.sum.add(result_.turned[t] != 0 ? sum.turned_round() : sum);
       const Triangle& triangle = soup_.triangles[TriangleId(t)];
-      any_doubled |= triangle.winding == 0;
       patch.doubled &= !says_something(triangle);
+      patch.closes_holes &= triangle.source == Triangle::kNoSource;
     }
-    patch.doubled &= any_doubled;
+    patch.doubled &= !patch.closes_holes;
     if (patch.sum.turned <= patch.sum.kept) return;
     patch.sum = patch.sum.turned_round();
     for (const std::uint32_t t : members_) result_.turned[t] ^= 1;

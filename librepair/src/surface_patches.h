@@ -37,8 +37,9 @@ struct SurfaceSum {
 struct Patch {
   SurfaceSum sum;
   std::uint32_t triangles = 0;
-  bool orientable = true;  // if not, as few of its edges contradict as was found
-  bool doubled = true;     // all its triangles of the input are there both ways round
+  bool orientable = true;    // if not, as few of its edges contradict as was found
+  bool closes_holes = true;  // none of its triangles is of the input
+  bool doubled = true;       // all those that are, are there both ways round
 };
 
 struct Patches {

@@ -39,6 +39,9 @@ struct InsideOptions {
   // missing: where the winding is right, distances reach 0.17 and contradictions 0.03. Of triangles
   // without neighbours the share that is turned wrongly is the contradiction.
   double trusted_contradiction = 0.05;
+  // Open sheets between two places alike are left out of that, up to this share of the covered
+  // area.
+  double trusted_loose_share = 0.25;
 };
 
 struct InsideReport {
@@ -50,6 +53,7 @@ struct InsideReport {
   SolveReport solve;               // all 0 when nothing was solved
   double winding_distance = 0;     // as in the options; only where a winding was looked at
   double winding_contradiction = 0;
+  double loose_share = 0;
   // Of the parts of the surface; `automatic` only.
   std::size_t turned_parts = 0;    // inside out by their own triangles, and turned
   std::size_t doubtful_parts = 0;  // whose triangles do not tell which way is out ...
