@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <bsp/build_tree.h>
 #include <bsp/error.h>
 #include <bsp/soup_io.h>
 #include <bsp/topology.h>
@@ -20,6 +19,7 @@
 #include <repair/cell_graph.h>
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
+#include <repair/repair.h>
 
 #include "shapes.h"
 
@@ -114,9 +114,8 @@ double volume_of(const std::vector<double>& cells, const CellLabels& labels) {
 // Volumes in grid units of the soup itself times `unit` cubed. One tree and one complex for all
 // rules.
 Volumes volumes_of(const TriangleSoup& soup) {
-  CleanReport clean;
-  BuildTreeReport tree_report;
-  const Tree tree = build_tree(clean_soup(soup, clean), {}, tree_report);
+  RepairReport repair_report;
+  const Tree tree = make_tree(soup, {}, repair_report);  // holes are patched
   ClipReport clip;
   CellComplex complex = build_cells(tree, {}, clip);
   CoverReport cover_report;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include <bsp/error.h>
@@ -67,6 +68,18 @@ void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabel
   }
 }
 
+std::string why_nothing_is_solid(const RepairReport& report, HoleMode mode) {
+  std::string why = "the triangles enclose nothing: ";
+  if (mode == HoleMode::none && report.input.open_edges > 0) {
+    return why + "holes are not to be closed, and every part has some";
+  }
+  if (report.holes.too_large > 0) {
+    return why + "open sheets, whose rims are too large for holes (" +
+           std::to_string(report.holes.too_large) + ")";
+  }
+  return why + "no part of space is inside";
+}
+
 CellLabels find_solid(const CoveredCells& covered, const Orientation& orientation,
                       const RepairOptions& options, RepairReport& report, StageMeter& meter) {
   meter.begin("links");
@@ -80,7 +93,7 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
     drop_unsealed(graph, options.progress, labels, report.inside);
   }
   if (report.inside.solid_cells == 0) {
-    throw NoSolidError("the triangles enclose nothing: no part of space is inside");
+    throw NoSolidError(why_nothing_is_solid(report, options.holes.mode));
   }
   return labels;
 }

@@ -7,32 +7,13 @@
 #include <repair/orient_parts.h>
 
 #include "degenerate_soups.h"
+#include "open_surfaces.h"
 #include "trees.h"
 
 namespace meshrepair {
 namespace {
 
 using namespace testing;
-
-TriangleSoup moebius_strip(std::uint32_t n) {
-  TriangleSoup strip;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double a = 2 * std::numbers::pi * i / n;
-    const Vec3d middle(3 * std::cos(a), 3 * std::sin(a), 0);
-    const Vec3d across(std::cos(a / 2) * std::cos(a), std::cos(a / 2) * std::sin(a),
-                       std::sin(a / 2));
-    strip.points.push_back(middle - across);
-    strip.points.push_back(middle + across);
-  }
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t a = 2 * i, b = 2 * i + 1;
-    const bool last = i + 1 == n;
-    const std::uint32_t c = last ? 1 : a + 2, d = last ? 0 : b + 2;
-    strip.triangles.push_back({a, c, b});
-    strip.triangles.push_back({b, c, d});
-  }
-  return strip;
-}
 
 TEST(OrientParts, AConsistentSoupIsNotChanged) {
   for (const TriangleSoup& soup : {cube(), flipped(cube()), torus(12, 9), sphere(300),
