@@ -59,6 +59,17 @@ void warn_of_coarse_grid(const Findings& findings) {
       findings.input_name(), clean.dropped_below_grid, clean.triangles_in, clean.grid_unit);
 }
 
+// A solid made of an open sheet is mostly made up; the user may have meant something else.
+void warn_of_made_up_surface(const Findings& findings) {
+  const RepairReport& repair = findings.repair;
+  constexpr double kWorthAWarning = 0.3;
+  if (repair.closing_area <= kWorthAWarning * repair.output_area) return;
+  spdlog::warn(
+      "{}: {:.0f} % of the result's surface is not of the input, but closes what is open there: is "
+      "it a sheet, or a part of something?",
+      findings.input_name(), 100 * repair.closing_area / repair.output_area);
+}
+
 template <class ErrorType>
 [[noreturn]] void rethrow_named(const ErrorType& error, const std::string& name) {
   const std::string message = error.what();
@@ -120,6 +131,7 @@ ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   });
   if (!findings.withheld) print_summary(run, findings);
   warn_of_coarse_grid(findings);
+  warn_of_made_up_surface(findings);
   return verdict(findings);
 }
 

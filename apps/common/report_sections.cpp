@@ -166,7 +166,8 @@ Json result_of(const Findings& findings) {
           {"manifold", output.manifold()},
           {"oriented", output.oriented()},
           {"volume", repair.output_volume},
-          {"area", repair.output_area}};
+          {"area", repair.output_area},
+          {"closing_area", repair.closing_area}};
 }
 
 Json stages_of(const RepairReport& repair) {

@@ -190,6 +190,18 @@ Surface extract(const CoveredCells& covered, const std::vector<char>& solid,
   return extract_surface(covered.complex, covered.cover, solid, report.extract, options.extract);
 }
 
+double closing_area(const Surface& surface) {
+  TriangleSoup closing;
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    if (surface.source[t] == Surface::kNoSource) {
+      closing.triangles.push_back(surface.mesh.triangles[t]);
+    }
+  }
+  if (closing.triangles.empty()) return 0;
+  closing.points = surface.mesh.points;
+  return surface_area(closing);
+}
+
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   if (options.certify.wanted) {
@@ -206,6 +218,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
   report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
   report.output_volume = signed_volume(surface.mesh);
   report.output_area = surface_area(surface.mesh);
+  report.closing_area = closing_area(surface);
   return surface;
 }
 

@@ -56,6 +56,7 @@ struct RepairReport {
   Topology output;
   double output_volume = 0;  // in the input's units, cubed
   double output_area = 0;
+  double closing_area = 0;  // of this, what no triangle of the input covers
   std::vector<StageReport> stages;
 };
 
