@@ -51,14 +51,23 @@ class SurfaceExtractor {
 
  private:
   void add(std::vector<RegionTriangle>& triangles, TriangleId covering) {
-    static_assert(Surface::kNoSource == Triangle::kNoSource);
-    std::uint32_t source = Surface::kNoSource;
-    if (covering.valid()) {
-      const Triangle& input = complex_.soup().triangles[covering];
-      source = input.source;
-      if (triangles.size() == 1) turn_like(input, triangles[0]);
+    if (covering.valid() && triangles.size() == 1) {
+      turn_like(complex_.soup().triangles[covering], triangles[0]);
     }
-    for (const RegionTriangle& t : triangles) add(t, source);
+    for (const RegionTriangle& t : triangles) add(t, source_of(t, covering));
+  }
+
+  // A region may be made of several triangles of the input: one that the triangle lies in with an
+  // edge of its own, if it has such an edge.
+  [[nodiscard]] std::uint32_t source_of(const RegionTriangle& triangle, TriangleId covering) const {
+    static_assert(Surface::kNoSource == Triangle::kNoSource);
+    if (!covering.valid()) return Surface::kNoSource;
+    for (const std::uint32_t s : triangle.sides) {
+      if (s == kNone) continue;
+      covering = cover_[boundary_.facet[boundary_.polygon[s]]].triangle;
+      break;
+    }
+    return complex_.soup().triangles[covering].source;
   }
 
   // Makes a triangle start at the first corner of the input triangle, if that is one of its own.

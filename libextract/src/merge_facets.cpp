@@ -38,20 +38,51 @@ class FacetMerger {
     const TriangleId a = cover_[boundary_.facet[p]].triangle;
     const TriangleId b = cover_[boundary_.facet[q]].triangle;
     if (a.valid() || b.valid()) return a == b;
-    return complex_.facets[boundary_.facet[p]].plane == complex_.facets[boundary_.facet[q]].plane;
+    return plane_of(p) == plane_of(q);
+  }
+
+  [[nodiscard]] PlaneId plane_of(std::uint32_t polygon) const {
+    return complex_.facets[boundary_.facet[polygon]].plane;
   }
 
   void find_regions() {
     DisjointSets joined(boundary_.polygons());
     result_.dissolved.assign(boundary_.sides(), 0);
-    for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
-      if (corners_.singular_side[s] != 0) continue;
-      const std::uint32_t p = boundary_.polygon[s];
-      const std::uint32_t q = boundary_.polygon[corners_.mate[s]];
-      if (!same_surface(p, q)) continue;
-      result_.dissolved[s] = 1;
-      joined.join(p, q);
+    const auto dissolve = [&](auto belong_together) {
+      for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
+        if (corners_.singular_side[s] != 0 || result_.dissolved[s] != 0) continue;
+        const std::uint32_t p = boundary_.polygon[s];
+        const std::uint32_t q = boundary_.polygon[corners_.mate[s]];
+        if (!belong_together(p, q)) continue;
+        result_.dissolved[s] = 1;
+        joined.join(p, q);
+      }
+    };
+    dissolve([&](std::uint32_t p, std::uint32_t q) { return same_surface(p, q); });
+    const std::vector<char> cut = find_cut_polygons(joined);
+    dissolve([&](std::uint32_t p, std::uint32_t q) {
+      return cut[p] != 0 && cut[q] != 0 && plane_of(p) == plane_of(q);
+    });
+    number_regions(joined);
+  }
+
+  // Polygons covered by a triangle of which not all is one region.
+  std::vector<char> find_cut_polygons(DisjointSets& joined) const {
+    std::vector<std::uint32_t> facets(complex_.soup().triangles.size(), 0);
+    for (const Cover& c : cover_) {
+      if (c.opaque()) ++facets[c.triangle.index()];
     }
+    std::vector<std::uint32_t> polygons(boundary_.polygons(), 0);
+    for (std::uint32_t p = 0; p < boundary_.polygons(); ++p) ++polygons[joined.root(p)];
+    std::vector<char> cut(boundary_.polygons(), 0);
+    for (std::uint32_t p = 0; p < boundary_.polygons(); ++p) {
+      const TriangleId t = cover_[boundary_.facet[p]].triangle;
+      cut[p] = t.valid() && polygons[joined.root(p)] < facets[t.index()];
+    }
+    return cut;
+  }
+
+  void number_regions(DisjointSets& joined) {
     std::vector<std::uint32_t> roots;
     for (std::uint32_t p = 0; p < boundary_.polygons(); ++p) {
       if (joined.root(p) == p) roots.push_back(p);

@@ -56,6 +56,10 @@ PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Co
   const CleanSoup& soup = complex.soup();
   PartFates fates;
   const Places places = places_of_triangles(complex, cover, solid);
+  for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
+    fates.bounding_triangles +=
+        (places[t.index()] & kBoundary) != 0 && soup.triangles[t].source != Triangle::kNoSource;
+  }
   if (std::all_of(places.begin(), places.end(),
                   [](std::uint8_t p) { return (p & kBoundary) != 0; })) {
     return fates;
@@ -80,9 +84,9 @@ PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Co
   return fates;
 }
 
-TriangleFates find_triangle_fates(const CleanSoup& input, const Surface& surface) {
-  enum : char { kGone, kCut, kUntouched };
-  std::vector<char> fate(input.triangles.size(), kGone);
+TriangleFates find_triangle_fates(const CleanSoup& input, const PartFates& parts,
+                                  const Surface& surface) {
+  TriangleFates fates;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     if (surface.source[t] == Surface::kNoSource) continue;
     // Sources ascend.
@@ -91,16 +95,13 @@ TriangleFates find_triangle_fates(const CleanSoup& input, const Surface& surface
         [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
     if (found == input.triangles.end()) continue;
     const auto& to = surface.mesh.triangles[t];
-    const bool same = std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
+    fates.untouched += std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
       return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
         return surface.mesh.points[q] == input.points[p];
       });
     });
-    fate[static_cast<std::size_t>(found - input.triangles.begin())] = same ? kUntouched : kCut;
   }
-  TriangleFates fates;
-  fates.untouched = static_cast<std::size_t>(std::count(fate.begin(), fate.end(), kUntouched));
-  fates.cut = static_cast<std::size_t>(std::count(fate.begin(), fate.end(), kCut));
+  fates.cut = std::max(parts.bounding_triangles, fates.untouched) - fates.untouched;
   return fates;
 }
 

@@ -214,7 +214,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
         report.certify);
   }
   meter.begin("check");
-  report.triangles = find_triangle_fates(input, surface);
+  report.triangles = find_triangle_fates(input, report.parts, surface);
   report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
   report.output_volume = signed_volume(surface.mesh);
   report.output_area = surface_area(surface.mesh);

@@ -13,7 +13,8 @@
 namespace meshrepair {
 
 // A region is a connected set of boundary facets that are covered by the same triangle of the
-// input, or that are not covered and lie in one plane. Its outline may have holes, and may touch
+// input, or by several of one plane that are all cut, or that are not covered and lie in one plane.
+// Its outline may have holes, and may touch
 // itself at vertices and edges.
 struct MergedFacets {
   std::vector<std::uint32_t> region;        // of each polygon of the boundary

@@ -13,8 +13,8 @@ namespace meshrepair {
 // Where parts touch, or one part itself, points have equal coordinates and different indices.
 struct Surface {
   TriangleSoup mesh;
-  // For each triangle the index of the input triangle that it lies in, or kNoSource where a gap was
-  // closed.
+  // For each triangle the index of the input triangle that it lies in, or of one of them where
+  // triangles of one plane were cut and merged; kNoSource where a gap was closed.
   static constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
   std::vector<std::uint32_t> source;
   // For each point whether it is one of the input's, with its coordinates.

@@ -18,8 +18,9 @@ struct PartsAndArea {
 
 // A part is what is connected through edges, patches over holes included.
 struct PartFates {
-  PartsAndArea enclosing_nothing;  // not a piece bounds the solid, and some lies outside it
-  PartsAndArea inside_solid;       // not a piece bounds the solid, and all lies inside it
+  PartsAndArea enclosing_nothing;      // not a piece bounds the solid, and some lies outside it
+  PartsAndArea inside_solid;           // not a piece bounds the solid, and all lies inside it
+  std::size_t bounding_triangles = 0;  // of the input, of which a piece bounds the solid
 };
 
 // `solid` has one entry for each cell. Linear but for parts that were removed, for which edges are
@@ -31,9 +32,10 @@ struct PartFates {
 // Of the input's triangles.
 struct TriangleFates {
   std::size_t untouched = 0;  // came out with their own coordinates, bit for bit
-  std::size_t cut = 0;        // came out in part, in several pieces, or moved
+  std::size_t cut = 0;        // came out in part, in several pieces, merged with others, or moved
 };
 
-[[nodiscard]] TriangleFates find_triangle_fates(const CleanSoup& input, const Surface& surface);
+[[nodiscard]] TriangleFates find_triangle_fates(const CleanSoup& input, const PartFates& parts,
+                                                const Surface& surface);
 
 }  // namespace meshrepair
