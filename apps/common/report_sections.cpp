@@ -61,6 +61,7 @@ Json section_of(const HoleReport& holes) {
   return {{"loops", holes.loops},
           {"closed", holes.closed},
           {"rings", holes.rings},
+          {"slits", holes.slits},
           {"too_large", holes.too_large},
           {"stray_edges", holes.stray_edges},
           {"triangles", holes.triangles},
@@ -193,7 +194,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("clean", section_of(repair.clean));
     report.set_section("defects", defects_of(repair));
   }
-  if (was_begun(repair, "holes")) report.set_section("holes", section_of(repair.holes));
+  if (was_begun(repair, "tree")) report.set_section("holes", section_of(repair.holes));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));

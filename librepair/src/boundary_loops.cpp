@@ -27,7 +27,7 @@ std::vector<BorderEdge> find_border(const CleanSoup& soup, std::span<const Index
     if (!is_border(soup, sides)) return;
     const std::uint32_t a = side_start(triangles, sides[0]);
     const std::uint32_t b = side_start(triangles, next_side(sides[0]));
-    border.push_back({std::min(a, b), std::max(a, b), sides[0]});
+    border.push_back({std::min(a, b), std::max(a, b), sides[0], sides.size() == 1});
   });
   return border;
 }
@@ -119,6 +119,16 @@ class LoopWalker {
     const auto edge = [&](std::size_t i) {
       return (i + 1) % n == 0 ? closing_edge : path_[from + i % n + 1].edge;
     };
+    for (std::size_t i = from + 1; i < path_.size(); ++i) place_[path_[i].point] = kNone;
+    bool open = false;
+    for (std::size_t i = 0; i < n; ++i) open |= loops_.edges[edge(i)].open;
+    if (open) add_loop(n, point, edge);
+    path_.resize(from + 1);
+  }
+
+  // Of n points and edges, from where it starts.
+  template <class At, class EdgeAt>
+  void add_loop(std::size_t n, At point, EdgeAt edge) {
     std::size_t low = 0;
     for (std::size_t i = 1; i < n; ++i) {
       if (point(i) < point(low)) low = i;
@@ -129,8 +139,6 @@ class LoopWalker {
       loops_.edge.push_back(edge(forward ? low + i : low + n - i - 1));
     }
     loops_.first.push_back(loops_.point.size());
-    for (std::size_t i = from + 1; i < path_.size(); ++i) place_[path_[i].point] = kNone;
-    path_.resize(from + 1);
   }
 
   [[nodiscard]] std::uint32_t other_end(std::uint32_t e, std::uint32_t point) const {

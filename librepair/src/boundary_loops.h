@@ -16,6 +16,7 @@ namespace meshrepair::internal {
 struct BorderEdge {
   std::uint32_t low = 0, high = 0;  // its points
   std::uint32_t side = 0;           // of the first triangle there
+  bool open = false;                // there is no other triangle
 };
 
 // Loop l has the points point[first[l]] to point[first[l + 1] - 1], all different; edge[i] runs
@@ -38,7 +39,8 @@ struct BoundaryLoops {
 };
 
 // The border is where an odd number of triangles meet: that is always a set of loops, also where
-// three or more meet, and however they are turned. `triangles` are those of the soup.
+// three or more meet, and however they are turned. Loops without an open edge are left out: they
+// are rims of walls, and nothing is missing there. `triangles` are those of the soup.
 [[nodiscard]] BoundaryLoops find_boundary_loops(const CleanSoup& soup,
                                                 std::span<const IndexTriangle> triangles,
                                                 const EdgeTable& table, ProgressObserver* progress);

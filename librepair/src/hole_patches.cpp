@@ -34,6 +34,10 @@ using Corners = std::array<PointId, 3>;
 // one.
 constexpr std::size_t kLargestRing = 4'000'000;
 
+// Missing triangles that happen to face each other are no gap between two pieces: the patch of one
+// rim at least has to have this share of the area that it is joined to.
+constexpr double kLargeOpening = 0.1;
+
 // A ring has to have less than this share of the area of two patches: those over holes that touch
 // in a point are a ring, too.
 constexpr double kWorthARing = 0.9;
@@ -136,6 +140,7 @@ class HolePatcher {
     roots_.clear();
     for (const std::size_t l : {loop, other}) {
       for (const std::uint32_t e : loops_.edges_of(l)) {
+        if (!loops_.edges[e].open) continue;
         roots_.push_back(sheets_.sets.root(loops_.edges[e].side / 3));
       }
     }
@@ -152,6 +157,7 @@ class HolePatcher {
     for (const auto& [a, b] : internal::find_facing_rims(rims_)) {
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
+      if (!is_large_opening(a) && !is_large_opening(b)) continue;
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
       if (ring.folded || ring.area > largest_area(a, b)) continue;
       const bool closable = !patches_[a].too_large && !patches_[b].too_large;
@@ -169,6 +175,12 @@ class HolePatcher {
     }
   }
 
+  bool is_large_opening(std::size_t loop) {
+    const double allowed = largest_area(loop, loop);
+    if (patches_[loop].too_large) return allowed > 0;
+    return patches_[loop].area * options_.largest_share > kLargeOpening * allowed;
+  }
+
   void close_hole(std::size_t loop) {
     if (closed_[loop] != 0) return;
     const LoopTriangulation& patch = patches_[loop];
@@ -176,11 +188,16 @@ class HolePatcher {
       ++report_.too_large;
       return;
     }
-    note_patch(1, patch.area, rims_[loop].size());
+    const std::size_t before = soup_.triangles.size();
     const auto ids = loops_.points_of(loop);
     const bool turn = runs_along_surface(loop);
     for (const auto& t : patch.triangles) {
       add({PointId(ids[t[0]]), PointId(ids[t[1]]), PointId(ids[t[2]])}, turn);
+    }
+    if (soup_.triangles.size() == before) {
+      ++report_.slits;
+    } else {
+      note_patch(1, patch.area, rims_[loop].size());
     }
   }
 

@@ -13,6 +13,9 @@
 namespace meshrepair {
 namespace {
 
+// Winding numbers tell more than solidity, so they win unless they cost clearly more.
+constexpr double kClearlyLess = 0.9;
+
 std::string count_of(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -105,11 +108,41 @@ class InsideDecider {
       report_.used = InsideRule::solidity;
       return by_solidity(options_.cavities);
     }
+    const std::vector<double> given = w;
+    const InsideReport before = report_;
     w = internal::turn_parts(graph_, orientation_, std::move(w), options_, report_);
+    turn_outer_pockets(w);
+    CellLabels labels = by_winding(w);
+    if (!report_.exact) {
+      const InsideReport by_winding_numbers = report_;
+      report_ = before;
+      CellLabels others = by_solidity(options_.cavities);
+      if (price(others, given) < kClearlyLess * price(labels, given)) {
+        report_.used = InsideRule::solidity;
+        report_.reason = "that makes up or leaves out less of the surface than the winding numbers";
+        return others;
+      }
+      report_ = by_winding_numbers;
+    }
     report_.used = InsideRule::winding;
     report_.reason = why_winding();
-    turn_outer_pockets(w);
-    return by_winding(w);
+    return labels;
+  }
+
+  // The area of the solid's boundary that no triangle covers, and that of the triangles which do
+  // not bound it and are not inside it as the winding numbers say: what Murali and Funkhouser keep
+  // small.
+  [[nodiscard]] double price(const CellLabels& labels, const std::vector<double>& w) const {
+    double sum = 0;
+    for (const Link& link : graph_.links()) {
+      const std::size_t below = link.below.index(), above = link.above.index();
+      const bool bounds = labels.solid[below] != labels.solid[above];
+      if (bounds == link.opaque()) continue;
+      const bool explained = link.opaque() && labels.solid[below] != 0 &&
+                             std::abs(w[below] - w[above] - link.winding) <= 0.5;
+      if (!explained) sum += link.area;
+    }
+    return sum;
   }
 
   // A surface that crosses itself may wind the wrong way around a piece of space, like one half of

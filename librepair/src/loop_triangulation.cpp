@@ -17,11 +17,17 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Positions = std::vector<std::uint32_t>;
 
-// What the edge p q costs between triangles with the third corners a and b: nothing up to a right
-// angle between them, and the smaller one's area if one lies on the other.
+// What the edge p q costs between triangles with the third corners a and b of the patch: nothing up
+// to a right angle between them, and the smaller one's area if one lies on the other.
 double fold_cost(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b) {
   const double cosine = fold_cosine(p, q, a, b);
   return cosine <= 0 ? 0 : cosine * std::min(triangle_area(p, q, a), triangle_area(p, q, b));
+}
+
+// The same between the surface, of which only a first triangle is known, and the patch.
+double border_fold_cost(const Vec3d& p, const Vec3d& q, const Vec3d& surface, const Vec3d& patch) {
+  const double cosine = fold_cosine(p, q, surface, patch);
+  return cosine <= 0 ? 0 : cosine * triangle_area(p, q, patch);
 }
 
 // The dynamic programme over all chords of one loop.
@@ -67,7 +73,7 @@ class BestTriangulation {
     const bool is_edge = (i + 1) % size_ == j;
     if (!is_edge) return fold_cost(at(i), at(j), at(third_[i * size_ + j]), at(third));
     const bool is_border = (loop_[i] + 1) % rim_.size() == loop_[j];
-    return is_border ? fold_cost(at(i), at(j), rim_.apex[loop_[i]], at(third)) : 0;
+    return is_border ? border_fold_cost(at(i), at(j), rim_.apex[loop_[i]], at(third)) : 0;
   }
 
   void collect(LoopTriangulation& result) {

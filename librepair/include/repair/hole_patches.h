@@ -31,6 +31,7 @@ struct HoleReport {
   std::size_t loops = 0;         // closed walks of edges at which an odd number of triangles meet
   std::size_t closed = 0;        // of these
   std::size_t rings = 0;         // between two of these
+  std::size_t slits = 0;         // all points in a line: nothing to be closed
   std::size_t too_large = 0;     // left open, as the options say
   std::size_t stray_edges = 0;   // open edges on no loop
   std::size_t triangles = 0;     // added
