@@ -134,7 +134,9 @@ Json section_of(const PartsAndArea& parts) {
 
 Json section_of(const PartFates& parts) {
   return {{"enclosing_nothing", section_of(parts.enclosing_nothing)},
-          {"inside_solid", section_of(parts.inside_solid)}};
+          {"inside_solid", section_of(parts.inside_solid)},
+          {"triangles_inside", parts.inside_triangles},
+          {"triangles_outside", parts.outside_triangles}};
 }
 
 const char* verdict(bool holds) { return holds ? "PASS" : "FAIL"; }

@@ -128,12 +128,19 @@ std::string kept_triangles(const RepairReport& repair) {
 
 std::vector<std::string> removed_parts(const RepairReport& repair) {
   std::vector<std::string> texts;
+  const PartFates& fates = repair.parts;
+  if (fates.inside_triangles + fates.outside_triangles > 0) {
+    texts.push_back(fmt::format("{} inside the solid, {} outside it or there twice",
+                                number_of(fates.inside_triangles, "triangle"),
+                                grouped(fates.outside_triangles)));
+  }
   const auto add = [&](const PartsAndArea& parts, std::string_view what) {
     if (parts.parts == 0) return;
-    texts.push_back(fmt::format("{} that {} {}, area {:.6g}", number_of(parts.parts, "part"),
-                                parts.parts == 1 ? "is" : "are", what, parts.area));
+    texts.push_back(fmt::format("among them {} that {} {}, area {:.6g}",
+                                number_of(parts.parts, "part"), parts.parts == 1 ? "is" : "are",
+                                what, parts.area));
   };
-  add(repair.parts.enclosing_nothing, "open and no wall of the solid");
+  add(repair.parts.enclosing_nothing, "no wall of the solid");
   add(repair.parts.inside_solid, "inside the solid");
   return texts;
 }

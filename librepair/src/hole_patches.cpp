@@ -130,8 +130,28 @@ class HolePatcher {
       options.largest_area = allowed[l];
       options.poll = [&shared] { shared.poll(); };
       patches_[l] = internal::triangulate_loop(rims_[l], options);
+      if (lies_on_surface(l)) patches_[l].too_large = true;
       shared.done();
     });
+  }
+
+  // Whether the patch is folded back at most of the open edges: it would be a copy of an open
+  // sheet.
+  [[nodiscard]] bool lies_on_surface(std::size_t loop) const {
+    const Rim& rim = rims_[loop];
+    const auto edges = loops_.edges_of(loop);
+    std::size_t open = 0, sharp = 0;
+    const auto look_at = [&](std::uint32_t from, std::uint32_t to, std::uint32_t third) {
+      if ((from + 1) % rim.size() != to || !loops_.edges[edges[from]].open) return;
+      ++open;
+      sharp += internal::is_sharp_fold(rim, from, rim.points[third]);
+    };
+    for (const auto& [a, b, c] : patches_[loop].triangles) {
+      look_at(a, b, c);
+      look_at(b, c, a);
+      look_at(c, a, b);
+    }
+    return 2 * sharp > open;
   }
 
   // That a patch between two loops may have, or over one that is given twice: a share of the sheets
@@ -140,7 +160,6 @@ class HolePatcher {
     roots_.clear();
     for (const std::size_t l : {loop, other}) {
       for (const std::uint32_t e : loops_.edges_of(l)) {
-        if (!loops_.edges[e].open) continue;
         roots_.push_back(sheets_.sets.root(loops_.edges[e].side / 3));
       }
     }

@@ -13,9 +13,6 @@
 namespace meshrepair {
 namespace {
 
-// Winding numbers tell more than solidity, so they win unless they cost clearly more.
-constexpr double kClearlyLess = 0.9;
-
 std::string count_of(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -117,9 +114,11 @@ class InsideDecider {
       const InsideReport by_winding_numbers = report_;
       report_ = before;
       CellLabels others = by_solidity(options_.cavities);
-      if (price(others, given) < kClearlyLess * price(labels, given)) {
+      if (price(others, given) < price(labels, given)) {
         report_.used = InsideRule::solidity;
-        report_.reason = "that makes up or leaves out less of the surface than the winding numbers";
+        report_.reason =
+            "it takes less made-up surface, and leaves out less of what is there, than the winding "
+            "numbers";
         return others;
       }
       report_ = by_winding_numbers;

@@ -57,8 +57,11 @@ PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Co
   PartFates fates;
   const Places places = places_of_triangles(complex, cover, solid);
   for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
-    fates.bounding_triangles +=
-        (places[t.index()] & kBoundary) != 0 && soup.triangles[t].source != Triangle::kNoSource;
+    if (soup.triangles[t].source == Triangle::kNoSource) continue;
+    const std::uint8_t place = places[t.index()];
+    ++((place & kBoundary) != 0 ? fates.bounding_triangles
+       : place == kInside       ? fates.inside_triangles
+                                : fates.outside_triangles);
   }
   if (std::all_of(places.begin(), places.end(),
                   [](std::uint8_t p) { return (p & kBoundary) != 0; })) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -202,8 +203,20 @@ double closing_area(const Surface& surface) {
   return surface_area(closing);
 }
 
+// Whatever is beyond would be written as infinity.
+void require_range(const Surface& surface, Precision precision) {
+  if (precision == Precision::float64) return;
+  for (const Vec3d& p : surface.mesh.points) {
+    if (p.cwiseAbs().maxCoeff() <= static_cast<double>(std::numeric_limits<float>::max())) continue;
+    throw OutputError(
+        "coordinates are too large for single precision: write OBJ, OFF or PLY in double "
+        "precision");
+  }
+}
+
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
+  require_range(surface, options.certify.precision);
   if (options.certify.wanted) {
     meter.begin("certify");
     CertifyOptions certify_options = options.certify;

@@ -31,4 +31,12 @@ inline double fold_cosine(const Vec3d& p, const Vec3d& q, const Vec3d& a, const 
   return lengths > 0 ? u.dot(v) / lengths : 0;
 }
 
+// Whether a triangle with the edge `edge` of the rim and this third corner folds back by more than
+// 150 degrees: rather onto the surface than on from it.
+inline bool is_sharp_fold(const Rim& rim, std::size_t edge, const Vec3d& third) {
+  constexpr double kSharp = 0.87;
+  return fold_cosine(rim.points[edge], rim.points[(edge + 1) % rim.size()], rim.apex[edge], third) >
+         kSharp;
+}
+
 }  // namespace meshrepair::internal

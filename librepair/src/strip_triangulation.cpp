@@ -7,9 +7,6 @@
 namespace meshrepair::internal {
 namespace {
 
-// A fold sharper than 45 degrees.
-constexpr double kSharp = 0.7;
-
 struct NearestPoints {
   std::size_t a = 0, b = 0;
 };
@@ -48,11 +45,11 @@ class StripProgramme {
       const bool step_on_a = along_a_[i * columns_ + j] != 0;
       if (step_on_a) {
         strip.triangles.push_back({at_a(i - 1), at_a(i), at_b(j)});
-        sharp += is_sharp(a_, edge_of_a(i - 1), b_.points[in_b(j)]);
+        sharp += is_sharp_fold(a_, edge_of_a(i - 1), b_.points[in_b(j)]);
         --i;
       } else {
         strip.triangles.push_back({at_b(j), at_b(j - 1), at_a(i)});
-        sharp += is_sharp(b_, edge_of_b(j - 1), a_.points[in_a(i)]);
+        sharp += is_sharp_fold(b_, edge_of_b(j - 1), a_.points[in_a(i)]);
         --j;
       }
     }
@@ -86,11 +83,6 @@ class StripProgramme {
   [[nodiscard]] double area(std::size_t of_a, std::size_t first_of_b,
                             std::size_t second_of_b) const {
     return triangle_area(a_.points[of_a], b_.points[first_of_b], b_.points[second_of_b]);
-  }
-
-  static bool is_sharp(const Rim& rim, std::size_t edge, const Vec3d& third) {
-    return fold_cosine(rim.points[edge], rim.points[(edge + 1) % rim.size()], rim.apex[edge],
-                       third) > kSharp;
   }
 
   // Positions in the loops after so many steps.

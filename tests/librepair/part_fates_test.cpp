@@ -32,6 +32,8 @@ TEST(PartFates, SheetsAndHiddenPartsAreToldApart) {
   EXPECT_DOUBLE_EQ(report.parts.enclosing_nothing.area, 1);
   EXPECT_EQ(report.triangles.untouched, 12u);
   EXPECT_EQ(report.triangles.cut, 0u);
+  EXPECT_EQ(report.parts.inside_triangles, 12u);
+  EXPECT_EQ(report.parts.outside_triangles, 2u);
 }
 
 TEST(PartFates, CutTrianglesAreCounted) {

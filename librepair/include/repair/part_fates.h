@@ -18,9 +18,13 @@ struct PartsAndArea {
 
 // A part is what is connected through edges, patches over holes included.
 struct PartFates {
-  PartsAndArea enclosing_nothing;      // not a piece bounds the solid, and some lies outside it
-  PartsAndArea inside_solid;           // not a piece bounds the solid, and all lies inside it
-  std::size_t bounding_triangles = 0;  // of the input, of which a piece bounds the solid
+  PartsAndArea enclosing_nothing;  // not a piece bounds the solid, and some lies outside it
+  PartsAndArea inside_solid;       // not a piece bounds the solid, and all lies inside it
+  // Triangles of the input: of which a piece bounds the solid; that lie inside it with all pieces;
+  // the others, which lie outside it, or coincide with another triangle.
+  std::size_t bounding_triangles = 0;
+  std::size_t inside_triangles = 0;
+  std::size_t outside_triangles = 0;
 };
 
 // `solid` has one entry for each cell. Linear but for parts that were removed, for which edges are

@@ -66,7 +66,7 @@ struct RepairResult {
 };
 
 // Soup to boundary of a solid. Throws NoSolidError when no triangle is left after cleaning, or when
-// nothing is enclosed.
+// nothing is enclosed, OutputError when coordinates are beyond the precision asked for.
 [[nodiscard]] RepairResult repair(const TriangleSoup& soup, const RepairOptions& options = {});
 // The same, leaving the report when it throws.
 [[nodiscard]] Surface repair(const TriangleSoup& soup, const RepairOptions& options,
