@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -297,6 +300,58 @@ TEST(PatchHoles, AShortTubeIsClosedByTwoLids) {
   EXPECT_EQ(p.report.closed, 2u);
   EXPECT_DOUBLE_EQ(p.report.area, 32);
   EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+}
+
+// A fan in the plane z = 0 whose rim is that of the upper half of a sphere.
+TriangleSoup sphere_with_wall() {
+  TriangleSoup soup = sphere(1444);
+  std::vector<std::pair<double, std::uint32_t>> equator;
+  for (std::uint32_t p = 0; p < soup.points.size(); ++p) {
+    const Vec3d& at = soup.points[p];
+    if (std::abs(at.z()) < 1e-9) equator.emplace_back(std::atan2(at.y(), at.x()), p);
+  }
+  std::sort(equator.begin(), equator.end());
+  soup.points.emplace_back(0, 0, 0);
+  const auto middle = static_cast<std::uint32_t>(soup.points.size() - 1);
+  for (std::size_t i = 0; i < equator.size(); ++i) {
+    soup.triangles.push_back({middle, equator[i].second, equator[(i + 1) % equator.size()].second});
+  }
+  return soup;
+}
+
+TEST(PatchHoles, TheRimOfAWallIsNoHole) {
+  const TriangleSoup soup = sphere_with_wall();
+  ASSERT_GT(soup.triangles.size(), sphere(1444).triangles.size() + 10);
+  EXPECT_EQ(patched(soup).report.loops, 0u);
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE(seed);
+    EXPECT_NEAR(repaired_volume(with_some_flipped(soup, 0.5, seed)), signed_volume(sphere(1444)),
+                1e-6);
+  }
+}
+
+TEST(PatchHoles, AFinIsNotDoubled) {
+  // Along the edge of two triangles of the cube's top, with a border of two edges.
+  TriangleSoup soup = cube();
+  soup.points.emplace_back(0.5, 0.5, 1.5);
+  const auto& t = soup.triangles[10];
+  soup.triangles.push_back({t[0], t[2], 8});
+  HoleOptions options;
+  options.largest_share = 10;
+  const Patched p = patched(soup, options);
+  EXPECT_EQ(p.report.loops, 1u);
+  EXPECT_EQ(p.report.triangles, 0u);
+  EXPECT_EQ(repaired_volume(soup), 1);
+}
+
+TEST(PatchHoles, MissingTrianglesThatFaceEachOtherAreNoGap) {
+  TriangleSoup shell = without(sphere(1000), {400});
+  append(shell, flipped(without(sphere(1000, 0.97), {400})));
+  EXPECT_EQ(patched(shell).report.rings, 0u);
+  EXPECT_EQ(patched(shell).report.closed, 2u);
+  TriangleSoup twice = without(sphere(1000), {400});
+  append(twice, without(sphere(1000, 0.97), {400}));
+  EXPECT_NEAR(repaired_volume(twice), signed_volume(sphere(1000)), 1e-6);
 }
 
 TEST(PatchHoles, AConeWithoutItsBaseIsClosed) {

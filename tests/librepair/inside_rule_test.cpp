@@ -78,6 +78,18 @@ TEST(InsideRule, OverlappingSpheresWithMissingTriangles) {
   EXPECT_LT(volume_by(soup, InsideRule::solidity), 1.02 * united);
 }
 
+// Their common faces are walls that nothing tells from outer ones once triangles are flipped: the
+// winding numbers contradict themselves, and solidity leaves nothing out.
+TEST(InsideRule, TouchingCubesStayWholeWhateverIsFlipped) {
+  TriangleSoup cubes = cube();
+  append(cubes, moved(cube(), {1, 0, 0}));
+  append(cubes, moved(cube(), {1, 1, 0}));
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    EXPECT_NEAR(solve(with_some_flipped(cubes, 0.5, seed), InsideRule::automatic).volume, 3, 1e-6);
+  }
+}
+
 TEST(InsideRule, HollowSphere) {
   TriangleSoup soup = sphere(kTriangles / 2);
   append(soup, flipped(sphere(kTriangles / 2, 0.5)));
