@@ -6,9 +6,11 @@
 // stay.
 //
 // Where solids touch, edges and vertices stay on both: a vertex of one must not come to lie inside
-// a triangle of the other.
+// a triangle of the other. Only in the middle of an edge along which they touch a vertex may go,
+// if it goes from all of them.
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include <bsp/disjoint_sets.h>
@@ -28,7 +30,9 @@ class FacetMerger {
   MergedFacets run() {
     find_regions();
     list_polygons();
+    count_sectors();
     find_kept_vertices();
+    if (corners_.singular_edges > 0) release_middles_of_touching_edges();
     count_kept_corners();
     return std::move(result_);
   }
@@ -113,37 +117,134 @@ class FacetMerger {
   }
 
   // Each edge between regions that starts at a vertex opens one sector of a region there.
-  void find_kept_vertices() {
-    constexpr std::uint32_t kNone = ManifoldCorners::kNone;
-    std::vector<char> sectors(corners_.vertices(), 0);
-    std::vector<std::uint32_t> opening(corners_.vertices(), kNone);
+  void count_sectors() {
+    sectors_.assign(corners_.vertices(), 0);
+    opening_.assign(corners_.vertices(), ManifoldCorners::kNone);
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
       if (result_.dissolved[s] != 0) continue;
-      char& count = sectors[corners_.vertex[s]];
+      char& count = sectors_[corners_.vertex[s]];
       if (count < 3) ++count;
-      opening[corners_.vertex[s]] = s;
+      opening_[corners_.vertex[s]] = s;
     }
+  }
+
+  void find_kept_vertices() {
     result_.kept.resize(corners_.vertices());
     for (std::uint32_t v = 0; v < corners_.vertices(); ++v) {
-      const bool goes = sectors[v] == 0 || (sectors[v] == 2 && goes_straight_on(opening[v]));
+      const bool goes = sectors_[v] == 0 || (sectors_[v] == 2 && goes_straight_on(opening_[v]));
       result_.kept[v] = corners_.singular[v] != 0 || !goes ? 1 : 0;
-      if (sectors[v] == 0 && result_.kept[v] != 0) {
-        ++result_.kept_corners[result_.region[boundary_.polygon[corners_.vertex_corner[v]]]];
-      }
     }
   }
 
   // Whether the edge between regions that leads to the start of `side` is in line with it.
   [[nodiscard]] bool goes_straight_on(std::uint32_t side_out) const {
-    std::uint32_t side_in = boundary_.previous(side_out);
-    while (result_.dissolved[side_in] != 0) side_in = boundary_.previous(corners_.mate[side_in]);
-    const Edge& edge = complex_.edges[complex_.uses[boundary_.use[side_in]].edge()];
-    const VertexId beyond = corner_vertex(complex_, boundary_, boundary_.next(side_out), solid_);
+    const Edge& edge = complex_.edges[edge_of(previous_on_outline(side_out))];
+    const VertexId beyond = place_of(boundary_.next(side_out));
     return side(complex_.vertices[beyond], edge.planes[0], complex_.planes) == 0 &&
            side(complex_.vertices[beyond], edge.planes[1], complex_.planes) == 0;
   }
 
+  [[nodiscard]] std::uint32_t previous_on_outline(std::uint32_t s) const {
+    s = boundary_.previous(s);
+    while (result_.dissolved[s] != 0) s = boundary_.previous(corners_.mate[s]);
+    return s;
+  }
+
+  [[nodiscard]] std::uint32_t next_on_outline(std::uint32_t s) const {
+    s = boundary_.next(s);
+    while (result_.dissolved[s] != 0) s = boundary_.next(corners_.mate[s]);
+    return s;
+  }
+
+  [[nodiscard]] EdgeId edge_of(std::uint32_t s) const {
+    return complex_.uses[boundary_.use[s]].edge();
+  }
+
+  // Of the complex, at the start of a side.
+  [[nodiscard]] VertexId place_of(std::uint32_t s) const {
+    return corner_vertex(complex_, boundary_, s, solid_);
+  }
+
+  // The two edges, of those at which solids touch, between which all copies of a vertex lie.
+  struct Passage {
+    enum State : std::uint8_t { unseen, straight, stays };
+    State state = unseen;
+    EdgeId a, b;
+  };
+
+  void release_middles_of_touching_edges() {
+    IdVector<VertexId, Passage> passages(complex_.vertices.size());
+    for_each_singular_vertex([&](std::uint32_t v, VertexId place) {
+      Passage& known = passages[place];
+      const Passage own = passage_of(v);
+      if (known.state == Passage::unseen) known = own;
+      if (own.state != known.state || own.a != known.a || own.b != known.b) {
+        known.state = Passage::stays;
+      }
+    });
+    for_each_singular_vertex([&](std::uint32_t v, VertexId place) {
+      if (passages[place].state == Passage::straight) result_.kept[v] = 0;
+    });
+    for (const VertexId place : middles_to_stay()) passages[place].state = Passage::stays;
+    for_each_singular_vertex([&](std::uint32_t v, VertexId place) {
+      if (passages[place].state == Passage::stays) result_.kept[v] = 1;
+    });
+  }
+
+  template <class Visit>
+  void for_each_singular_vertex(Visit visit) {
+    for (std::uint32_t v = 0; v < corners_.vertices(); ++v) {
+      if (corners_.singular[v] != 0) visit(v, place_of(corners_.vertex_corner[v]));
+    }
+  }
+
+  [[nodiscard]] Passage passage_of(std::uint32_t v) const {
+    if (sectors_[v] != 2) return {Passage::stays, {}, {}};
+    const std::uint32_t out = opening_[v];
+    const std::uint32_t in = previous_on_outline(out);
+    if (corners_.singular_side[in] == 0 || corners_.singular_side[out] == 0 ||
+        edge_of(in) == edge_of(out) || !goes_straight_on(out)) {
+      return {Passage::stays, {}, {}};
+    }
+    return {Passage::straight, std::min(edge_of(in), edge_of(out)),
+            std::max(edge_of(in), edge_of(out))};
+  }
+
+  // A straight row of touching edges without the vertices between them, seen from one side.
+  struct Row {
+    EdgeId edge;  // the lower one of those at its ends
+    std::uint32_t start, end;
+    VertexId middle;  // one of those that went
+  };
+
+  // Where two wedges have both ends of a row in common, one vertex of the row has to stay, or four
+  // triangles would share an edge. Each wedge has two sides along the row.
+  [[nodiscard]] std::vector<VertexId> middles_to_stay() const {
+    std::vector<Row> rows;
+    for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
+      if (corners_.singular_side[s] == 0 || result_.kept[corners_.vertex[s]] == 0) continue;
+      std::uint32_t last = s, next = next_on_outline(s);
+      if (result_.kept[corners_.vertex[next]] != 0) continue;
+      const VertexId middle = place_of(next);
+      for (; result_.kept[corners_.vertex[next]] == 0; next = next_on_outline(next)) last = next;
+      const auto [start, end] = std::minmax(corners_.vertex[s], corners_.vertex[next]);
+      rows.push_back({std::min(edge_of(s), edge_of(last)), start, end, middle});
+    }
+    const auto key = [](const Row& row) { return std::tuple(row.edge, row.start, row.end); };
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](const Row& x, const Row& y) { return key(x) < key(y); });
+    std::vector<VertexId> staying;
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+      if (key(rows[i]) == key(rows[i - 2])) staying.push_back(rows[i - 2].middle);
+    }
+    return staying;
+  }
+
   void count_kept_corners() {
+    for (std::uint32_t v = 0; v < corners_.vertices(); ++v) {
+      if (sectors_[v] != 0 || result_.kept[v] == 0) continue;
+      ++result_.kept_corners[result_.region[boundary_.polygon[corners_.vertex_corner[v]]]];
+    }
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
       if (result_.dissolved[s] == 0 && result_.kept[corners_.vertex[s]] != 0) {
         ++result_.kept_corners[result_.region[boundary_.polygon[s]]];
@@ -156,6 +257,10 @@ class FacetMerger {
   const std::vector<char>& solid_;
   const Boundary& boundary_;
   const ManifoldCorners& corners_;
+  // Of each vertex: how many regions meet there, up to 3, and a side between regions that starts
+  // there.
+  std::vector<char> sectors_;
+  std::vector<std::uint32_t> opening_;
   MergedFacets result_;
 };
 

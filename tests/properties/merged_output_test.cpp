@@ -77,6 +77,61 @@ TEST(MergedOutput, PolygonsMayHaveHoles) {
   EXPECT_EQ(result.surface.mesh.triangles.size(), 28u);
 }
 
+// The faces between the cells of a block that are solid and those that are not, two triangles each.
+TriangleSoup block_surface(std::int32_t size, std::uint64_t seed) {
+  Random random(seed);
+  const auto n = static_cast<std::size_t>(size);
+  std::vector<char> solid(n * n * n, 0);
+  for (char& s : solid) s = random.chance(0.5) ? 1 : 0;
+  const auto is_solid = [&](const std::array<std::int32_t, 3>& c) {
+    for (const std::int32_t x : c) {
+      if (x < 0 || x >= size) return false;
+    }
+    return solid[static_cast<std::size_t>((c[2] * size + c[1]) * size + c[0])] != 0;
+  };
+  TriangleSoup soup;
+  for (std::int32_t i = 0; i < size * size * size; ++i) {
+    const std::array<std::int32_t, 3> cell = {i % size, i / size % size, i / size / size};
+    if (!is_solid(cell)) continue;
+    const Vec3d low(cell[0], cell[1], cell[2]);
+    const TriangleSoup cube = box(low, low + Vec3d::Ones());
+    // Faces of box(): low and high x, low and high y, low and high z.
+    for (std::size_t face = 0; face < 6; ++face) {
+      std::array<std::int32_t, 3> beyond = cell;
+      beyond[face / 2] += face % 2 == 0 ? -1 : 1;
+      if (is_solid(beyond)) continue;
+      TriangleSoup side{cube.points, {cube.triangles[2 * face], cube.triangles[2 * face + 1]}};
+      append(soup, side);
+    }
+  }
+  return soup;
+}
+
+TEST(MergedOutput, SolidsThatTouchComeOutAsTheyAre) {
+  std::size_t as_they_are = 0;
+  for (const Touching touching : {Touching::separate, Touching::join}) {
+    for (std::uint64_t seed = 0; seed < 15; ++seed) {
+      SCOPED_TRACE(seed);
+      const TriangleSoup soup = block_surface(4, seed);
+      RepairOptions options;
+      options.extract.touching = touching;
+      const RepairResult result = repair(soup, options);
+      expect_closed_manifold(result.surface.mesh);
+      EXPECT_TRUE(result.report.certify.passed());
+      EXPECT_NEAR(result.report.output_volume, signed_volume(soup), 1e-9);
+      // Only an edge along which solids touch and have both ends in common has to be divided, which
+      // cuts its four triangles.
+      const std::size_t cut = soup.triangles.size() - result.report.triangles.untouched;
+      EXPECT_EQ(cut % 4, 0u);
+      EXPECT_EQ(result.surface.mesh.triangles.size(), soup.triangles.size() + cut);
+      if (cut > 0) continue;
+      ++as_they_are;
+      EXPECT_EQ(triangles_of(result.surface.mesh), triangles_of(soup));
+    }
+  }
+  EXPECT_GT(as_they_are, 5u);
+}
+
 TEST(MergedOutput, OutputIsNoLargerThanTheArrangementAsksFor) {
   TriangleSoup soup = sphere(2000);
   append(soup, moved(sphere(2000), {0.7, 0.1, 0.2}));

@@ -31,7 +31,8 @@ struct MergedFacets {
 };
 
 // Vertices inside a region go, and so does a vertex at which just two regions meet in a straight
-// line; but edges and vertices at which solids touch stay. Regions are in the order of the input
+// line; but edges and vertices at which solids touch stay, except for vertices in the middle of
+// such an edge. Regions are in the order of the input
 // triangles that cover them; those that are not covered come last. Combinatorial: no tolerance is
 // involved.
 [[nodiscard]] MergedFacets merge_facets(const CellComplex& complex,
