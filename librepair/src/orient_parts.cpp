@@ -108,22 +108,23 @@ class PartOrienter {
     std::erase_if(sides, [&](std::uint32_t s) { return wall_[patches_.of[s / 3]] != 0; });
     if (sides.empty() || sides.size() % 2 != 0) return;
     if (!internal::sort_around_edge(soup_, triangles_, sides)) return;
+    std::vector<std::uint32_t> here;
+    for (const std::uint32_t s : sides) here.push_back(patches_.of[s / 3]);
+    std::sort(here.begin(), here.end());
+    // Whether an odd number of the sides are the patch's.
+    const auto ends_here = [&](std::uint32_t patch) {
+      const auto [first, last] = std::equal_range(here.begin(), here.end(), patch);
+      return (last - first) % 2 != 0;
+    };
     for (std::size_t i = 0; i < sides.size(); ++i) {
+      check_.tick();
       const std::uint32_t s = sides[i];
       const std::uint32_t t = sides[(i + 1) % sides.size()];
       const std::uint32_t a = patches_.of[s / 3];
       const std::uint32_t b = patches_.of[t / 3];
-      if (a == b || !ends_at(a, sides) || !ends_at(b, sides)) continue;
+      if (a == b || !ends_here(a) || !ends_here(b)) continue;
       bonds_.push_back({std::min(a, b), std::max(a, b), runs_up(s) != runs_up(t) ? 1 : -1});
     }
-  }
-
-  // Whether an odd number of the sides are the patch's.
-  [[nodiscard]] bool ends_at(std::uint32_t patch, const std::vector<std::uint32_t>& sides) const {
-    return std::count_if(sides.begin(), sides.end(),
-                         [&](std::uint32_t s) { return patches_.of[s / 3] == patch; }) %
-               2 !=
-           0;
   }
 
   // Whether the triangle, as it is turned, passes the edge towards the point with the higher index.

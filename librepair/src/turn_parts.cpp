@@ -180,7 +180,8 @@ class PartTurner {
   [[nodiscard]] bool is_candidate(std::uint32_t p) const {
     const OrientedPart& part = parts_[p];
     if (!part.shell || part.outward == 0 || part_blob_[p] == kNone) return false;
-    return !part.believed || (part.outward < 0 && blobs_[part_blob_[p]].mixed());
+    const Blob& blob = blobs_[part_blob_[p]];
+    return !part.believed || (part.outward < 0 && (blob.doubtful || blob.mixed()));
   }
 
   // The share of the part's area whose outer side has w < 1/2, while the part faces outward.

@@ -78,6 +78,18 @@ TEST(InsideRule, OverlappingSpheresWithMissingTriangles) {
   EXPECT_LT(volume_by(soup, InsideRule::solidity), 1.02 * united);
 }
 
+TEST(InsideRule, AnInvertedCoreInACavityThatDoesNotTellIsSolid) {
+  const TriangleSoup outer = sphere(1000), wall = sphere(1000, 0.7), core = sphere(1000, 0.4);
+  const double expected = signed_volume(outer) - signed_volume(wall) + signed_volume(core);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    TriangleSoup soup = outer;
+    append(soup, with_some_flipped(wall, 0.5, seed));
+    append(soup, flipped(core));
+    EXPECT_NEAR(solve(soup, InsideRule::automatic).volume, expected, 1e-6);
+  }
+}
+
 // Their common faces are walls that nothing tells from outer ones once triangles are flipped: the
 // winding numbers contradict themselves, and solidity leaves nothing out.
 TEST(InsideRule, TouchingCubesStayWholeWhateverIsFlipped) {
