@@ -113,7 +113,7 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
                                 100 * holes.area / (repair.input_area + holes.area)));
   }
   if (holes.too_large > 0) {
-    texts.push_back(fmt::format("not {}, larger than --max-hole allows",
+    texts.push_back(fmt::format("not {}: larger than --max-hole allows, or rims of open sheets",
                                 number_of(holes.too_large, "opening")));
   }
   lines.add("closed", texts);

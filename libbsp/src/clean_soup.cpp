@@ -180,6 +180,13 @@ CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report, ProgressObse
   return clean;
 }
 
+double area_of(const CleanSoup& soup, const Triangle& triangle) {
+  const Vec3d& a = soup.points[triangle.corners[0]];
+  const Vec3d& b = soup.points[triangle.corners[1]];
+  const Vec3d& c = soup.points[triangle.corners[2]];
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
 GridBox bounding_box(const CleanSoup& soup) {
   if (soup.grid_points.empty()) return {};
   GridPoint low = soup.grid_points[PointId(0u)];

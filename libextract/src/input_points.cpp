@@ -4,8 +4,9 @@ namespace meshrepair::internal {
 
 InputPoints::InputPoints(const CleanSoup& soup) : soup_(soup), index_(soup.grid_points.size()) {
   for (PointId p(0u); p < soup.grid_points.end_id(); ++p.value) {
-    index_.find_or_insert(hash_of(soup.grid_points[p]), p.value,
-                          [](std::uint32_t) { return false; });
+    index_.find_or_insert(hash_of(soup.grid_points[p]), p.value, [&](std::uint32_t candidate) {
+      return soup.grid_points[PointId(candidate)] == soup.grid_points[p];
+    });
   }
 }
 

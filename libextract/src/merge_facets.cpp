@@ -2,8 +2,8 @@
 //
 // Why a vertex between two regions may go: the edges on both sides of it lie in the planes of both
 // regions. If the planes differ they lie in one line; if not, a predicate says whether they do.
-// They cannot fold back, as only ends of singular edges have two edges in one place, and these
-// stay.
+// They cannot fold back: only ends of singular edges have two edges in one place, and these stay
+// unless the edges on both sides are two different ones of the complex.
 //
 // Where solids touch, edges and vertices stay on both: a vertex of one must not come to lie inside
 // a triangle of the other. Only in the middle of an edge along which they touch a vertex may go,

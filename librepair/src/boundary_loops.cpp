@@ -11,20 +11,11 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 // Where more border edges meet in a point, any of them will do as the next one.
 constexpr std::uint32_t kMostCompared = 32;
 
-// A triangle that is there both ways round is a wall between two solids where the others close
-// without it, and else a triangle like any other.
-bool is_border(const CleanSoup& soup, std::span<const std::uint32_t> sides) {
-  std::size_t one_way = 0;
-  for (const std::uint32_t s : sides) one_way += soup.triangles[TriangleId(s / 3)].winding != 0;
-  if (one_way > 0 && one_way % 2 == 0) return false;
-  return sides.size() % 2 == 1;
-}
-
-std::vector<BorderEdge> find_border(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
+std::vector<BorderEdge> find_border(std::span<const IndexTriangle> triangles,
                                     const EdgeTable& table) {
   std::vector<BorderEdge> border;
   table.for_each_edge([&](std::span<const std::uint32_t> sides) {
-    if (!is_border(soup, sides)) return;
+    if (sides.size() % 2 == 0) return;
     const std::uint32_t a = side_start(triangles, sides[0]);
     const std::uint32_t b = side_start(triangles, next_side(sides[0]));
     border.push_back({std::min(a, b), std::max(a, b), sides[0], sides.size() == 1});
@@ -172,7 +163,7 @@ class LoopWalker {
 
 BoundaryLoops find_boundary_loops(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
                                   const EdgeTable& table, ProgressObserver* progress) {
-  std::vector<BorderEdge> border = find_border(soup, triangles, table);
+  std::vector<BorderEdge> border = find_border(triangles, table);
   if (border.empty()) return {};
   return LoopWalker(soup, std::move(border), progress).run();
 }

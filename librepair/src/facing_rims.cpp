@@ -8,6 +8,8 @@ namespace meshrepair::internal {
 namespace {
 
 constexpr std::size_t kSamples = 16;
+// About a second.
+constexpr std::size_t kMostSteps = 200'000'000;
 constexpr std::size_t kNone = ~std::size_t{0};
 
 struct RimPoint {
@@ -18,7 +20,7 @@ struct RimPoint {
 // All points of all rims in order along the axis on which they spread most.
 class SortedPoints {
  public:
-  explicit SortedPoints(std::span<const Rim> rims) {
+  SortedPoints(std::span<const Rim> rims, ProgressObserver* progress) : check_(progress) {
     Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
     Vec3d high = -low;
     for (std::size_t r = 0; r < rims.size(); ++r) {
@@ -35,7 +37,7 @@ class SortedPoints {
   }
 
   // The rim other than `own` that comes nearest to a point; kNone if there is none.
-  [[nodiscard]] std::size_t nearest_rim(const Vec3d& p, std::size_t own) const {
+  [[nodiscard]] std::size_t nearest_rim(const Vec3d& p, std::size_t own) {
     const auto middle =
         std::lower_bound(points_.begin(), points_.end(), p[axis_],
                          [this](const RimPoint& q, double x) { return q.at[axis_] < x; });
@@ -55,7 +57,9 @@ class SortedPoints {
     std::size_t rim = kNone;
   };
 
-  [[nodiscard]] bool out_of_reach(const RimPoint& q, const Vec3d& p, const Nearest& nearest) const {
+  [[nodiscard]] bool out_of_reach(const RimPoint& q, const Vec3d& p, const Nearest& nearest) {
+    check_.tick();
+    if (++steps_ > kMostSteps) return true;
     const double along = q.at[axis_] - p[axis_];
     return along * along > nearest.distance;
   }
@@ -70,9 +74,11 @@ class SortedPoints {
 
   std::vector<RimPoint> points_;
   Eigen::Index axis_ = 0;
+  CancelCheck check_;
+  std::size_t steps_ = 0;
 };
 
-std::size_t nearest_to_most(const SortedPoints& points, const Rim& rim, std::size_t own) {
+std::size_t nearest_to_most(SortedPoints& points, const Rim& rim, std::size_t own) {
   const std::size_t samples = std::min(kSamples, rim.size());
   std::vector<std::size_t> votes;
   for (std::size_t k = 0; k < samples; ++k) {
@@ -91,10 +97,11 @@ std::size_t nearest_to_most(const SortedPoints& points, const Rim& rim, std::siz
 
 }  // namespace
 
-std::vector<std::pair<std::size_t, std::size_t>> find_facing_rims(std::span<const Rim> rims) {
+std::vector<std::pair<std::size_t, std::size_t>> find_facing_rims(std::span<const Rim> rims,
+                                                                  ProgressObserver* progress) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   if (rims.size() < 2) return pairs;
-  const SortedPoints points(rims);
+  SortedPoints points(rims, progress);
   std::vector<std::size_t> partner(rims.size());
   for (std::size_t r = 0; r < rims.size(); ++r) partner[r] = nearest_to_most(points, rims[r], r);
   for (std::size_t r = 0; r < rims.size(); ++r) {

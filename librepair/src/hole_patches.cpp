@@ -47,10 +47,7 @@ struct Sheets {
   std::vector<double> area;  // of each root, in square grid steps
 };
 
-Vec3d position(const CleanSoup& soup, PointId p) {
-  const GridPoint& at = soup.grid_points[p];
-  return {static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)};
-}
+Vec3d position(const CleanSoup& soup, PointId p) { return as_vector(soup.grid_points[p]); }
 
 double area_of(const CleanSoup& soup, const Corners& corners) {
   return internal::triangle_area(position(soup, corners[0]), position(soup, corners[1]),
@@ -173,7 +170,7 @@ class HolePatcher {
   // Joins two rims by a ring where that takes less area than to close each of them.
   void close_rings() {
     closed_.assign(rims_.size(), 0);
-    for (const auto& [a, b] : internal::find_facing_rims(rims_)) {
+    for (const auto& [a, b] : internal::find_facing_rims(rims_, progress_)) {
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
       if (!is_large_opening(a) && !is_large_opening(b)) continue;

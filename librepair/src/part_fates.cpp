@@ -2,8 +2,6 @@
 #include <array>
 #include <cstdint>
 
-#include <Eigen/Geometry>
-
 #include <bsp/disjoint_sets.h>
 #include <bsp/edge_table.h>
 #include <repair/orient_parts.h>
@@ -41,12 +39,6 @@ DisjointSets parts_of(const std::vector<IndexTriangle>& triangles) {
     for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
   });
   return parts;
-}
-
-double area_of(const CleanSoup& soup, const Triangle& triangle) {
-  const Vec3d& a = soup.points[triangle.corners[0]];
-  return 0.5 *
-         (soup.points[triangle.corners[1]] - a).cross(soup.points[triangle.corners[2]] - a).norm();
 }
 
 }  // namespace
@@ -96,7 +88,7 @@ TriangleFates find_triangle_fates(const CleanSoup& input, const PartFates& parts
     const auto found = std::lower_bound(
         input.triangles.begin(), input.triangles.end(), surface.source[t],
         [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
-    if (found == input.triangles.end()) continue;
+    if (found == input.triangles.end() || found->source != surface.source[t]) continue;
     const auto& to = surface.mesh.triangles[t];
     fates.untouched += std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
       return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {

@@ -27,8 +27,9 @@ CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_
   CoveredCells covered{build_cells(tree, cell_options, report.clip), {}, {}};
   report.cells = covered.complex.cells.size();
   meter.begin("cover");
-  covered.cover =
-      cover_facets(covered.complex, winding, report.cover, options.progress, &covered.layers);
+  // Only `automatic` turns parts, and asks what else lies on a facet.
+  auto* layers = options.inside.rule == InsideRule::automatic ? &covered.layers : nullptr;
+  covered.cover = cover_facets(covered.complex, winding, report.cover, options.progress, layers);
   report.facets = covered.complex.facets.size();
   return covered;
 }
@@ -104,7 +105,7 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   meter.begin("clean");
   CleanSoup clean = clean_soup(soup, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
-  report.input_area = surface_area(soup);
+  for (const Triangle& t : clean.triangles) report.input_area += area_of(clean, t);
   if (clean.triangles.empty()) {
     throw NoSolidError(
         "no triangle is left: all are degenerate, or smaller than the working grid of 2^26 steps "

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "rim.h"
 #include "turn_sets.h"
 
 namespace meshrepair::internal {
@@ -147,27 +148,17 @@ class PatchFinder {
   // -1 where the triangles lie flat beside each other, 1 where they lie on each other. Rounded: it
   // only ranks.
   [[nodiscard]] double fold_of(std::uint32_t t, std::uint32_t k, std::uint32_t other) const {
-    const auto at = [&](PointId p) -> Vec3d {
-      const GridPoint& g = soup_.grid_points[p];
-      return {static_cast<double>(g.x), static_cast<double>(g.y), static_cast<double>(g.z)};
-    };
+    const auto at = [&](PointId p) { return as_vector(soup_.grid_points[p]); };
     const auto& corners = soup_.triangles[TriangleId(t)].corners;
     const PointId u = corners[k], v = corners[(k + 1) % 3];
-    const Vec3d along = (at(v) - at(u)).normalized();
-    const auto wing = [&](PointId tip) -> Vec3d {
-      const Vec3d out = at(tip) - at(u);
-      return (out - along * along.dot(out)).normalized();
-    };
     PointId tip = corners[(k + 2) % 3];
-    const Vec3d first = wing(tip);
     for (const PointId p : soup_.triangles[TriangleId(other)].corners) {
       if (p != u && p != v) tip = p;
     }
-    return first.dot(wing(tip));
+    return fold_cosine(at(u), at(v), at(corners[(k + 2) % 3]), at(tip));
   }
 
   void add_up(Patch& patch) {
-    patch.triangles = static_cast<std::uint32_t>(members_.size());
     for (const std::uint32_t t : members_) {
       const SurfaceSum sum = sum_of(soup_, TriangleId(t));
       patch.sum.add(result_.turned[t] != 0 ? sum.turned_round() : sum);

@@ -36,7 +36,6 @@ struct SurfaceSum {
 // Triangles connected through edges with exactly two triangles.
 struct Patch {
   SurfaceSum sum;
-  std::uint32_t triangles = 0;
   bool orientable = true;    // if not, as few of its edges contradict as was found
   bool closes_holes = true;  // none of its triangles is of the input
   bool doubled = true;       // all those that are, are there both ways round

@@ -50,6 +50,9 @@ struct CleanReport {
 [[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report,
                                    ProgressObserver* progress = nullptr);
 
+// In the input's units.
+[[nodiscard]] double area_of(const CleanSoup& soup, const Triangle& triangle);
+
 // An axis-parallel box with integer corners, inclusive.
 struct GridBox {
   GridPoint low, high;

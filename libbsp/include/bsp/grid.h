@@ -18,6 +18,10 @@ struct GridPoint {
   constexpr auto operator<=>(const GridPoint&) const = default;
 };
 
+[[nodiscard]] inline Vec3d as_vector(const GridPoint& p) {
+  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
 // Grid coordinates lie in [-kGridRadius, kGridRadius].
 inline constexpr int kGridBits = 26;
 inline constexpr std::int32_t kGridRadius = std::int32_t{1} << (kGridBits - 1);

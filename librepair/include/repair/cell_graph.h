@@ -36,7 +36,8 @@ class CellGraph {
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
   // Positions in links() of the links of a cell.
   [[nodiscard]] std::span<const std::uint32_t> links_of(CellId cell) const {
-    return {&of_cell_[first_[cell.index()]], &of_cell_[first_[cell.index() + 1]]};
+    const std::uint32_t first = first_[cell.index()];
+    return {of_cell_.data() + first, first_[cell.index() + 1] - first};
   }
   // Whether a facet of the cell lies on the outer box: such cells are empty by definition.
   [[nodiscard]] bool unbounded(CellId cell) const { return unbounded_[cell.index()] != 0; }

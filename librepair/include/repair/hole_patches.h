@@ -34,7 +34,7 @@ struct HoleReport {
   std::size_t slits = 0;         // all points in a line: nothing to be closed
   std::size_t too_large = 0;     // left open, as the options say, or because
                                  // the patch would lie on the surface
-  std::size_t stray_edges = 0;   // open edges on no loop
+  std::size_t stray_edges = 0;   // such edges on no loop
   std::size_t triangles = 0;     // added
   double area = 0;               // of these, in the input's units, squared
   double largest_area = 0;       // of one patch

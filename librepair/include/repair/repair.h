@@ -39,7 +39,7 @@ struct RepairOptions {
 struct RepairReport {
   CleanReport clean;
   Topology input;         // of the clean soup
-  double input_area = 0;  // in the input's units, squared
+  double input_area = 0;  // of the clean soup, in the input's units, squared
   HoleReport holes;
   BuildTreeReport tree;
   std::size_t cells = 0;
