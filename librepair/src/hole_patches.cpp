@@ -170,7 +170,8 @@ class HolePatcher {
   // Joins two rims by a ring where that takes less area than to close each of them.
   void close_rings() {
     closed_.assign(rims_.size(), 0);
-    for (const auto& [a, b] : internal::find_facing_rims(rims_, progress_)) {
+    for (const auto& pair : internal::find_facing_rims(rims_, progress_)) {
+      const std::size_t a = pair.first, b = pair.second;
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
       if (!is_large_opening(a) && !is_large_opening(b)) continue;

@@ -109,6 +109,7 @@ class PartOrienter {
     if (sides.empty() || sides.size() % 2 != 0) return;
     if (!internal::sort_around_edge(soup_, triangles_, sides)) return;
     std::vector<std::uint32_t> here;
+    here.reserve(sides.size());
     for (const std::uint32_t s : sides) here.push_back(patches_.of[s / 3]);
     std::sort(here.begin(), here.end());
     // Whether an odd number of the sides are the patch's.
