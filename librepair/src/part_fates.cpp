@@ -2,8 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include <bsp/disjoint_sets.h>
-#include <bsp/edge_table.h>
+#include <bsp/topology.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
 
@@ -33,14 +32,6 @@ Places places_of_triangles(const CellComplex& complex, const IdVector<FacetId, C
   return places;
 }
 
-DisjointSets parts_of(const std::vector<IndexTriangle>& triangles) {
-  DisjointSets parts(triangles.size());
-  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
-    for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
-  });
-  return parts;
-}
-
 }  // namespace
 
 PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
@@ -59,22 +50,25 @@ PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Co
                   [](std::uint8_t p) { return (p & kBoundary) != 0; })) {
     return fates;
   }
-  DisjointSets parts = parts_of(index_triangles(soup));
-  Places places_of_part(places.size(), 0);
-  std::vector<double> area(places.size(), 0);
-  for (std::uint32_t t = 0; t < places.size(); ++t) {
-    places_of_part[parts.root(t)] |= places[t];
-    const Triangle& triangle = soup.triangles[TriangleId(t)];
-    if (triangle.source != Triangle::kNoSource) area[parts.root(t)] += area_of(soup, triangle);
+  TopologyPlaces topology;
+  const std::size_t parts =
+      examine_topology(index_triangles(soup), soup.points.size(), &topology).parts;
+  Places places_of_part(parts, 0);
+  std::vector<double> area(parts, 0);
+  for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
+    const std::uint32_t part = topology.parts[t.index()];
+    places_of_part[part] |= places[t.index()];
+    const Triangle& triangle = soup.triangles[t];
+    if (triangle.source != Triangle::kNoSource) area[part] += area_of(soup, triangle);
   }
-  for (std::uint32_t t = 0; t < places.size(); ++t) {
-    if (parts.root(t) != t || (places_of_part[t] & kBoundary) != 0) continue;
+  for (std::size_t part = 0; part < parts; ++part) {
+    if ((places_of_part[part] & kBoundary) != 0) continue;
     // A part that coincides with another one in all its pieces has the fate of that one.
-    if (places_of_part[t] == 0) continue;
-    const bool outside = (places_of_part[t] & kOutside) != 0;
+    if (places_of_part[part] == 0) continue;
+    const bool outside = (places_of_part[part] & kOutside) != 0;
     PartsAndArea& fate = outside ? fates.enclosing_nothing : fates.inside_solid;
     ++fate.parts;
-    fate.area += area[t];
+    fate.area += area[part];
   }
   return fates;
 }

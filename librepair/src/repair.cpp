@@ -105,7 +105,9 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   meter.begin("clean");
   CleanSoup clean = clean_soup(soup, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
+  report.input_area = 0;
   for (const Triangle& t : clean.triangles) report.input_area += area_of(clean, t);
+  report.holes = {};
   if (clean.triangles.empty()) {
     throw NoSolidError(
         "no triangle is left: all are degenerate, or smaller than the working grid of 2^26 steps "
