@@ -25,7 +25,11 @@ struct Measurement {
   std::size_t peak_bytes = 0;  // above what was resident before
 };
 
-// Runs `work` once; the peak is reset before.
+// So that what follows has a peak of its own. Only Linux can forget the peak so far; elsewhere it
+// stays.
+void forget_peak();
+
+// Runs `work` once; the peak is forgotten before.
 [[nodiscard]] Measurement measure(const std::function<void()>& work);
 
 // One line of the table that every benchmark prints: microseconds and bytes per input triangle, and

@@ -92,6 +92,16 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->check(why_no_duration)
       ->type_name("SECONDS")
       ->group(running);
+  app.add_option("--max-memory", options.max_memory,
+                 "Give up rather than take more: 200M, 1.5G, or a share of what is free; 0 is any")
+      ->capture_default_str()
+      ->type_name("SIZE")
+      ->group(running);
+  app.add_option("--max-triangles", options.max_triangles,
+                 "Give up on inputs of more triangles; 0 is any number")
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(running);
   app.add_option("--report", options.report, "Write a report as JSON; - is standard output")
       ->type_name("FILE")
       ->group(telling);

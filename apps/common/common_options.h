@@ -1,6 +1,8 @@
 // The options that every program has, and how its command line is parsed.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include <CLI/App.hpp>
@@ -13,8 +15,10 @@ struct CommonOptions {
   std::string report;  // file for the JSON report, "-" is stdout, empty is none
   bool quiet = false;
   bool verbose = false;
-  unsigned threads = 0;   // 0: all that the machine has
-  double time_limit = 0;  // seconds, 0: none
+  unsigned threads = 0;            // 0: all that the machine has
+  double time_limit = 0;           // seconds, 0: none
+  std::string max_memory = "80%";  // see parse_memory_limit
+  std::size_t max_triangles = 0;   // of a mesh that is read, 0: any number
 
   [[nodiscard]] Verbosity verbosity() const;
 };

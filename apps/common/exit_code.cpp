@@ -50,15 +50,21 @@ Failure describe_exception(const std::exception_ptr& error) {
 
 }  // namespace
 
-Failure describe_failure(const std::exception_ptr& error) {
+std::optional<Failure> failure_of_signal() {
   switch (received_signal()) {
+    case SIGHUP:
+      return Failure{ExitCode::hung_up, "hung up"};
     case SIGINT:
-      return {ExitCode::interrupted, "interrupted"};
+      return Failure{ExitCode::interrupted, "interrupted"};
     case SIGTERM:
-      return {ExitCode::terminated, "terminated"};
+      return Failure{ExitCode::terminated, "terminated"};
     default:
-      break;
+      return std::nullopt;
   }
+}
+
+Failure describe_failure(const std::exception_ptr& error) {
+  if (auto interruption = failure_of_signal()) return *interruption;
   Failure failure = describe_exception(error);
   failure.message = one_line(failure.message);
   return failure;

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,7 @@ enum class ExitCode : int {
   no_solid = 5,       // the input was read, but encloses nothing
   output = 6,         // the output cannot be written
   internal = 70,      // a bug of ours
+  hung_up = 129,      // SIGHUP
   interrupted = 130,  // SIGINT
   terminated = 143,   // SIGTERM
 };
@@ -28,6 +30,9 @@ struct Failure {
   ExitCode code = ExitCode::internal;
   std::string message;
 };
+
+// What the first signal received makes of the run; empty if there was none.
+[[nodiscard]] std::optional<Failure> failure_of_signal();
 
 // The family of bsp/error.h by type, std::bad_alloc to limit, the rest to internal. Once a signal
 // was received every failure is that interruption: a cancelled read looks like a broken one. The

@@ -1,7 +1,10 @@
 #include "common/program.h"
 
+#include <algorithm>
 #include <exception>
+#include <new>
 #include <optional>
+#include <thread>
 
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
@@ -10,10 +13,17 @@
 #include <bsp/error.h>
 
 #include "common/logging.h"
+#include "common/memory_limit.h"
 #include "common/signals.h"
+#include "common/watchdog.h"
 
 namespace meshrepair {
 namespace {
+
+// As many as there will be: 0 stands for all that the machine has.
+unsigned thread_count(unsigned threads) {
+  return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+}
 
 std::optional<tbb::global_control> limit_threads(unsigned threads) {
   if (threads == 0) return std::nullopt;
@@ -25,6 +35,7 @@ ProgressBar::Options bar_options(const CommonOptions& options) {
   ProgressBar::Options bar;
   bar.draw = !options.quiet && stderr_is_terminal();
   bar.time_limit = options.time_limit;
+  bar.memory_limit = parse_memory_limit(options.max_memory);
   return bar;
 }
 
@@ -54,17 +65,24 @@ int Program::run(int argc, const char* const* argv, const Body& body) {
 ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& body) {
   JsonReport report(command_line_.get_name(), std::vector<std::string>(argv, argv + argc));
   std::optional<ProgressBar> progress(std::in_place);
+  std::optional<Watchdog> watchdog;
   ExitCode code = ExitCode::done;
   std::exception_ptr error;
   try {
     add_common_options(command_line_, options_);
     if (!parse(argc, argv)) return ExitCode::done;
     set_up_logging(command_line_.get_name(), options_.verbosity());
-    progress.emplace(bar_options(options_));
+    const ProgressBar::Options bar = bar_options(options_);
+    progress.emplace(bar);
+    watchdog.emplace(command_line_.get_name(), *progress);
+    limit_memory(bar.memory_limit, thread_count(options_.threads));
     const auto thread_limit = limit_threads(options_.threads);
     Run run{report, *progress, options_};
     code = body(run);
     flush_standard_output();
+    watchdog.reset();
+  } catch (const std::bad_alloc&) {
+    error = std::make_exception_ptr(LimitError(progress->out_of_memory()));
   } catch (...) {
     error = std::current_exception();
   }

@@ -10,17 +10,25 @@
 
 #include <bsp/error.h>
 
+#include "common/memory_limit.h"
 #include "common/signals.h"
 
 namespace meshrepair {
 namespace {
 
 constexpr double kSecondsBetweenDrawings = 0.1;
+constexpr double kSecondsBetweenQuestions = 0.01;
 
 double seconds_between(std::chrono::steady_clock::time_point from,
                        std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
+
+double clamp_share(double share) {
+  return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+}
+
+int percent_of(double share) { return static_cast<int>(clamp_share(share) * 100); }
 
 int columns_of(std::FILE* terminal) {
   winsize size = {};
@@ -31,8 +39,8 @@ int columns_of(std::FILE* terminal) {
 }  // namespace
 
 std::string progress_line(std::string_view stage, double share, double seconds, int columns) {
-  const double clamped = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
-  const int percent = static_cast<int>(clamped * 100);
+  const double clamped = clamp_share(share);
+  const int percent = percent_of(share);
   std::string line = fmt::format("{:<12} {:>3}% ", stage, percent);
   const std::string end = fmt::format(" {:.1f} s", seconds);
   const int room = columns - static_cast<int>(line.size() + end.size()) - 2;
@@ -52,26 +60,60 @@ ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::stage(std::string_view name) {
   end_stage();
-  stage_ = name;
   stage_start_ = Clock::now();
-  share_ = 0;
+  {
+    const std::scoped_lock lock(where_mutex_);
+    stage_ = name;
+    share_ = 0;
+  }
   spdlog::debug("{} ...", stage_);
   draw();
 }
 
 void ProgressBar::advance(double share) {
-  share_ = share;
+  {
+    const std::scoped_lock lock(where_mutex_);
+    share_ = share;
+  }
   draw();
 }
 
 bool ProgressBar::cancelled() {
   if (received_signal() != 0) return true;
-  if (options_.time_limit > 0 && seconds() > options_.time_limit) {
-    throw LimitError(
-        fmt::format("time limit of {:g} s reached in stage '{}'", options_.time_limit, stage_));
+  const Clock::time_point now = Clock::now();
+  if (seconds_between(last_question_, now) > kSecondsBetweenQuestions) {
+    last_question_ = now;
+    if (const auto limit = limit_reached()) throw LimitError(*limit);
   }
   draw();
   return false;
+}
+
+std::optional<Failure> ProgressBar::reason_to_stop() const {
+  if (const auto signal = failure_of_signal()) return signal;
+  if (auto limit = limit_reached()) return Failure{ExitCode::limit, std::move(*limit)};
+  return std::nullopt;
+}
+
+std::optional<std::string> ProgressBar::limit_reached() const {
+  if (options_.time_limit > 0 && seconds() > options_.time_limit) {
+    return fmt::format("time limit of {:g} s reached {}", options_.time_limit, where());
+  }
+  if (options_.memory_limit > 0 && resident_memory() > options_.memory_limit) {
+    return out_of_memory();
+  }
+  return std::nullopt;
+}
+
+std::string ProgressBar::out_of_memory() const {
+  if (options_.memory_limit == 0) return "out of memory " + where();
+  return fmt::format("memory limit of {} reached {}", memory_text(options_.memory_limit), where());
+}
+
+std::string ProgressBar::where() const {
+  const std::scoped_lock lock(where_mutex_);
+  if (stage_.empty()) return "before the first stage";
+  return fmt::format("in stage '{}', {} % done", stage_, percent_of(share_));
 }
 
 void ProgressBar::finish() {
@@ -92,6 +134,7 @@ void ProgressBar::end_stage() {
     stages_.push_back({stage_, seconds});
   }
   spdlog::info("{}: {:.3f} s", stage_, seconds);
+  const std::scoped_lock lock(where_mutex_);
   stage_.clear();
 }
 

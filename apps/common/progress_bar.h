@@ -1,14 +1,18 @@
-// The observer of every program: times the stages, draws them, and passes on signals and the time
-// limit.
+// The observer of every program: times the stages, draws them, and passes on signals and limits.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <bsp/progress.h>
+
+#include "common/exit_code.h"
 
 namespace meshrepair {
 
@@ -24,10 +28,11 @@ struct StageTime {
 class ProgressBar : public ProgressObserver {
  public:
   struct Options {
-    bool draw = false;             // on `terminal`, from the first half second on
-    double time_limit = 0;         // seconds from construction on; 0 is none
-    std::FILE* terminal = stderr;  // not owned
-    double delay = 0.5;            // seconds before anything is drawn: short runs stay silent
+    bool draw = false;               // on `terminal`, from the first half second on
+    double time_limit = 0;           // seconds from construction on; 0 is none
+    std::uint64_t memory_limit = 0;  // bytes; 0 is none
+    std::FILE* terminal = stderr;    // not owned
+    double delay = 0.5;              // seconds before anything is drawn: short runs stay silent
   };
 
   explicit ProgressBar(const Options& options);
@@ -36,8 +41,15 @@ class ProgressBar : public ProgressObserver {
 
   void stage(std::string_view name) override;
   void advance(double share) override;
-  // True once a signal was received. Throws LimitError once the time limit is over.
+  // True once a signal was received. Throws LimitError once a limit is reached.
   bool cancelled() override;
+
+  // Why the work has to stop, if it has to. From any thread.
+  [[nodiscard]] std::optional<Failure> reason_to_stop() const;
+  // For std::bad_alloc: the limit, the stage and how far it was.
+  [[nodiscard]] std::string out_of_memory() const;
+  // What clears the line on the terminal.
+  [[nodiscard]] std::string clearing() const { return options_.draw ? "\r\x1b[K" : ""; }
 
   // Ends the last stage and clears the line. May be called more than once.
   void finish();
@@ -52,6 +64,9 @@ class ProgressBar : public ProgressObserver {
   using Clock = std::chrono::steady_clock;
 
   void end_stage();
+  // "in stage 'cells', 43 % done".
+  [[nodiscard]] std::string where() const;
+  [[nodiscard]] std::optional<std::string> limit_reached() const;
   void draw();
   void clear();
 
@@ -59,6 +74,8 @@ class ProgressBar : public ProgressObserver {
   Clock::time_point start_;
   Clock::time_point stage_start_;
   Clock::time_point last_drawn_;
+  Clock::time_point last_question_;  // long ago at first
+  mutable std::mutex where_mutex_;   // for the two that follow: they are read from other threads
   std::string stage_;
   double share_ = 0;
   bool line_is_drawn_ = false;

@@ -123,6 +123,13 @@ ExitCode verdict(const Findings& findings) {
   return ExitCode::not_certified;
 }
 
+ReadOptions read_options(Run& run) {
+  ReadOptions options;
+  if (run.options.max_triangles > 0) options.max_triangles = run.options.max_triangles;
+  options.progress = &run.progress;
+  return options;
+}
+
 ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   Findings findings(options.input, options.output);
   (void)with_findings(run, findings, [&] {
@@ -219,7 +226,7 @@ int run_steps(Program& program, int argc, const char* const* argv, StepOptions& 
 TriangleSoup read_mesh_stage(Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("read");
-  ReadResult result = read_soup(findings.input);
+  ReadResult result = read_soup(findings.input, read_options(run));
   findings.mesh_read = std::move(result.report);
   log_warnings(findings.input_name(), findings.mesh_read->warnings);
   return std::move(result.soup);
@@ -228,7 +235,7 @@ TriangleSoup read_mesh_stage(Run& run, Findings& findings) {
 Tree read_tree_stage(Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("read");
-  Tree tree = read_tree(findings.input);
+  Tree tree = read_tree(findings.input, read_options(run));
   findings.tree_read = facts_of(tree);
   return tree;
 }

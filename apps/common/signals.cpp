@@ -33,6 +33,7 @@ void handle(int number) {
 }  // namespace
 
 void install_signal_handlers() {
+  handle(SIGHUP);
   handle(SIGINT);
   handle(SIGTERM);
   std::signal(SIGPIPE, SIG_IGN);

@@ -12,6 +12,8 @@
 namespace meshrepair {
 namespace {
 
+std::size_t triangles_of(std::size_t corners) { return corners < 3 ? 0 : corners - 2; }
+
 // Faces left out for one reason.
 struct Dropped {
   std::size_t count = 0;
@@ -37,14 +39,19 @@ void FaceList::end_face() {
   stream_[last_] = static_cast<std::uint32_t>(corners);
   open_ = false;
   ++size_;
+  triangles_ += triangles_of(corners);
 }
 
 void FaceList::drop_face() {
-  if (!open_) --size_;
+  if (!open_) {
+    --size_;
+    triangles_ -= triangles_of(stream_[last_]);
+  }
   stream_.resize(last_);
 }
 
-void FaceList::append_to(ReadResult& result) {
+void FaceList::append_to(ReadResult& result, ProgressObserver* progress) {
+  CancelCheck cancel(progress);
   TriangleSoup& soup = result.soup;
   Dropped out_of_range;
   Dropped too_small;
@@ -53,6 +60,7 @@ void FaceList::append_to(ReadResult& result) {
   for (std::size_t face = 0; face < size_; ++face) {
     const std::span<const std::uint32_t> corners(stream_.data() + at + 1, stream_[at]);
     at += 1 + corners.size();
+    cancel.tick();
     const auto is_bad = [&](std::uint32_t corner) { return corner >= soup.points.size(); };
     if (std::any_of(corners.begin(), corners.end(), is_bad)) {
       out_of_range.add(face);

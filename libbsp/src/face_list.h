@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include <bsp/progress.h>
 #include <bsp/soup_io.h>
 
 namespace meshrepair {
@@ -23,10 +24,13 @@ class FaceList {
   void drop_face();
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  // That the faces will become, if none is a bad one.
+  [[nodiscard]] std::size_t triangles() const { return triangles_; }
 
   // Moves the faces into the soup, triangulated. Those with an index out of range or with fewer
-  // than three corners are left out, counted and mentioned in the report.
-  void append_to(ReadResult& result);
+  // than three corners are left out, counted and mentioned in the report. `progress` is asked
+  // whether to go on.
+  void append_to(ReadResult& result, ProgressObserver* progress);
 
  private:
   static constexpr std::uint32_t kBadIndex = std::numeric_limits<std::uint32_t>::max();
@@ -34,6 +38,7 @@ class FaceList {
   std::vector<std::uint32_t> stream_;  // for each face: number of corners, then the corners
   std::size_t last_ = 0;               // where the last face begins in the stream
   std::size_t size_ = 0;               // faces ended
+  std::size_t triangles_ = 0;          // of them
   bool open_ = false;                  // the last face is not ended
 };
 

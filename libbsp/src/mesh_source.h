@@ -12,6 +12,7 @@ namespace meshrepair {
 struct MeshSource {
   std::string_view bytes;
   std::string name;
+  ReadOptions options = {};
 
   // 1-based number of the line that holds the byte at `position`; LF, CRLF and CR end lines.
   // Linear.

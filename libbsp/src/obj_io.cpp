@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "face_list.h"
+#include "read_guard.h"
 #include "text_scanner.h"
 #include "text_writer.h"
 
@@ -14,12 +15,14 @@ constexpr TextDialect kObjText = {.comment = '#', .continuation = true};
 
 class ObjReader {
  public:
-  explicit ObjReader(const MeshSource& source) : source_(source), text_(source.bytes, kObjText) {}
+  explicit ObjReader(const MeshSource& source)
+      : source_(source), text_(source.bytes, kObjText), guard_(source) {}
 
   ReadResult run() {
     result_.report.format = SoupFormat::obj;
     while (text_.next_anywhere()) {
       line_at_ = text_.position();
+      guard_.step(faces_.triangles(), line_at_);
       const std::string_view word = text_.peek_token();
       text_.skip_token();
       if (word == "v") {
@@ -29,8 +32,9 @@ class ObjReader {
       }
       text_.skip_line();
     }
+    guard_.step(faces_.triangles(), source_.bytes.size());
     warn_of_bad(result_.report, source_, first_bad_, "face", "corners that are not numbers");
-    faces_.append_to(result_);
+    faces_.append_to(result_, source_.options.progress);
     return std::move(result_);
   }
 
@@ -66,6 +70,7 @@ class ObjReader {
   TextScanner text_;
   ReadResult result_;
   FaceList faces_;
+  ReadGuard guard_;
   std::size_t line_at_ = 0;
   FirstBad first_bad_;
 };

@@ -11,6 +11,7 @@
 #include "face_list.h"
 #include "off_header.h"
 #include "off_io.h"
+#include "read_guard.h"
 
 namespace meshrepair {
 namespace {
@@ -20,16 +21,18 @@ constexpr std::size_t kWord = 4;
 class BinaryOffReader {
  public:
   explicit BinaryOffReader(const MeshSource& source)
-      : source_(source), header_(read_off_header(source)), at_(header_.data_at) {}
+      : source_(source), header_(read_off_header(source)), at_(header_.data_at), guard_(source) {}
 
   ReadResult run() {
     result_.report.format = SoupFormat::off;
     read_counts();
     read_points();
     while (faces_.size() < header_.faces && read_face()) {
+      guard_.step(faces_.triangles(), at_);
     }
+    guard_.step(faces_.triangles(), source_.bytes.size());
     report_losses();
-    faces_.append_to(result_);
+    faces_.append_to(result_, source_.options.progress);
     return std::move(result_);
   }
 
@@ -59,6 +62,7 @@ class BinaryOffReader {
     const std::size_t count = std::min(header_.points, words_left() / stride);
     result_.soup.points.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
+      guard_.step(0, at_);
       const std::size_t next = at_ + stride * kWord;
       const float x = take<float>();
       const float y = take<float>();
@@ -111,6 +115,7 @@ class BinaryOffReader {
   std::size_t at_;
   ReadResult result_;
   FaceList faces_;
+  ReadGuard guard_;
 };
 
 }  // namespace

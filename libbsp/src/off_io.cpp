@@ -19,6 +19,7 @@
 
 #include "face_list.h"
 #include "off_header.h"
+#include "read_guard.h"
 #include "text_writer.h"
 
 namespace meshrepair {
@@ -30,7 +31,10 @@ constexpr std::size_t kMostNumbersPerPoint = 13;
 class OffReader {
  public:
   explicit OffReader(const MeshSource& source)
-      : source_(source), header_(read_off_header(source)), text_(source.bytes, kOffText) {}
+      : source_(source),
+        header_(read_off_header(source)),
+        text_(source.bytes, kOffText),
+        guard_(source) {}
 
   ReadResult run() {
     result_.report.format = SoupFormat::off;
@@ -39,10 +43,14 @@ class OffReader {
     lines_count_ = header_.counts_end_line && lines_hold_points();
     // A point takes at least six bytes, "0 0 0" and a blank.
     result_.soup.points.reserve(std::min(header_.points, text_.remaining() / 6 + 1));
-    while (result_.soup.points.size() < header_.points && text_.next_anywhere()) read_point();
+    while (result_.soup.points.size() < header_.points && text_.next_anywhere()) {
+      guard_.step(0, text_.position());
+      read_point();
+    }
     read_faces();
+    guard_.step(faces_.triangles(), source_.bytes.size());
     report_losses();
-    faces_.append_to(result_);
+    faces_.append_to(result_, source_.options.progress);
     return std::move(result_);
   }
 
@@ -75,6 +83,7 @@ class OffReader {
   void read_faces() {
     while (text_.next_anywhere()) {
       const std::size_t start = text_.position();
+      guard_.step(faces_.triangles(), start);
       if (!read_face()) {
         const bool promised = faces_.size() + result_.report.bad_faces < header_.faces;
         if (promised && result_.report.bad_faces++ == 0) first_bad_.face = start;
@@ -130,6 +139,7 @@ class OffReader {
   TextScanner text_;
   ReadResult result_;
   FaceList faces_;
+  ReadGuard guard_;
   bool lines_count_ = true;
   std::size_t last_face_end_ = 0;
   FirstBad first_bad_;

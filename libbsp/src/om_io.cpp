@@ -20,7 +20,7 @@
 
 #include "byte_order.h"
 #include "face_list.h"
-#include "mapped_file.h"
+#include "file_bytes.h"
 #include "mesh_source.h"
 
 namespace meshrepair {
@@ -62,7 +62,7 @@ class OmReader {
     read_header();
     while (!done_ && source_.bytes.size() - at_ >= 2) read_chunk();
     if (!has_faces_) source_.fail("the .om file ends before its faces");
-    faces_.append_to(result_);
+    faces_.append_to(result_, source_.options.progress);
     if (!result_.report.warnings.empty()) source_.fail(result_.report.warnings.front());
     if (result_.soup.triangles.empty()) source_.fail("holds no triangles");
     return std::move(result_.soup);
@@ -223,7 +223,7 @@ class OmReader {
 }  // namespace
 
 TriangleSoup read_om(const std::filesystem::path& path) {
-  const MappedFile file(path);
+  const FileBytes file(path);
   const MeshSource source = {file.bytes(), path.string()};
   return OmReader(source).run();
 }

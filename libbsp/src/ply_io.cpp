@@ -10,6 +10,7 @@
 #include "face_list.h"
 #include "ply_cursor.h"
 #include "ply_header.h"
+#include "read_guard.h"
 #include "text_writer.h"
 
 namespace meshrepair {
@@ -48,7 +49,7 @@ template <class Cursor>
 class PlyBody {
  public:
   PlyBody(const MeshSource& source, const PlyHeader& header, SoupFormat format)
-      : source_(source), header_(header), cursor_(source.bytes, header) {
+      : source_(source), header_(header), cursor_(source.bytes, header), guard_(source) {
     result_.report.format = format;
   }
 
@@ -66,8 +67,9 @@ class PlyBody {
         read_items(element, [&] { return pass_over(element); });
       }
     }
+    guard_.step(faces_.triangles(), source_.bytes.size());
     report_losses();
-    faces_.append_to(result_);
+    faces_.append_to(result_, source_.options.progress);
     return std::move(result_);
   }
 
@@ -79,6 +81,7 @@ class PlyBody {
     std::size_t items = 0;
     for (; items < element.count && !stopped_ && cursor_.more(); ++items) {
       const Cursor start = cursor_;
+      guard_.step(faces_.triangles(), source_.bytes.size() - cursor_.remaining());
       stopped_ = !read_item() && !Cursor::kCanResume;
       if (stopped_) {
         cursor_ = start;
@@ -244,6 +247,7 @@ class PlyBody {
   Cursor cursor_;
   ReadResult result_;
   FaceList faces_;
+  ReadGuard guard_;
   bool stopped_ = false;  // what follows cannot be read
 };
 

@@ -11,7 +11,7 @@
 #include <bsp/tree_io.h>
 #include <bsp/weld_points.h>
 
-#include "mapped_file.h"
+#include "file_bytes.h"
 #include "mesh_source.h"
 #include "obj_io.h"
 #include "off_io.h"
@@ -109,13 +109,13 @@ std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path)
   return std::nullopt;
 }
 
-ReadResult read_soup(const std::filesystem::path& path) {
-  const MappedFile file(path);
-  return read_soup(file.bytes(), path == "-" ? "standard input" : path.string());
+ReadResult read_soup(const std::filesystem::path& path, const ReadOptions& options) {
+  const FileBytes file(path, options.progress);
+  return read_soup(file.bytes(), path == "-" ? "standard input" : path.string(), options);
 }
 
-ReadResult read_soup(std::string_view bytes, const std::string& name) {
-  const MeshSource source = {without_byte_order_mark(bytes), name};
+ReadResult read_soup(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  const MeshSource source = {without_byte_order_mark(bytes), name, options};
   if (source.bytes.empty()) source.fail("is empty");
   ReadResult result = read_as(recognize(source), source);
   result.report.bytes = bytes.size();

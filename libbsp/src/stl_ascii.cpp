@@ -18,6 +18,7 @@
 
 #include <bsp/weld_points.h>
 
+#include "read_guard.h"
 #include "stl_io.h"
 #include "text_scanner.h"
 #include "text_writer.h"
@@ -29,12 +30,13 @@ namespace {
 class AsciiStlReader {
  public:
   explicit AsciiStlReader(const MeshSource& source)
-      : source_(source), text_(source.bytes), welder_(result_.soup.points) {}
+      : source_(source), text_(source.bytes), guard_(source), welder_(result_.soup.points) {}
 
   ReadResult run() {
     result_.report.format = SoupFormat::stl_ascii;
     while (text_.next_anywhere()) {
       word_at_ = text_.position();
+      guard_.step(result_.soup.triangles.size(), word_at_);
       const std::string_view word = text_.peek_token();
       text_.skip_token();
       if (equals_ignoring_case(word, "vertex")) {
@@ -48,6 +50,7 @@ class AsciiStlReader {
         skip_name();
       }
     }
+    guard_.step(result_.soup.triangles.size(), source_.bytes.size());
     drop_face();
     warn_of_bad(result_.report, source_, first_bad_, "facet",
                 "cut or with fewer than three vertices", "vertex line");
@@ -112,6 +115,7 @@ class AsciiStlReader {
 
   const MeshSource& source_;
   TextScanner text_;
+  ReadGuard guard_;
   ReadResult result_;
   PointWelder welder_;
   std::vector<std::uint32_t> corners_;

@@ -17,6 +17,7 @@
 #include <bsp/error.h>
 #include <bsp/weld_points.h>
 
+#include "read_guard.h"
 #include "stl_io.h"
 
 namespace meshrepair {
@@ -77,6 +78,8 @@ ReadResult read_stl_binary(const MeshSource& source) {
   if (size < kHeaderSize) source.fail("a binary STL cut within its header of 84 bytes");
   const std::size_t count = (size - kHeaderSize) / kTriangleSize;
 
+  ReadGuard guard(source);
+  guard.require(count);
   ReadResult result;
   result.report.format = SoupFormat::stl_binary;
   report_sizes(source, count, result.report);
@@ -85,6 +88,7 @@ ReadResult read_stl_binary(const MeshSource& source) {
   PointWelder welder(result.soup.points, count / 2);
   const char* corners = source.bytes.data() + kHeaderSize + kNormalSize;
   for (std::size_t i = 0; i < count; ++i, corners += kTriangleSize) {
+    guard.step(i, kHeaderSize + i * kTriangleSize);
     std::array<float, 9> c;
     static_assert(sizeof c == kCornersSize);
     std::memcpy(c.data(), corners, sizeof c);

@@ -6,7 +6,7 @@
 #include <bsp/predicates.h>
 #include <bsp/tree_io.h>
 
-#include "mapped_file.h"
+#include "file_bytes.h"
 #include "recognize_format.h"
 #include "tree_sections.h"
 
@@ -108,6 +108,7 @@ void read_points(SectionReader& in, CleanSoup& soup) {
   soup.grid_points.reserve(count);
   const auto in_grid = [](std::int32_t x) { return x >= -kGridRadius && x <= kGridRadius; };
   for (std::size_t i = 0; i < count; ++i) {
+    in.tick();
     Vec3d at;
     for (int axis = 0; axis < 3; ++axis) at[axis] = in.get<double>();
     GridPoint g;
@@ -121,8 +122,10 @@ void read_points(SectionReader& in, CleanSoup& soup) {
 
 void read_triangles(SectionReader& in, CleanSoup& soup) {
   const std::size_t count = in.enter("TRIS", kTriangleBytes);
+  in.require_at_most(count);
   soup.triangles.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    in.tick();
     Triangle t;
     for (PointId& corner : t.corners) {
       corner = PointId(in.get<std::uint32_t>());
@@ -142,6 +145,7 @@ void read_planes(SectionReader& in, PlaneTable& planes) {
   constexpr std::int64_t kNormalLimit = std::int64_t{1} << 54;
   constexpr Int128 kOffsetLimit = Int128{1} << 81;
   for (std::size_t i = 0; i < count; ++i) {
+    in.tick();
     Plane plane;
     for (std::int64_t& n : plane.normal) {
       n = in.get<std::int64_t>();
@@ -175,6 +179,7 @@ void read_nodes(SectionReader& in, Tree& tree) {
   const std::size_t count = in.enter("NODE", kNodeBytes);
   tree.nodes.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    in.tick();
     TreeNode node;
     node.plane = PlaneId(in.get<std::uint32_t>());
     for (TreeRef& child : node.child) child = TreeRef::from_bits(in.get<std::uint32_t>());
@@ -209,6 +214,7 @@ void read_node_triangles(SectionReader& in, Tree& tree) {
   const std::size_t count = in.enter("NTRI", kNodeTriangleBytes);
   tree.node_triangles.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    in.tick();
     const TriangleId t(in.get<std::uint32_t>());
     in.require(tree.input.triangles.contains(t), "refers to a triangle that is not there");
     tree.node_triangles.push_back(t);
@@ -229,6 +235,7 @@ void read_leaves(SectionReader& in, Tree& tree) {
   check_structure(in, tree, count);
   tree.leaves.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    in.tick();
     const auto label = in.get<std::uint32_t>();
     const auto confidence = in.get<float>();
     in.require(label <= 2, "has an unknown label");
@@ -260,8 +267,9 @@ std::string format_tree(const Tree& tree) {
 
 bool looks_like_tree(std::string_view bytes) { return bytes.starts_with(kSignature.substr(0, 4)); }
 
-Tree parse_tree(std::string_view bytes, const std::string& name) {
-  SectionReader in(bytes, name);
+Tree parse_tree(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  const MeshSource source = {bytes, name, options};
+  SectionReader in(source);
   in.skip(kSignature, bytes.starts_with(kSignature) ? std::string() : why_no_tree(bytes));
   const std::uint32_t version = in.header_number();
   if (version != kVersion) {
@@ -286,9 +294,9 @@ void write_tree(const Tree& tree, const std::filesystem::path& path, ProgressObs
   write_file_atomically(path, format_tree(tree), progress);
 }
 
-Tree read_tree(const std::filesystem::path& path) {
-  const MappedFile file(path);
-  return parse_tree(file.bytes(), path == "-" ? "standard input" : path.string());
+Tree read_tree(const std::filesystem::path& path, const ReadOptions& options) {
+  const FileBytes file(path, options.progress);
+  return parse_tree(file.bytes(), path == "-" ? "standard input" : path.string(), options);
 }
 
 }  // namespace meshrepair

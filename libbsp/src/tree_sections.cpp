@@ -36,7 +36,7 @@ void SectionWriter::finish() {
 }
 
 void SectionReader::skip(std::string_view expected, const std::string& otherwise) {
-  if (!rest_.starts_with(expected)) throw InputError(file_ + ": " + otherwise);
+  if (!rest_.starts_with(expected)) throw InputError(source_.name + ": " + otherwise);
   rest_.remove_prefix(expected.size());
 }
 
@@ -66,7 +66,7 @@ std::size_t SectionReader::enter(std::string_view name, std::uint32_t item_bytes
 }
 
 void SectionReader::fail(const std::string& what) const {
-  throw InputError(file_ + ": section " + section_ + " " + what);
+  throw InputError(source_.name + ": section " + section_ + " " + what);
 }
 
 }  // namespace meshrepair::internal

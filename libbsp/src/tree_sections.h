@@ -12,6 +12,8 @@
 #include <bsp/error.h>
 
 #include "byte_order.h"
+#include "mesh_source.h"
+#include "read_guard.h"
 
 namespace meshrepair::internal {
 
@@ -44,7 +46,8 @@ class SectionWriter {
 // section.
 class SectionReader {
  public:
-  SectionReader(std::string_view bytes, std::string name) : rest_(bytes), file_(std::move(name)) {}
+  explicit SectionReader(const MeshSource& source)
+      : rest_(source.bytes), source_(source), guard_(source) {}
 
   // The header of the file, and a plain number of it.
   void skip(std::string_view expected, const std::string& otherwise);
@@ -59,6 +62,9 @@ class SectionReader {
     rest_.remove_prefix(sizeof(Number));
     return number;
   }
+  // To be called for each item; and with the number of triangles.
+  void tick() { guard_.step(0, source_.bytes.size() - rest_.size()); }
+  void require_at_most(std::size_t triangles) const { guard_.require(triangles); }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
   [[noreturn]] void fail(const std::string& what) const;
@@ -68,7 +74,8 @@ class SectionReader {
 
  private:
   std::string_view rest_;
-  std::string file_;
+  const MeshSource& source_;
+  ReadGuard guard_;
   std::string section_ = "header";
 };
 

@@ -6,6 +6,7 @@
 // corners is one fan, and becomes one vertex.
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <bsp/assert.h>
 #include <bsp/disjoint_sets.h>
@@ -44,11 +45,12 @@ class SidesByEdge {
 class NonmanifoldCutter {
  public:
   NonmanifoldCutter(const CellComplex& complex, const Boundary& boundary,
-                    const std::vector<char>& solid, Touching touching)
+                    const std::vector<char>& solid, Touching touching, ProgressObserver* progress)
       : complex_(complex),
         boundary_(boundary),
         solid_(solid),
         wedge_is_solid_(touching == Touching::separate),
+        cancel_(progress),
         sides_(complex, boundary),
         fans_(boundary.sides()) {}
 
@@ -64,6 +66,7 @@ class NonmanifoldCutter {
   void pair_sides() {
     result_.mate.assign(boundary_.sides(), kNone);
     for (const std::uint32_t first : sides_.first()) {
+      cancel_.tick();
       if (first == kNone) continue;
       const std::uint32_t second = sides_.next(first);
       MESHREPAIR_ASSERT(second != kNone);
@@ -77,12 +80,16 @@ class NonmanifoldCutter {
   }
 
   void pair_sides_of_edge(std::uint32_t first) {
+    list_uses_around(complex_.uses[boundary_.use[first]].edge());
+    if (side_of_use_.empty()) side_of_use_ = IdVector<UseId, std::uint32_t>(complex_.uses.size());
+    for (std::uint32_t s = first; s != kNone; s = sides_.next(s))
+      side_of_use_[boundary_.use[s]] = s;
     std::uint32_t at_outside = kNone;
     for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
       if (result_.mate[s] != kNone) continue;
       const UseId end = end_of_wedge(boundary_.use[s]);
       if (end.valid()) {
-        join(s, side_along(first, end));
+        join(s, side_along(end));
       } else if (at_outside == kNone) {
         at_outside = s;
       } else {
@@ -99,13 +106,33 @@ class NonmanifoldCutter {
     result_.mate[b] = a;
   }
 
+  // So that the other use of a cell is found at once, however many there are.
+  void list_uses_around(EdgeId edge) {
+    uses_of_cells_.clear();
+    for (UseId u = complex_.edges[edge].first_use; u.valid(); u = complex_.uses[u].next_around) {
+      const Facet& facet = complex_.facets[complex_.uses[u].facet];
+      for (const CellId cell : {facet.below, facet.above}) {
+        if (cell.valid()) uses_of_cells_.emplace_back(cell, u);
+      }
+    }
+    std::sort(uses_of_cells_.begin(), uses_of_cells_.end());
+  }
+
+  // Each cell has two uses of the edge in hand.
+  [[nodiscard]] UseId mate_in(CellId cell, UseId use) const {
+    const auto found =
+        std::lower_bound(uses_of_cells_.begin(), uses_of_cells_.end(), std::pair(cell, UseId(0u)));
+    return found->second == use ? std::next(found)->second : found->second;
+  }
+
   // Turns around the edge through the cells of a wedge until the next boundary facet. Invalid where
   // that leads out of the box.
-  [[nodiscard]] UseId end_of_wedge(UseId use) const {
+  [[nodiscard]] UseId end_of_wedge(UseId use) {
     const Facet& start = complex_.facets[complex_.uses[use].facet];
     CellId cell = is_solid(start.above) == wedge_is_solid_ ? start.above : start.below;
     while (cell.valid()) {
-      use = complex_.mate(use, cell);
+      cancel_.tick();
+      use = mate_in(cell, use);
       const Facet& facet = complex_.facets[complex_.uses[use].facet];
       cell = facet.above == cell ? facet.below : facet.above;
       if (is_solid(cell) != wedge_is_solid_) return use;
@@ -117,10 +144,10 @@ class NonmanifoldCutter {
     return cell.valid() && solid_[cell.index()] != 0;
   }
 
-  [[nodiscard]] std::uint32_t side_along(std::uint32_t first, UseId use) const {
-    for (std::uint32_t s = first; s != kNone; s = sides_.next(s)) {
-      if (boundary_.use[s] == use) return s;
-    }
+  // Of the edge in hand.
+  [[nodiscard]] std::uint32_t side_along(UseId use) const {
+    const std::uint32_t side = side_of_use_[use];
+    if (side < boundary_.sides() && boundary_.use[side] == use) return side;
     throw InternalError("internal error: a wedge of cells does not end at a boundary facet");
   }
 
@@ -172,7 +199,11 @@ class NonmanifoldCutter {
   const Boundary& boundary_;
   const std::vector<char>& solid_;
   bool wedge_is_solid_;
+  CancelCheck cancel_;
   SidesByEdge sides_;
+  std::vector<std::pair<CellId, UseId>> uses_of_cells_;  // around the edge in hand, sorted
+  // Of the sides of singular edges met so far.
+  IdVector<UseId, std::uint32_t> side_of_use_;
   DisjointSets fans_;
   ManifoldCorners result_;
 };
@@ -180,8 +211,9 @@ class NonmanifoldCutter {
 }  // namespace
 
 ManifoldCorners cut_nonmanifold(const CellComplex& complex, const Boundary& boundary,
-                                const std::vector<char>& solid, Touching touching) {
-  return NonmanifoldCutter(complex, boundary, solid, touching).run();
+                                const std::vector<char>& solid, Touching touching,
+                                ProgressObserver* progress) {
+  return NonmanifoldCutter(complex, boundary, solid, touching, progress).run();
 }
 
 namespace {
@@ -194,10 +226,10 @@ bool pairs_share_ends(const Boundary& boundary, const ManifoldCorners& corners,
     if (corners.mate[s] < s) continue;
     const std::pair<std::uint32_t, std::uint32_t> ends =
         std::minmax({corners.vertex[s], corners.vertex[boundary.next(s)]});
-    if (std::find(taken.begin(), taken.end(), ends) != taken.end()) return true;
     taken.push_back(ends);
   }
-  return false;
+  std::sort(taken.begin(), taken.end());
+  return std::adjacent_find(taken.begin(), taken.end()) != taken.end();
 }
 
 }  // namespace

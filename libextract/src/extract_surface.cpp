@@ -26,17 +26,20 @@ class SurfaceExtractor {
         cover_(cover),
         solid_(solid),
         boundary_(find_boundary(complex, solid)),
-        corners_(cut_nonmanifold(complex, boundary_, solid, options.touching)),
+        corners_(cut_nonmanifold(complex, boundary_, solid, options.touching, options.progress)),
         merged_(merge_facets(complex, cover, solid, boundary_, corners_)),
         middles_(separate_common_edges(complex, boundary_, corners_)),
-        input_points_(complex.soup()) {}
+        input_points_(complex.soup()),
+        progress_(options.progress) {}
 
   Surface run(ExtractReport& report) {
     output_vertex_.assign(corners_.vertices(), kNone);
     output_middle_.assign(middles_.count, kNone);
     internal::RegionTriangulator triangulator(complex_, solid_, boundary_, corners_, merged_);
     std::vector<RegionTriangle> triangles;
+    CancelCheck cancel(progress_);
     for (std::size_t region = 0; region < merged_.regions(); ++region) {
+      cancel.tick();
       triangulator.run(region, triangles);
       add(triangles, cover_[boundary_.facet[merged_.polygons_of(region)[0]]].triangle);
     }
@@ -159,6 +162,7 @@ class SurfaceExtractor {
   MergedFacets merged_;
   MiddleVertices middles_;
   internal::InputPoints input_points_;
+  ProgressObserver* progress_;
   Surface surface_;
   std::vector<std::uint32_t> output_vertex_, output_middle_;
   std::vector<PolygonCorner> corner_list_;

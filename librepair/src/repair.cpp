@@ -191,7 +191,9 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
 Surface extract(const CoveredCells& covered, const std::vector<char>& solid,
                 const RepairOptions& options, RepairReport& report) {
   report.parts = find_part_fates(covered.complex, covered.cover, solid);
-  return extract_surface(covered.complex, covered.cover, solid, report.extract, options.extract);
+  ExtractOptions extract_options = options.extract;
+  extract_options.progress = options.progress;
+  return extract_surface(covered.complex, covered.cover, solid, report.extract, extract_options);
 }
 
 double closing_area(const Surface& surface) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <tbb/global_control.h>
 
@@ -44,10 +45,30 @@ ExitCode work(ProgressBar& progress, bool deaf) {
   return ExitCode::done;
 }
 
+// Takes memory in pieces, and uses it, until it is told to stop.
+ExitCode hoard(ProgressBar& progress) {
+  progress.stage("hoarding");
+  std::vector<std::vector<char>> pieces;
+  for (int i = 0; i < 4096; ++i) {
+    pieces.emplace_back(std::size_t{1} << 20, 'x');
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (progress.cancelled()) throw Cancelled();
+  }
+  return ExitCode::done;
+}
+
+ExitCode gulp(ProgressBar& progress) {
+  progress.stage("gulping");
+  const std::vector<char> much(std::size_t{1} << 30, 'x');
+  return much.back() == 'x' ? ExitCode::done : ExitCode::not_certified;
+}
+
 ExitCode probe(const std::string& what, Run& run) {
   run.report.set_input({{"path", what}});
   if (what == "work") return work(run.progress, false);
   if (what == "deaf") return work(run.progress, true);
+  if (what == "hoard") return hoard(run.progress);
+  if (what == "gulp") return gulp(run.progress);
   if (what == "stdin") {
     std::puts("working");
     std::fflush(stdout);

@@ -74,6 +74,38 @@ TEST_P(SoupFormats, FileComesBack) {
   EXPECT_EQ(corner_bits(result.soup), corner_bits(tetrahedron()));
 }
 
+TEST_P(SoupFormats, NoMoreTrianglesThanTheLimitAreRead) {
+  const std::string bytes = format_soup(tetrahedron(), GetParam());
+  ReadOptions options;
+  options.max_triangles = 4;
+  EXPECT_EQ(read_soup(std::string_view(bytes), "a", options).soup.triangles.size(), 4u);
+  options.max_triangles = 3;
+  try {
+    (void)read_soup(std::string_view(bytes), "a", options);
+    FAIL();
+  } catch (const LimitError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a: limit of 3 triangles reached in stage 'read', "));
+  }
+}
+
+TEST_P(SoupFormats, ReadingStopsWhenItIsToldTo) {
+  class Stop : public ProgressObserver {
+   public:
+    bool cancelled() override { return true; }
+  };
+  Stop stop;
+  ReadOptions options;
+  options.progress = &stop;
+  std::string bytes;
+  TriangleSoup many = tetrahedron();
+  for (int i = 0; i < 11; ++i) {
+    const auto once = many.triangles;
+    many.triangles.insert(many.triangles.end(), once.begin(), once.end());
+  }
+  bytes = format_soup(many, GetParam());
+  EXPECT_THROW((void)read_soup(std::string_view(bytes), "a", options), Cancelled);
+}
+
 TEST_P(SoupFormats, EmptySoupIsWrittenAndRefused) {
   // An OBJ without points has no bytes at all.
   const std::string reason = GetParam() == SoupFormat::obj ? "is empty" : "holds no triangles";

@@ -5,7 +5,7 @@
 // indexed formats are kept as they are. Polygons are triangulated. The bytes decide, never a
 // declared count: a file that holds less than it promises is read as far as it goes and the loss is
 // counted, and no memory is taken for what the file cannot hold. No path named inside a file is
-// opened. A mapped file must not be shortened by others while it is read.
+// opened.
 //
 // Writing: shortest decimal digits that read back as the same bits; every write is checked; the
 // target appears atomically (a temporary file beside it, fsync, rename) unless it is a device or a
@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,13 +55,21 @@ struct ReadResult {
   ReadReport report;
 };
 
+struct ReadOptions {
+  // More throw LimitError, as soon as it is known; polygons count as what they will become.
+  std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
+  ProgressObserver* progress = nullptr;
+};
+
 // Reads a file; "-" is standard input. Throws InputError (one line that names the file and the
 // place) when it cannot be opened, is empty, or holds no format that is known, or no readable
-// triangle at all.
-[[nodiscard]] ReadResult read_soup(const std::filesystem::path& path);
+// triangle at all; LimitError.
+[[nodiscard]] ReadResult read_soup(const std::filesystem::path& path,
+                                   const ReadOptions& options = {});
 
 // The same from memory. `name` is used in messages and for its extension.
-[[nodiscard]] ReadResult read_soup(std::string_view bytes, const std::string& name);
+[[nodiscard]] ReadResult read_soup(std::string_view bytes, const std::string& name,
+                                   const ReadOptions& options = {});
 
 struct WriteOptions {
   // Empty: told by the extension (.stl is binary, .ply is binary little endian).

@@ -31,6 +31,7 @@
 #include <string_view>
 
 #include <bsp/progress.h>
+#include <bsp/soup_io.h>
 #include <bsp/tree.h>
 
 namespace meshrepair {
@@ -40,16 +41,17 @@ namespace meshrepair {
 
 // The tree of a file's bytes; `name` is used in messages. Trusts nothing: counts are held against
 // the bytes that are there, every index and every invariant of the structure is checked. Throws
-// InputError naming the section.
-[[nodiscard]] Tree parse_tree(std::string_view bytes, const std::string& name);
+// InputError naming the section, LimitError.
+[[nodiscard]] Tree parse_tree(std::string_view bytes, const std::string& name,
+                              const ReadOptions& options = {});
 
 // Whether the bytes begin like a .bsp file.
 [[nodiscard]] bool looks_like_tree(std::string_view bytes);
 
-// Files; "-" is standard output or input. Throw OutputError, InputError. `progress` is asked while
-// the bytes are written whether to go on.
+// Files; "-" is standard output or input. Throw OutputError, InputError, LimitError. `progress` is
+// asked while the bytes are written whether to go on.
 void write_tree(const Tree& tree, const std::filesystem::path& path,
                 ProgressObserver* progress = nullptr);
-[[nodiscard]] Tree read_tree(const std::filesystem::path& path);
+[[nodiscard]] Tree read_tree(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace meshrepair

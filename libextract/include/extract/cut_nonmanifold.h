@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <bsp/progress.h>
 #include <extract/boundary.h>
 
 namespace meshrepair {
@@ -31,10 +32,11 @@ struct ManifoldCorners {
 // touches there, an empty one to join it; around a vertex each fan of joined polygons gets a copy
 // of its own. So solids that touch in a point alone are separate either way: no manifold joins
 // them. The result is a closed 2-manifold of polygons, by construction; as an indexed mesh it still
-// needs separate_common_edges(). Linear, but for edges with very many polygons.
+// needs separate_common_edges(). `progress` is asked whether to go on.
 [[nodiscard]] ManifoldCorners cut_nonmanifold(const CellComplex& complex, const Boundary& boundary,
                                               const std::vector<char>& solid,
-                                              Touching touching = Touching::separate);
+                                              Touching touching = Touching::separate,
+                                              ProgressObserver* progress = nullptr);
 
 // Where two wedges at an edge share both end vertices, the edge would have four triangles in an
 // indexed mesh: says at which pairs of joined sides to put a vertex in the middle. If one wedge at

@@ -13,6 +13,7 @@ namespace meshrepair {
 
 struct ExtractOptions {
   Touching touching = Touching::separate;  // what becomes of solids that touch along an edge
+  ProgressObserver* progress = nullptr;
 };
 
 struct ExtractReport {

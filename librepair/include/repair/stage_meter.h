@@ -14,7 +14,7 @@ struct StageReport {
   std::string name;
   double seconds = 0;
   double cpu_seconds = 0;      // of all threads
-  std::size_t peak_bytes = 0;  // the process's resident memory at most, during the stage
+  std::size_t peak_bytes = 0;  // the process's resident memory at most, up to the end of the stage
 };
 
 // Measures from begin() to the next begin() or end(). Tells the observer, if there is one.

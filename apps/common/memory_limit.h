@@ -1,0 +1,30 @@
+// How much memory a run may take.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace meshrepair {
+
+// "200M", "1.5G", "80%", bytes without a unit; units are powers of 1024, "MB" and "MiB" are "M". A
+// share is one of what the machine has free, and taken when it is asked for. 0 is no limit. Throws
+// UsageError.
+[[nodiscard]] std::uint64_t parse_memory_limit(const std::string& text);
+
+// What can be taken without swapping: of the machine, or of the control groups that the process
+// lives in. Empty where the system does not tell.
+[[nodiscard]] std::optional<std::uint64_t> free_memory();
+
+// What the process has in memory now; 0 where the system does not tell.
+[[nodiscard]] std::uint64_t resident_memory();
+
+// Makes the system refuse more than this to the process, so that it meets std::bad_alloc in place
+// of the system's killer. `threads` are those to be started from now on: what their stacks reserve
+// does not count. Throws UsageError if the program needs more than this for itself.
+void limit_memory(std::uint64_t bytes, unsigned threads);
+
+// "200 MB", for messages.
+[[nodiscard]] std::string memory_text(std::uint64_t bytes);
+
+}  // namespace meshrepair

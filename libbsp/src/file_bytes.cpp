@@ -1,0 +1,93 @@
+#include "file_bytes.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <new>
+#include <poll.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+#include <bsp/error.h>
+
+namespace meshrepair {
+namespace {
+
+// Some milliseconds of work, so that there is time to ask in between.
+constexpr std::size_t kBytesAtOnce = std::size_t{4} << 20;
+constexpr int kMillisecondsToWait = 100;
+
+class Descriptor {
+ public:
+  Descriptor(int number, bool owned) : number_(number), owned_(owned) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (owned_) ::close(number_);
+  }
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+  bool owned_;
+};
+
+[[noreturn]] void fail(const std::string& name, const std::string& what, int error) {
+  throw InputError(name + ": " + what + ": " + std::generic_category().message(error));
+}
+
+void stop_if_cancelled(ProgressObserver* progress) {
+  if (progress != nullptr && progress->cancelled()) throw Cancelled();
+}
+
+// A signal that comes just before a read wakes nobody up, and a time limit does not at all: the
+// waiting is done here, in pieces.
+void wait_until_readable(int descriptor, ProgressObserver* progress) {
+  pollfd waiting = {descriptor, POLLIN, 0};
+  int ready = 0;
+  do {
+    stop_if_cancelled(progress);
+    ready = ::poll(&waiting, 1, kMillisecondsToWait);
+  } while (ready == 0 || (ready < 0 && errno == EINTR));
+}
+
+}  // namespace
+
+FileBytes::FileBytes(const std::filesystem::path& path, ProgressObserver* progress) {
+  const bool is_stdin = path == "-";
+  const std::string name = is_stdin ? "standard input" : path.string();
+  const int number = is_stdin ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (number < 0) fail(name, "cannot be opened", errno);
+  const Descriptor file(number, !is_stdin);
+
+  struct stat status {};
+  if (::fstat(number, &status) != 0) fail(name, "cannot be read", errno);
+  if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a folder, not a file");
+  // One byte more than there should be, to see the end without another step.
+  if (S_ISREG(status.st_mode)) reserve(static_cast<std::size_t>(status.st_size) + 1);
+  read_to_end(number, name, progress);
+}
+
+void FileBytes::reserve(std::size_t capacity) {
+  char* const moved = static_cast<char*>(std::realloc(buffer_.get(), capacity));
+  if (moved == nullptr) throw std::bad_alloc();
+  static_cast<void>(buffer_.release());
+  buffer_.reset(moved);
+  capacity_ = capacity;
+}
+
+void FileBytes::read_to_end(int descriptor, const std::string& name, ProgressObserver* progress) {
+  for (;;) {
+    if (size_ == capacity_) reserve(2 * capacity_ + kBytesAtOnce);
+    if (progress != nullptr) wait_until_readable(descriptor, progress);
+    const std::size_t room = std::min(capacity_ - size_, kBytesAtOnce);
+    const ssize_t count = ::read(descriptor, buffer_.get() + size_, room);
+    if (count < 0 && errno == EINTR && progress != nullptr) continue;
+    if (count < 0) fail(name, "cannot be read", errno);
+    if (count == 0) return;
+    size_ += static_cast<std::size_t>(count);
+  }
+}
+
+}  // namespace meshrepair
