@@ -43,7 +43,9 @@ followed, links to folders are not.
 OUT_DIR gets the repaired meshes under their names and in their sub-folders, summary.csv, summary.json and
 the folder .repair_folder with the journal. The same command again goes on where the last run stopped:
 what was repaired, cannot be read or encloses nothing is not done again, unless the file, the options or
- Outputs of inputs that are gone stay, and are warned of.
+the program have changed; what hit a limit, was killed or could not be written is. A file whose worker is
+killed by SIGKILL is tried once more in the same run, after all others. OUT_DIR belongs to this script: the
+old output of an input that now fails is removed. Outputs of inputs that are gone stay, and are warned of.
 
 Exit codes: 0 all passed, 1 some file failed or was not certified, 2 wrong usage, 6 OUT_DIR cannot be
 written or another run is at work there, 130 interrupted, 143 terminated.
