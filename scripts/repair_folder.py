@@ -158,7 +158,17 @@ def run():
         raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None
 
 
+def open_standard_streams():
+    """Where one is closed, the next file that is opened would take its number, and what is said would go there."""
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
+    sys.stdout = sys.stdout or open(1, "w", encoding="utf-8")
+    sys.stderr = sys.stderr or open(2, "w", encoding="utf-8")
+
+
 def main():
+    open_standard_streams()
     try:
         return run()
     except Stop as stop:
