@@ -120,16 +120,22 @@ def parse_arguments(arguments):
     return options
 
 
+def numbers_in(path):
+    """Lines of a name and a number: /proc/meminfo, memory.stat and the like."""
+    with open(path, encoding="ascii") as file:
+        return {name.rstrip(":"): int(number) for name, number, *_ in map(str.split, file)}
+
+
 def free_memory():
     """In bytes, as the machine and the control group allow; 0 if nothing tells."""
-    found = []
+    found, group = [], "/sys/fs/cgroup/memory."
     try:
-        with open("/proc/meminfo", encoding="ascii") as file:
-            found += [int(line.split()[1]) * 1024 for line in file if line.startswith("MemAvailable:")]
-        with open("/sys/fs/cgroup/memory.max", encoding="ascii") as most, \
-             open("/sys/fs/cgroup/memory.current", encoding="ascii") as now:
-            found.append(int(most.read()) - int(now.read()))
-    except (OSError, ValueError):  # not there, or "max"
+        found.append(numbers_in("/proc/meminfo")["MemAvailable"] * 1024)
+        with open(group + "max", encoding="ascii") as most, open(group + "current", encoding="ascii") as now:
+            pages = numbers_in(group + "stat")
+            kept = int(now.read()) - pages["active_file"] - pages["inactive_file"]  # others can be dropped
+            found.append(int(most.read()) - kept)
+    except (OSError, ValueError, KeyError):  # not there, or "max"
         pass
     return max(min(found, default=0), 0)
 
@@ -159,7 +165,7 @@ def run():
 
 
 def open_standard_streams():
-    """Where one is closed, the next file that is opened would take its number, and what is said would go there."""
+    """Where one is closed, the next file that is opened would take its number, and get what is said."""
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
     os.close(descriptor)
