@@ -104,7 +104,8 @@ class FolderRun:
 
     def tell_start(self, jobs, left_out):
         for name, why in sorted(left_out.items()):
-            say(f"{text(name)}: left out: {why}")
+            if not self.options.quiet or name.endswith(b"/"):
+                say(f"{text(name)}: left out: {why}")
         if self.options.quiet:
             return
         if not jobs:
