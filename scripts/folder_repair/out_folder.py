@@ -11,7 +11,7 @@ import time
 from .basics import MEASURED, NAME, OUTPUT, SAME_IN_EACH_RUN, USAGE, Stop, text
 from .inputs import STATE
 
-LOCK_SECONDS = 3  # how long the workers of a killed run may take to die
+LOCK_SECONDS = 2  # how long the workers of a killed run may take to die
 
 
 def sync_folder(path):

@@ -205,7 +205,7 @@ class Meshes(FolderTest):
         for i in range(6):
             shutil.copyfile(SAMPLES / "broken_torus_box.stl", self.source / f"torus{i}.stl")
         killer = kill_folder.Killer(MESHREPAIR, self.source, self.folder, seed=1)
-        killer.run(8)
+        killer.run(6)
         self.assertEqual(killer.complaints, [])
         self.assertEqual(len(killer.outputs), 9)
 
