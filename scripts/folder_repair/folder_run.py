@@ -21,7 +21,7 @@ from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
 TICK_SECONDS = 0.25  # how often limits are looked at
-SECONDS_TO_END = 0.4  # from a signal to this script until its workers are killed
+SECONDS_TO_END = 0.3  # from a signal to this script until its workers are killed
 MEMORY_SLACK = 1.25  # a worker that keeps to its limit itself is killed only beyond this
 
 

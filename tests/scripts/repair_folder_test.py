@@ -28,6 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "repair_folder.py"
 SAMPLES = ROOT / "samples" / "meshes"
 MESHREPAIR = ""  # set by main
+SECONDS_TO_END = 2  # from a signal; one, and what a busy machine takes
 
 CUBE = (SAMPLES / "cube.stl").read_bytes()
 TETRAHEDRON = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
@@ -66,7 +67,7 @@ action = os.path.basename(source).partition(".")[0].rstrip("0123456789")
 if action == "good":
     end(0)
 elif action == "slow":
-    time.sleep(0.3)
+    time.sleep(0.7)
     end(0)
 elif action == "code":
     code = int(open(source).read())
@@ -224,8 +225,8 @@ class FailingPrograms(FolderTest):
                    "unproven")
         write_files(self.source, {f"{action}.stl": b"x" for action in actions})
         started = time.monotonic()
-        self.run_script("--jobs", "6", "--timeout", "1.5", "--grace", "0.3", code=1)
-        self.assertLess(time.monotonic() - started, 10)
+        self.run_script("--jobs", "6", "--timeout", "3", "--grace", "0.3", code=1)
+        self.assertLess(time.monotonic() - started, 20)
         self.assertEqual(self.codes(), {
             "crash.stl": 139, "deaf.stl": 4, "garbage.stl": 70, "good.stl": 0, "half.stl": 137,
             "hang.stl": 4, "noisy.stl": 70, "once.stl": 0, "orphan.stl": 0, "silent.stl": 70,
@@ -233,7 +234,7 @@ class FailingPrograms(FolderTest):
         rows = self.rows()
         self.assertEqual(rows["half.stl"]["error"], "killed by signal 9")
         self.assertEqual(rows["noisy.stl"]["error"], "enough")
-        self.assertEqual(rows["deaf.stl"]["error"], "does not end at the time limit of 1.5 s: killed")
+        self.assertEqual(rows["deaf.stl"]["error"], "does not end at the time limit of 3 s: killed")
         self.assertEqual(names_in(self.out), {"good.stl", "once.stl", "orphan.stl"})
         self.assertEqual(self.calls().count("half.stl"), 2)
         self.assertEqual(os.listdir(self.out / ".repair_folder" / "work"), [])
@@ -244,14 +245,14 @@ class FailingPrograms(FolderTest):
         self.assertEqual(self.codes(), {"greedy.stl": 4, "good.stl": 0})
 
     def test_a_program_that_is_gone_fails_each_file(self):
-        write_files(self.source, {"good.stl": b"x", "slow.stl": b"x"})
+        write_files(self.source, {"slow.stl": b"x", "then/good.stl": b"x"})
         process = self.start("--jobs", "1", "--quiet")
         while not self.log.exists():
             time.sleep(0.01)
         self.false.unlink()
         process.communicate(timeout=20)
         self.assertEqual(process.returncode, 1)
-        self.assertEqual(self.codes(), {"good.stl": 0, "slow.stl": 70})
+        self.assertEqual(self.codes(), {"slow.stl": 0, "then/good.stl": 70})
 
     def test_a_full_disk_is_one_line(self):
         write_files(self.source, {f"good{i}.stl": b"x" for i in range(30)})
@@ -332,7 +333,7 @@ class Signals(FolderTest):
         started = time.monotonic()
         process.send_signal(number)
         _, stderr = process.communicate(timeout=20)
-        self.assertLess(time.monotonic() - started, 1)
+        self.assertLess(time.monotonic() - started, SECONDS_TO_END)
         self.assertEqual(process.returncode, code)
         self.assertEqual(stderr.count("\n"), 1, stderr)
         self.assertEqual(self.codes(), {"a/good.stl": 0})
