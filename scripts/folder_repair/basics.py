@@ -1,0 +1,62 @@
+"""What all parts of repair_folder.py share: exit codes, the columns of the summary, and how it speaks."""
+
+import os
+import signal
+import sys
+
+NAME = "repair_folder.py"
+FORMAT_OF_EXTENSION = {b".stl": "stl", b".obj": "obj", b".off": "off", b".ply": "ply"}
+EXTENSION_OF_FORMAT = {"obj": b".obj", "stl": b".stl", "stl-ascii": b".stl", "off": b".off",
+                       "ply": b".ply", "ply-ascii": b".ply"}
+
+GUARANTEES = ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles")
+SAME_IN_EACH_RUN = ("path", "output", "exit_code", *GUARANTEES, "triangles_in", "triangles_out",
+                    "bytes_in", "bytes_out", "error")
+MEASURED = ("seconds", "peak_memory_bytes")
+
+# The exit codes of meshrepair; those of repair_folder.py are the first three, OUTPUT and 128 + signal.
+DONE, NOT_CERTIFIED, USAGE, INPUT, LIMIT, NO_SOLID, OUTPUT, INTERNAL = 0, 1, 2, 3, 4, 5, 6, 70
+KILLED = 128 + signal.SIGKILL
+WRITTEN = (DONE, NOT_CERTIFIED)
+FINAL = (DONE, NOT_CERTIFIED, INPUT, NO_SOLID)
+MEANINGS = {DONE: "repaired and certified", NOT_CERTIFIED: "not certified", USAGE: "wrong usage",
+            INPUT: "cannot be read", LIMIT: "a limit was hit", NO_SOLID: "encloses nothing",
+            OUTPUT: "the output cannot be written", INTERNAL: "a bug", 130: "interrupted",
+            KILLED: "killed", 143: "terminated"}
+
+
+class Stop(Exception):
+    """Ends the script with an exit code and one line."""
+
+    def __init__(self, code, message):
+        super().__init__(message)
+        self.code = code
+
+
+def text(name):
+    """A name as text. What is no UTF-8 becomes \\xNN."""
+    return name.decode("utf-8", "backslashreplace")
+
+
+def one_line(string):
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in string)
+
+
+def print_to(stream, string):
+    """A run does not end because nobody listens any more."""
+    try:
+        stream.write(string)
+        stream.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def say(line):
+    print_to(sys.stderr, f"{NAME}: {one_line(line)}\n")
+
+
+def value_of(report, *keys):
+    """What stands in a report below these keys; None if nothing does, or no plain value."""
+    for key in keys:
+        report = report.get(key) if isinstance(report, dict) else None
+    return report if isinstance(report, (int, float, str)) else None

@@ -1,0 +1,229 @@
+"""A run: everything between the first look at IN_DIR and the summary.
+
+One thread does it all: it starts workers, and sleeps until one says something or ends, a signal comes, or a
+limit is due.
+"""
+
+import collections
+import os
+import selectors
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
+                     print_to, say, text, value_of)
+from .inputs import Job, find_meshes, name_outputs
+from .out_folder import Journal
+from .summary import Progress, as_csv, as_json, table, totals_of
+from .worker import Worker
+
+TICK_SECONDS = 0.25  # how often limits are looked at
+SECONDS_TO_END = 0.3  # from a signal to this script until its workers are killed
+MEMORY_SLACK = 1.25  # a worker that keeps to its limit itself is killed only beyond this
+
+
+class FolderRun:
+    def __init__(self, options, program, out):
+        self.options = options
+        self.out = out
+        self.started = time.monotonic()
+        self.stop_signal = None
+        self.selector = selectors.DefaultSelector()
+        self.catch_signals()
+        self.command = self.worker_command(program)
+        self.memory_allowed = options.max_memory
+        if options.max_memory and program.limits_memory:
+            self.memory_allowed = int(MEMORY_SLACK * options.max_memory)
+        self.settings = [program.version, program.digest, options.format or "",
+                         *(os.fsencode(a).decode("utf-8", "surrogateescape") for a in options.passed)]
+        self.workers, self.rows, self.serial = {}, {}, 0
+
+    def worker_command(self, program):
+        """Without what differs from file to file."""
+        options = self.options
+        threads = max(1, len(os.sched_getaffinity(0)) // options.jobs)
+        command = [program.path, "--quiet", "--threads", str(threads),
+                   "--time-limit", f"{options.timeout:.10g}", *options.passed]
+        if options.max_memory and program.limits_memory:
+            command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M"]
+        return command
+
+    def catch_signals(self):
+        """Signals are noted, and wake up what waits."""
+        reader, writer = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+        signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
+        self.selector.register(reader, selectors.EVENT_READ)
+        signal.signal(signal.SIGCHLD, lambda number, frame: None)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, self.note_signal)
+
+    def note_signal(self, number, _):
+        self.stop_signal = self.stop_signal or number
+
+    def stop_if_told(self):
+        if self.stop_signal:
+            how = "interrupted" if self.stop_signal == signal.SIGINT else "terminated"
+            raise Stop(128 + self.stop_signal, how)
+
+    def run(self):
+        """Returns the exit code."""
+        names, left_out = find_meshes(self.options.in_dir, self.out.path, lambda: self.stop_signal)
+        self.stop_if_told()
+        outputs = name_outputs(names, self.options.format)
+        jobs = [Job(name, outputs[name], self.options) for name in names]
+        if not self.options.restart:
+            self.out.refuse_foreign_files(jobs)
+        self.journal = Journal(self.out.journal_path, self.settings, self.options.restart)
+        self.queue = collections.deque(self.without_finished(jobs))
+        self.tell_start(jobs, left_out)
+        failed = sum(row["exit_code"] != DONE for row in self.rows.values())
+        self.progress = Progress(len(jobs), len(self.rows), failed, self.options.quiet)
+        try:
+            self.work()
+        finally:
+            self.end_workers()
+            self.progress.clear()
+        return self.sum_up(jobs, left_out)
+
+    def without_finished(self, jobs):
+        for job in jobs:
+            self.stop_if_told()
+            try:
+                job.look()
+            except OSError:
+                pass  # said when its turn comes
+            row = self.journal.finished_row(job)
+            if row:
+                self.rows[job.name] = row
+            else:
+                yield job
+
+    def tell_start(self, jobs, left_out):
+        for name, why in sorted(left_out.items()):
+            if not self.options.quiet or name.endswith(b"/"):
+                say(f"{text(name)}: left out: {why}")
+        if self.options.quiet:
+            return
+        if not jobs:
+            say(f"no .stl, .obj, .off or .ply files in {text(self.options.in_dir)}")
+        elif self.rows:
+            say(f"{len(self.rows):,} of {len(jobs):,} files were finished before")
+        for name in sorted(self.journal.outputs() - {job.output for job in jobs}):
+            if os.path.lexists(os.path.join(self.out.path, name)):
+                say(f"warning: {text(name)} in OUT_DIR is of an earlier run, and of no input now")
+
+    def work(self):
+        while (self.queue or self.workers) and not self.stop_signal:
+            while self.queue and len(self.workers) < self.options.jobs:
+                self.start(self.queue.popleft())
+            self.wait()
+            for serial, worker in list(self.workers.items()):
+                if worker.has_ended():
+                    self.forget(serial)
+                    self.finish(worker)
+                elif not worker.enforce(self.options, self.memory_allowed):
+                    self.forget(serial)
+                    self.settle(worker.job, worker.job.row(LIMIT, "cannot be killed"), final=False)
+            self.progress.draw()
+
+    def start(self, job):
+        try:
+            job.look()
+        except OSError as error:
+            # Permissions and links change without a trace in the file, so this is not final.
+            return self.settle(job, job.row(INPUT, f"cannot be opened: {error.strerror}"), final=False)
+        self.serial += 1
+        job.trials += 1
+        folder = os.path.join(self.out.work, b"%d" % self.serial)
+        os.mkdir(folder)
+        try:
+            worker = Worker(job, self.command, folder, self.out.lock)
+        except (OSError, subprocess.SubprocessError) as error:
+            row = job.row(INTERNAL, f"meshrepair cannot be started: {error}")
+            return self.settle(job, row, final=False)
+        self.workers[self.serial] = worker
+        self.selector.register(worker.stderr, selectors.EVENT_READ, worker)
+
+    def wait(self):
+        """Until something happens, but not for long."""
+        for key, _ in self.selector.select(TICK_SECONDS if self.workers else 0):
+            if key.data is None:
+                os.read(key.fd, 4096)
+            elif not key.data.listen():
+                self.selector.unregister(key.fd)
+
+    def forget(self, serial):
+        worker = self.workers.pop(serial)
+        if worker.stderr in self.selector.get_map():
+            self.selector.unregister(worker.stderr)
+
+    def finish(self, worker):
+        job = worker.job
+        code, error, report = worker.judge()
+        # Somebody, or the system for want of memory, has killed it: once more, after all others.
+        if code == KILLED and job.trials == 1:
+            self.queue.append(job)
+            return shutil.rmtree(worker.folder, ignore_errors=True)
+        row = job.row(code, error, report)
+        if code in WRITTEN and os.path.isfile(worker.mesh):
+            row = self.take_output(worker, row, report)
+        row["seconds"] = round(time.monotonic() - worker.started, 3)
+        row["peak_memory_bytes"] = value_of(report, "peak_memory_bytes") or worker.peak_memory
+        shutil.rmtree(worker.folder, ignore_errors=True)
+        self.settle(job, row, final=row["exit_code"] in FINAL)
+
+    def take_output(self, worker, row, report):
+        """The row with what is known of the output."""
+        job = worker.job
+        try:
+            size = os.path.getsize(worker.mesh)
+            self.out.take(worker.mesh, job.target)
+        except OSError as error:
+            return job.row(OUTPUT, f"{text(job.output)}: cannot be written: {error.strerror}")
+        return {**row, "output": text(job.output), "bytes_out": size,
+                "triangles_out": value_of(report, "result", "triangles")}
+
+    def settle(self, job, row, final):
+        """The row is the last word on the job in this run."""
+        if row["output"] is None:
+            try:
+                self.out.remove(job.target)
+            except OSError as error:
+                row["error"] += f"; its old output cannot be removed: {error.strerror}"
+        try:
+            self.journal.add(job, row, final)
+        except OSError as error:
+            name = text(self.out.journal_path)
+            raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None
+        self.rows[job.name] = row
+        self.progress.finished(row)
+
+    def end_workers(self):
+        """Those that are left when the run ends early."""
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            for worker in self.workers.values():
+                worker.signal(number)
+            deadline = time.monotonic() + SECONDS_TO_END
+            while self.workers and time.monotonic() < deadline:
+                for serial, worker in list(self.workers.items()):
+                    if worker.has_ended():
+                        del self.workers[serial]
+                time.sleep(0.01)
+        self.out.clear_work()
+
+    def sum_up(self, jobs, left_out):
+        rows = [self.rows[job.name] for job in jobs if job.name in self.rows]
+        totals = totals_of(rows, len(jobs) - len(rows))
+        elapsed = time.monotonic() - self.started
+        self.out.write(b"summary.csv", as_csv(rows))
+        self.out.write(b"summary.json", as_json(rows, totals, left_out, self.settings, elapsed))
+        if not self.options.quiet:
+            print_to(sys.stdout, table(totals, elapsed))
+        self.stop_if_told()
+        has_unread_folder = any(name.endswith(b"/") for name in left_out)
+        all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_unread_folder
+        return DONE if all_passed else NOT_CERTIFIED

@@ -1,0 +1,161 @@
+"""OUT_DIR: its lock, its journal, and how files get into it."""
+
+import errno
+import fcntl
+import json
+import os
+import shutil
+import stat
+import time
+
+from .basics import MEASURED, NAME, OUTPUT, SAME_IN_EACH_RUN, USAGE, Stop, text
+from .inputs import STATE
+
+LOCK_SECONDS = 2  # how long the workers of a killed run may take to die
+
+
+def sync_folder(path):
+    descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        os.fsync(descriptor)
+    except OSError:
+        pass  # some file systems cannot; the rename is whole all the same
+    finally:
+        os.close(descriptor)
+
+
+class OutFolder:
+    """OUT_DIR, locked as long as this process or one of its workers lives."""
+
+    def __init__(self, path):
+        self.path = path
+        self.state = os.path.join(path, STATE)
+        self.work = os.path.join(self.state, b"work")
+        self.journal_path = os.path.join(self.state, b"journal.jsonl")
+        os.makedirs(self.state, exist_ok=True)
+        self.lock = self.take_lock()
+        self.is_new = not os.path.exists(self.journal_path)
+        self.clear_work()
+
+    def take_lock(self):
+        """The descriptor. Workers inherit it, so a run never meets those of one before."""
+        flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC
+        descriptor = os.open(os.path.join(self.state, b"lock"), flags, 0o666)
+        deadline = time.monotonic() + LOCK_SECONDS
+        while True:
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                return descriptor
+            except BlockingIOError:
+                if time.monotonic() > deadline:
+                    raise Stop(OUTPUT, f"{text(self.path)}: another run is at work here") from None
+                time.sleep(0.05)
+
+    def clear_work(self):
+        """What a killed run has left is there, and nowhere else."""
+        shutil.rmtree(self.work, ignore_errors=True)
+        os.makedirs(self.work, exist_ok=True)
+
+    def refuse_foreign_files(self, jobs):
+        """What no run of this script has written is not replaced unasked."""
+        there = [job.output for job in jobs if os.path.lexists(job.target)] if self.is_new else []
+        if there:
+            raise Stop(USAGE, f"{text(self.path)} holds files that would be replaced and are not from "
+                              f"{NAME}, {len(there):,} of them, such as {text(there[0])}: "
+                              "use another folder, or --restart")
+
+    def holds(self, target):
+        """No link leads out of OUT_DIR on the way to the target, to the inputs perhaps."""
+        way = os.path.dirname(os.path.relpath(target, self.path))
+        return os.path.realpath(os.path.dirname(target)) == \
+            os.path.normpath(os.path.join(os.path.realpath(self.path), way))
+
+    def take(self, made, target):
+        """Puts a finished file into its place."""
+        if not self.holds(target):
+            raise OSError(errno.ELOOP, "a link leads out of OUT_DIR")
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        os.rename(made, target)
+        sync_folder(os.path.dirname(target))
+
+    def remove(self, target):
+        """What an earlier run made of an input that now fails."""
+        if self.holds(target) and (os.path.isfile(target) or os.path.islink(target)):
+            os.unlink(target)
+
+    def write(self, name, data):
+        """Atomically."""
+        temporary = os.path.join(self.work, name)
+        with open(temporary, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        self.take(temporary, os.path.join(self.path, name))
+
+
+def key_of(name):
+    """A name in the journal: bytes that are no UTF-8 as lone surrogates, which JSON can hold."""
+    return name.decode("utf-8", "surrogateescape")
+
+
+class Journal:
+    """OUT_DIR/.repair_folder/journal.jsonl: what is finished, one JSON object in each line.
+
+    Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `size` and `mtime_ns` of the input;
+    `settings`: version of the program, first digits of its SHA-256, --format, options after --; `final`: not
+    to be tried again; `row`: as in the summary. The last line of a path counts. A line that is not whole counts
+    for nothing; at the end of the file it is cut off before the next one is written.
+    """
+
+    def __init__(self, path, settings, anew):
+        self.settings = settings
+        self.entries = {}
+        flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC | (os.O_TRUNC if anew else 0)
+        self.descriptor = os.open(path, flags, 0o666)
+        with open(path, "rb") as file:
+            data = file.read()
+        end = data.rfind(b"\n") + 1
+        os.ftruncate(self.descriptor, end)
+        for line in data[:end].splitlines():
+            self.read(line)
+
+    def read(self, line):
+        try:
+            entry = json.loads(line)
+            if set(entry["row"]) == set(SAME_IN_EACH_RUN + MEASURED):
+                self.entries[entry["path"]] = entry
+        except (ValueError, TypeError, KeyError, RecursionError):
+            pass
+
+    def finished_row(self, job):
+        """The row of a job that need not be done again, or None. job.look() was called."""
+        entry = self.entries.get(key_of(job.name))
+        if entry is None or not entry.get("final") or entry.get("settings") != self.settings or \
+           entry.get("output") != key_of(job.output) or \
+           (entry.get("size"), entry.get("mtime_ns")) != (job.size, job.mtime_ns):
+            return None
+        promised = entry["row"]["bytes_out"]
+        return entry["row"] if promised is None or self.is_there(job.target, promised) else None
+
+    @staticmethod
+    def is_there(target, size):
+        try:
+            status = os.lstat(target)
+        except OSError:
+            return False
+        return stat.S_ISREG(status.st_mode) and status.st_size == size
+
+    def outputs(self):
+        """Names of what earlier runs have written, as far as the journal knows."""
+        return {entry["output"].encode("utf-8", "surrogateescape") for entry in self.entries.values()
+                if entry["row"]["bytes_out"] is not None}
+
+    def add(self, job, row, final):
+        """On the disk when this returns; OSError if it cannot be."""
+        entry = {"path": key_of(job.name), "output": key_of(job.output), "size": job.size,
+                 "mtime_ns": job.mtime_ns, "settings": self.settings, "final": final, "row": row}
+        data = json.dumps(entry).encode() + b"\n"
+        written = os.write(self.descriptor, data)
+        while written < len(data):  # the disk is full, and the next call says so
+            written += os.write(self.descriptor, data[written:])
+        os.fsync(self.descriptor)

@@ -1,0 +1,157 @@
+"""One meshrepair process: how it is started, kept within its limits, and judged."""
+
+import ctypes
+import json
+import os
+import signal
+import subprocess
+import time
+
+from .basics import (DONE, EXTENSION_OF_FORMAT, GUARANTEES, INTERNAL, LIMIT, WRITTEN, text, value_of)
+from .program import last_line
+
+UNKILLABLE_SECONDS = 10  # from SIGKILL until a worker that a dead disk holds is given up
+STDERR_BYTES = 1 << 16  # kept of what it says, the end of it
+REPORT_BYTES = 1 << 26  # a longer report is none
+
+LIBC = ctypes.CDLL(None)
+PR_SET_PDEATHSIG = 1
+
+
+def bind_to_parent(parent):
+    """Called in the worker, before it becomes meshrepair: it is killed when its parent dies, and before its
+    parent when memory runs out."""
+    if hasattr(LIBC, "prctl"):
+        LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:
+        os._exit(INTERNAL)
+    try:
+        with open("/proc/self/oom_score_adj", "w", encoding="ascii") as file:
+            file.write("1000")
+    except OSError:
+        pass
+
+
+class Worker:
+    """It writes into a folder of its own. OSError if it cannot be started."""
+
+    def __init__(self, job, command, folder, lock):
+        self.job = job
+        self.folder = folder
+        self.mesh = os.path.join(folder, b"mesh" + EXTENSION_OF_FORMAT[job.format])
+        self.report_path = os.path.join(folder, b"report.json")
+        self.started = time.monotonic()
+        self.told_to_end = self.killed = None  # when
+        self.reason = None  # why
+        self.said = b""
+        self.code = self.peak_memory = None
+        parent = os.getpid()
+        self.process = subprocess.Popen(
+            [*command, "--format", job.format, "--report", self.report_path, job.source, self.mesh],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+            start_new_session=True, pass_fds=(lock,), preexec_fn=lambda: bind_to_parent(parent))
+        self.stderr = self.process.stderr.fileno()
+        os.set_blocking(self.stderr, False)
+
+    def listen(self):
+        """Reads some of what it says. False at the end of it."""
+        try:
+            data = os.read(self.stderr, STDERR_BYTES)
+        except BlockingIOError:
+            return True
+        self.said = (self.said + data)[-STDERR_BYTES:]
+        return bool(data)
+
+    def signal(self, number):
+        """Also to what it has started itself."""
+        try:
+            os.killpg(self.process.pid, number)
+        except ProcessLookupError:
+            pass
+
+    def has_ended(self):
+        """Without waiting. The code is as in a shell: 128 and the signal."""
+        pid = self.process.pid
+        if os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
+            return False
+        self.signal(signal.SIGKILL)  # what it has started itself; its number is not free yet
+        _, status, usage = os.wait4(pid, 0)
+        code = os.waitstatus_to_exitcode(status)
+        self.process.returncode = code
+        self.code = code if code >= 0 else 128 - code
+        self.peak_memory = usage.ru_maxrss * 1024
+        self.listen()
+        self.process.stderr.close()
+        return True
+
+    def memory(self):
+        """What it holds now, without what it shares with files; in bytes."""
+        try:
+            with open(f"/proc/{self.process.pid}/statm", encoding="ascii") as file:
+                _, resident, shared = file.read().split()[:3]
+        except OSError:
+            return 0
+        return (int(resident) - int(shared)) * os.sysconf("SC_PAGE_SIZE")
+
+    def enforce(self, options, memory_allowed):
+        """Ends what is over its limits. False if even SIGKILL is of no use."""
+        now = time.monotonic()
+        if self.killed:
+            return now < self.killed + UNKILLABLE_SECONDS
+        if memory_allowed and self.memory() > memory_allowed:
+            self.reason = "takes more memory than it may: killed"
+            self.kill()
+        elif self.told_to_end:
+            if now > self.told_to_end + options.grace:
+                self.kill()
+        elif options.timeout and now > self.started + options.timeout + options.grace:
+            self.reason = f"does not end at the time limit of {options.timeout:g} s: killed"
+            self.told_to_end = now
+            self.signal(signal.SIGTERM)
+        return True
+
+    def kill(self):
+        self.killed = time.monotonic()
+        self.signal(signal.SIGKILL)
+
+    def report(self):
+        """None if there is none."""
+        try:
+            with open(self.report_path, "rb") as file:
+                report = json.loads(file.read(REPORT_BYTES))
+        except (OSError, ValueError, RecursionError):
+            return None
+        return report if isinstance(report, dict) else None
+
+    def complaint(self, report):
+        """Why it is not believed that a mesh is written, or None."""
+        if value_of(report, "exit_code") != self.code:
+            return f"ended with exit code {self.code}, but without a report that says so"
+        if self.code == DONE:
+            if any(value_of(report, "certificate", name) != "PASS" for name in GUARANTEES):
+                return "ended with exit code 0, but without a certificate"
+            if not os.path.isfile(self.mesh) or os.path.getsize(self.mesh) == 0:
+                return "ended with exit code 0, but wrote no mesh"
+        return None
+
+    def judge(self):
+        """The exit code and the error line that count, and the report."""
+        report = self.report()
+        if self.code in WRITTEN:
+            complaint = self.complaint(report)
+            if complaint:
+                return INTERNAL, complaint, None
+            return self.code, None if self.code == DONE else self.error_line(report), report
+        if self.reason:
+            return LIMIT, self.reason, report
+        if self.process.returncode < 0:
+            return self.code, f"killed by signal {-self.process.returncode}", report
+        return self.code, self.error_line(report), report
+
+    def error_line(self, report):
+        """Without the names of files, which stand beside it."""
+        line = str(value_of(report, "error") or last_line(self.said))
+        for path in (self.job.source, self.mesh):
+            line = line.removeprefix(path.decode("utf-8", "replace") + ": ")
+        line = line.replace(self.mesh.decode("utf-8", "replace"), text(self.job.output))
+        return line or f"ended with exit code {self.code} and said nothing"

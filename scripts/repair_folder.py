@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Repairs all meshes in a folder and its sub-folders with meshrepair, several at a time.
+
+What holds at every moment, also when this script, its workers or the machine are killed:
+
+- A mesh in OUT_DIR is complete. A worker writes into a folder of its own below OUT_DIR/.repair_folder/work,
+  and what it wrote is renamed to its place only after it has ended well and its report says so.
+- OUT_DIR/.repair_folder/journal.jsonl holds a line for each file that is finished. The line is written, and
+  on the disk, after the output is. What is in no line is done again, which gives the same bytes.
+- One run at a time works on an OUT_DIR: it holds a lock, and so does each of its workers. The lock ends
+  with the last of them, and they are killed when this script dies; then what they left is removed.
+- After a run that was not interrupted, the inputs that have an output are those with exit code 0 or 1.
+
+This file is the command line; the parts are in folder_repair, the run itself in folder_run.py there. Names
+of files are bytes throughout, for not every name is text.
+"""
+
+import argparse
+import os
+import re
+import sys
+
+from folder_repair.basics import EXTENSION_OF_FORMAT, NAME, OUTPUT, USAGE, Stop, say, text
+from folder_repair.folder_run import FolderRun
+from folder_repair.out_folder import OutFolder
+from folder_repair.program import Program
+
+# Options of meshrepair that are set here, for each file.
+OWN_OPTIONS = ("--report", "--threads", "--time-limit", "--max-memory", "--format", "-q", "--quiet",
+               "-v", "--verbose", "-h", "--help", "--version")
+MEMORY_SHARE = 0.8  # of what is free
+
+EPILOG = """Options after -- go to meshrepair as they are.
+
+Examples:
+  repair_folder.py scans repaired
+  repair_folder.py --format obj --jobs 4 --timeout 60 --max-memory 2G scans repaired
+  repair_folder.py scans repaired -- --inside solidity --strict
+
+A mesh file is one by its extension: .stl, .obj, .off or .ply, in upper or lower case. Links to files are
+followed, links to folders are not.
+
+OUT_DIR gets the repaired meshes under their names and in their sub-folders, summary.csv, summary.json and
+the folder .repair_folder with the journal. The same command again goes on where the last run stopped:
+what was repaired, cannot be read or encloses nothing is not done again, unless the file, the options or
+the program have changed; what hit a limit, was killed or could not be written is. A file whose worker is
+killed by SIGKILL is tried once more in the same run, after all others. OUT_DIR belongs to this script: the
+old output of an input that now fails is removed. Outputs of inputs that are gone stay, and are warned of.
+
+Exit codes: 0 all passed, 1 some file failed or was not certified, 2 wrong usage, 6 OUT_DIR cannot be
+written or another run is at work there, 130 interrupted, 143 terminated.
+"""
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Stop(USAGE, f"{message} (try '{NAME} --help')")
+
+
+def size_in_bytes(string):
+    """"200M" and the like; K, M, G and T are powers of 1024."""
+    match = re.fullmatch(r"(\d+(?:\.\d+)?)([KMGT]?)(?:i?B)?", string.strip(), re.IGNORECASE)
+    if not match:
+        raise argparse.ArgumentTypeError(f"{string} is not a size like 200M or 2G")
+    return int(float(match[1]) * 1024 ** " KMGT".index(match[2].upper() or " "))
+
+
+def number_of_jobs(string):
+    if not re.fullmatch(r"0*[1-9]\d{0,3}", string):
+        raise argparse.ArgumentTypeError(f"{string} is not a number from 1 to 9999")
+    return int(string)
+
+
+def seconds(string):
+    if not re.fullmatch(r"\d+(\.\d*)?|\.\d+", string):
+        raise argparse.ArgumentTypeError(f"{string} is not a number of seconds, 0 or more")
+    return float(string)
+
+
+def command_line():
+    parser = Parser(prog=NAME, allow_abbrev=False, add_help=False, epilog=EPILOG,
+                    usage="%(prog)s [OPTIONS] IN_DIR OUT_DIR [-- OPTIONS OF MESHREPAIR]",
+                    description=__doc__.split("\n", maxsplit=1)[0],
+                    formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = parser.add_argument
+    add("in_dir", metavar="IN_DIR", help="folder of meshes: STL, OBJ, OFF or PLY")
+    add("out_dir", metavar="OUT_DIR", help="folder to write to; is made, and may lie in IN_DIR")
+    add("--format", choices=EXTENSION_OF_FORMAT, metavar="NAME",
+        help="format of all outputs: obj, stl, stl-ascii, off, ply, ply-ascii; a.stl becomes a.obj, and "
+             "where there is an a.off, too, they become a.stl.obj and a.off.obj "
+             "(default: by the input's name)")
+    add("--jobs", type=number_of_jobs, metavar="N", default=len(os.sched_getaffinity(0)),
+        help="number of workers, which share the cores (default: the cores, %(default)s here)")
+    add("--timeout", type=seconds, metavar="SECONDS", default=600.0,
+        help="give up a file after this time; 0 is never (default: 600)")
+    add("--grace", type=seconds, metavar="SECONDS", default=5.0,
+        help="what a worker has then to end by itself, and again once it is terminated, until it is killed "
+             "(default: 5)")
+    add("--max-memory", type=size_in_bytes, metavar="SIZE",
+        help="give up a file that takes more memory, like 200M or 2G; 0 is no limit "
+             "(default: 80 %% of what is free, divided by the workers)")
+    add("--restart", action="store_true", help="do all files anew, and replace what is in OUT_DIR")
+    add("--meshrepair", metavar="PATH",
+        help="the program (default: build/release/bin/meshrepair of this project, else that in PATH)")
+    add("-q", "--quiet", action="store_true", help="print errors only, a line for each file that fails")
+    add("-h", "--help", action="help", help="print this text and exit")
+    return parser
+
+
+def parse_arguments(arguments):
+    """`passed` is what stands after the first "--"."""
+    end = arguments.index("--") if "--" in arguments else len(arguments)
+    options = command_line().parse_args(arguments[:end])
+    options.passed = arguments[end + 1:]
+    for argument in options.passed:
+        if argument.split("=")[0] in OWN_OPTIONS:
+            raise Stop(USAGE, f"{argument} after --: {NAME} sets this itself (try '{NAME} --help')")
+    if options.max_memory is None:
+        options.max_memory = int(MEMORY_SHARE * free_memory() / options.jobs)
+    return options
+
+
+def numbers_in(path):
+    """Lines of a name and a number: /proc/meminfo, memory.stat and the like."""
+    with open(path, encoding="ascii") as file:
+        return {name.rstrip(":"): int(number) for name, number, *_ in map(str.split, file)}
+
+
+def free_memory():
+    """In bytes, as the machine and the control group allow; 0 if nothing tells."""
+    found, group = [], "/sys/fs/cgroup/memory."
+    try:
+        found.append(numbers_in("/proc/meminfo")["MemAvailable"] * 1024)
+        with open(group + "max", encoding="ascii") as most, open(group + "current", encoding="ascii") as now:
+            pages = numbers_in(group + "stat")
+            kept = int(now.read()) - pages["active_file"] - pages["inactive_file"]  # others can be dropped
+            found.append(int(most.read()) - kept)
+    except (OSError, ValueError, KeyError):  # not there, or "max"
+        pass
+    return max(min(found, default=0), 0)
+
+
+def check_folders(options):
+    """Makes them absolute. Refuses what would let outputs replace inputs."""
+    options.in_dir = os.path.abspath(os.fsencode(options.in_dir))
+    options.out_dir = os.path.abspath(os.fsencode(options.out_dir))
+    if not os.path.isdir(options.in_dir):
+        raise Stop(USAGE, f"{text(options.in_dir)} is no folder")
+    if os.path.lexists(options.out_dir) and not os.path.isdir(options.out_dir):
+        raise Stop(USAGE, f"{text(options.out_dir)} is no folder")
+    source, target = os.path.realpath(options.in_dir), os.path.realpath(options.out_dir)
+    if os.path.commonpath([source, target]) == target:
+        raise Stop(USAGE, f"OUT_DIR {text(target)} is IN_DIR or holds it: outputs could replace inputs")
+
+
+def run():
+    options = parse_arguments(sys.argv[1:])
+    check_folders(options)
+    program = Program(options.meshrepair, options.passed)
+    try:
+        return FolderRun(options, program, OutFolder(options.out_dir)).run()
+    except OSError as error:
+        name = text(os.fsencode(error.filename)) if error.filename else "OUT_DIR"
+        raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None
+
+
+def open_standard_streams():
+    """Where one is closed, the next file that is opened would take its number, and get what is said."""
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
+    sys.stdout = sys.stdout or open(1, "w", encoding="utf-8")
+    sys.stderr = sys.stderr or open(2, "w", encoding="utf-8")
+
+
+def main():
+    open_standard_streams()
+    try:
+        return run()
+    except Stop as stop:
+        say(str(stop))
+        return stop.code
+    except KeyboardInterrupt:  # before anything was begun
+        say("interrupted")
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

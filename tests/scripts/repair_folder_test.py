@@ -1,0 +1,518 @@
+#!/usr/bin/env python3
+"""Tests of scripts/repair_folder.py.
+
+Usage: repair_folder_test.py MESHREPAIR [OPTIONS OF UNITTEST]
+
+What it makes of meshes is tested with the program MESHREPAIR, what it does when a program fails in all
+manners with a false one, which does what the name of its input says.
+"""
+
+import csv
+import fcntl
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import kill_folder
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "scripts" / "repair_folder.py"
+SAMPLES = ROOT / "samples" / "meshes"
+MESHREPAIR = ""  # set by main
+SECONDS_TO_END = 2  # from a signal; one, and what a busy machine takes
+
+CUBE = (SAMPLES / "cube.stl").read_bytes()
+TETRAHEDRON = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+FLAT = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+# Does what the first letters of its input's name say; tells FAKE_LOG how it was called.
+FALSE_MESHREPAIR = """#!{python} -SE
+import json, os, signal, sys, time
+arguments = sys.argv[1:]
+if arguments == ["--version"]:
+    sys.exit(print("meshrepair 9.9.9"))
+if arguments == ["--help"]:
+    sys.exit(print(os.environ.get("FAKE_HELP", "no options")))
+if "--bogus" in arguments:
+    print("meshrepair: --bogus is unknown", file=sys.stderr)
+    sys.exit(2)
+source, target = arguments[-2:]
+if "--report" not in arguments:
+    sys.exit(3)
+with open(os.environ["FAKE_LOG"], "a") as log:
+    log.write(json.dumps(arguments) + "\\n")
+
+def write(path, data):
+    with open(path, "w") as file:
+        file.write(data)
+
+def end(code, error=None, verdict="PASS", mesh="whole mesh"):
+    names = ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles")
+    report = {{"exit_code": code, "error": error, "certificate": dict.fromkeys(names, verdict)}}
+    write(arguments[arguments.index("--report") + 1], json.dumps(report))
+    if mesh:
+        write(target, mesh)
+    sys.exit(code)
+
+action = os.path.basename(source).partition(".")[0].rstrip("0123456789")
+if action == "good":
+    end(0)
+elif action == "slow":
+    time.sleep(0.7)
+    end(0)
+elif action == "code":
+    code = int(open(source).read())
+    end(code, source + ": so it is", "FAIL", "doubtful mesh" if code == 1 else "")
+elif action == "hang":
+    time.sleep(600)
+elif action == "deaf":
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    time.sleep(600)
+elif action == "half":
+    write(target, "half a me")
+    os.kill(os.getpid(), signal.SIGKILL)
+elif action == "once":
+    if not os.path.exists(source + ".tried"):
+        write(source + ".tried", "")
+        os.kill(os.getpid(), signal.SIGKILL)
+    end(0)
+elif action == "crash":
+    os.kill(os.getpid(), signal.SIGSEGV)
+elif action == "garbage":
+    write(arguments[arguments.index("--report") + 1], "{{no json")
+    write(target, "garbage")
+elif action == "unproven":
+    end(0, None, "FAIL")
+elif action == "noisy":
+    for i in range(300):
+        os.write(2, b"x" * 65536)
+    os.write(2, b"\\nmeshrepair: enough\\n")
+    sys.exit(70)
+elif action == "greedy":
+    hoard = bytearray(b"x") * (300 << 20)
+    time.sleep(600)
+elif action == "orphan" and os.fork() == 0:
+    time.sleep(600)  # holds the pipe
+elif action == "orphan":
+    end(0)
+"""
+
+
+def write_files(folder, files):
+    for name, data in files.items():
+        path = os.path.join(os.fsencode(folder), os.fsencode(name))
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "wb") as file:
+            file.write(data)
+
+
+def names_in(folder):
+    return {os.fsdecode(name) for name in kill_folder.outputs_in(folder)}
+
+
+class FolderTest(unittest.TestCase):
+    """Has an input folder, an output folder and a false meshrepair."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="repair_folder_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.source, self.out = self.folder / "in", self.folder / "out"
+        self.source.mkdir()
+        self.log = self.folder / "log"
+        self.false = self.folder / "false_meshrepair"
+        self.false.write_text(FALSE_MESHREPAIR.format(python=sys.executable))
+        self.false.chmod(0o755)
+        self.environment = {**os.environ, "FAKE_LOG": str(self.log)}
+
+    def command(self, *options, program=None, source=None, out=None):
+        end = options.index("--") if "--" in options else len(options)
+        return [sys.executable, SCRIPT, "--meshrepair", program or self.false, *options[:end],
+                source or self.source, out or self.out, *options[end:]]
+
+    def start(self, *options, **others):
+        return subprocess.Popen(self.command(*options, **others), env=self.environment, text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def run_script(self, *options, code=0, before=None, **others):
+        result = subprocess.run(self.command(*options, **others), env=self.environment, text=True,
+                                check=False, capture_output=True, timeout=60, preexec_fn=before)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        return result
+
+    def rows(self):
+        with open(self.out / "summary.csv", encoding="utf-8", newline="") as file:
+            return {row["path"]: row for row in csv.DictReader(file)}
+
+    def codes(self):
+        return {path: int(row["exit_code"]) for path, row in self.rows().items()}
+
+    def calls(self):
+        """Names of the inputs that the false program got since the last call of this."""
+        if not self.log.exists():
+            return []
+        lines = self.log.read_text().splitlines()
+        self.log.unlink()
+        return sorted(os.path.basename(json.loads(line)[-2]) for line in lines)
+
+
+class Meshes(FolderTest):
+    def make(self):
+        write_files(self.source, {
+            "cube.stl": CUBE, "sub/Tetrahedron.OBJ": TETRAHEDRON, "sub/deep/cube.stl": CUBE,
+            "bad/cut.ply": b"ply\nformat binary", "bad/empty.stl": b"", "bad/flat.obj": FLAT,
+            "readme.txt": b"no mesh"})
+
+    def test_keeps_names_and_sub_folders_and_failures_stop_nothing(self):
+        self.make()
+        result = self.run_script(program=MESHREPAIR, code=1)
+        self.assertEqual(names_in(self.out), {"cube.stl", "sub/Tetrahedron.OBJ", "sub/deep/cube.stl"})
+        self.assertEqual(self.codes(), {
+            "bad/cut.ply": 3, "bad/empty.stl": 3, "bad/flat.obj": 5, "cube.stl": 0,
+            "sub/Tetrahedron.OBJ": 0, "sub/deep/cube.stl": 0})
+        self.assertIn("bad/empty.stl: is empty (exit code 3)\n", result.stderr)
+        self.assertRegex(result.stdout, r"\n +3 +2  cannot be read\n")
+
+    def test_rows_are_sorted_and_say_what_came_out(self):
+        self.make()
+        self.run_script(program=MESHREPAIR, code=1)
+        rows = self.rows()
+        self.assertEqual(list(rows), sorted(rows))
+        cube, flat = rows["cube.stl"], rows["bad/flat.obj"]
+        for guarantee in ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles"):
+            self.assertEqual((cube[guarantee], flat[guarantee]), ("PASS", ""))
+        self.assertEqual((cube["output"], cube["triangles_in"], cube["triangles_out"]), ("cube.stl", "12", "12"))
+        self.assertEqual(int(cube["bytes_in"]), len(CUBE))
+        self.assertEqual(int(cube["bytes_out"]), (self.out / "cube.stl").stat().st_size)
+        self.assertGreater(float(cube["seconds"]), 0)
+        self.assertGreater(int(cube["peak_memory_bytes"]), 1 << 20)
+        self.assertEqual((flat["output"], flat["bytes_out"]), ("", ""))
+        summary = json.loads((self.out / "summary.json").read_bytes())
+        self.assertEqual(summary["totals"]["by_exit_code"], {"0": 3, "3": 2, "5": 1})
+        self.assertEqual([row["path"] for row in summary["files"]], list(rows))
+
+    def test_killed_and_resumed_gives_what_an_undisturbed_run_gives(self):
+        self.make()
+        for i in range(6):
+            shutil.copyfile(SAMPLES / "broken_torus_box.stl", self.source / f"torus{i}.stl")
+        killer = kill_folder.Killer(MESHREPAIR, self.source, self.folder, seed=1)
+        killer.run(6)
+        self.assertEqual(killer.complaints, [])
+        self.assertEqual(len(killer.outputs), 9)
+
+    def test_format_and_options_reach_the_program(self):
+        write_files(self.source, {"a.obj": TETRAHEDRON})
+        self.run_script("--format", "ply-ascii", "--", "--sources", program=MESHREPAIR)
+        self.assertIn(b"format ascii", (self.out / "a.ply").read_bytes())
+        self.assertIn(b"source_triangle", (self.out / "a.ply").read_bytes())
+        result = self.run_script("--", "--inside", "magic", program=MESHREPAIR, code=2)
+        self.assertIn("refuses the options: --inside: magic", result.stderr)
+
+
+class FailingPrograms(FolderTest):
+    def test_no_manner_of_failing_stops_the_others_or_leaves_a_file(self):
+        actions = ("crash", "deaf", "garbage", "good", "half", "hang", "noisy", "once", "orphan", "silent",
+                   "unproven")
+        write_files(self.source, {f"{action}.stl": b"x" for action in actions})
+        started = time.monotonic()
+        self.run_script("--jobs", "6", "--timeout", "3", "--grace", "0.3", code=1)
+        self.assertLess(time.monotonic() - started, 20)
+        self.assertEqual(self.codes(), {
+            "crash.stl": 139, "deaf.stl": 4, "garbage.stl": 70, "good.stl": 0, "half.stl": 137,
+            "hang.stl": 4, "noisy.stl": 70, "once.stl": 0, "orphan.stl": 0, "silent.stl": 70,
+            "unproven.stl": 70})
+        rows = self.rows()
+        self.assertEqual(rows["half.stl"]["error"], "killed by signal 9")
+        self.assertEqual(rows["noisy.stl"]["error"], "enough")
+        self.assertEqual(rows["deaf.stl"]["error"], "does not end at the time limit of 3 s: killed")
+        self.assertEqual(names_in(self.out), {"good.stl", "once.stl", "orphan.stl"})
+        self.assertEqual(self.calls().count("half.stl"), 2)
+        self.assertEqual(os.listdir(self.out / ".repair_folder" / "work"), [])
+
+    def test_a_program_that_takes_too_much_memory_is_killed(self):
+        write_files(self.source, {"greedy.stl": b"x", "good.stl": b"x"})
+        self.run_script("--max-memory", "100M", code=1)
+        self.assertEqual(self.codes(), {"greedy.stl": 4, "good.stl": 0})
+
+    def test_a_program_that_is_gone_fails_each_file(self):
+        write_files(self.source, {"slow.stl": b"x", "then/good.stl": b"x"})
+        process = self.start("--jobs", "1", "--quiet")
+        while not self.log.exists():
+            time.sleep(0.01)
+        self.false.unlink()
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 1)
+        self.assertEqual(self.codes(), {"slow.stl": 0, "then/good.stl": 70})
+
+    def test_a_full_disk_is_one_line(self):
+        write_files(self.source, {f"good{i}.stl": b"x" for i in range(30)})
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+        result = self.run_script("--quiet", before=limit, code=6)
+        self.assertRegex(result.stderr, r"^repair_folder.py: [^\n]*journal.jsonl: cannot be written: [^\n]*\n$")
+        self.run_script()
+        self.assertEqual(len(self.codes()), 30)
+
+
+class Resuming(FolderTest):
+    def test_final_ends_are_not_tried_again_and_others_are(self):
+        files = {f"code{code}.stl": str(code).encode() for code in (1, 2, 3, 4, 5, 6, 70)}
+        write_files(self.source, {**files, "good.stl": b"x", "crash.stl": b"x"})
+        self.run_script(code=1)
+        self.assertEqual(len(self.calls()), 9)
+        before = kill_folder.comparable_summary(self.out)
+        self.run_script(code=1)
+        self.assertEqual(self.calls(), ["code2.stl", "code4.stl", "code6.stl", "code70.stl", "crash.stl"])
+        self.assertEqual(kill_folder.comparable_summary(self.out), before)
+        self.assertEqual(self.rows()["code3.stl"]["error"], "so it is")
+        self.run_script("--restart", code=1)
+        self.assertEqual(len(self.calls()), 9)
+
+    def test_what_has_changed_is_done_again(self):
+        write_files(self.source, {"good1.stl": b"x", "good2.stl": b"x", "good3.stl": b"x"})
+        self.run_script()
+        self.calls()
+        os.utime(self.source / "good1.stl", (1, 1))
+        (self.out / "good2.stl").write_bytes(b"cut")
+        self.run_script()
+        self.assertEqual(self.calls(), ["good1.stl", "good2.stl"])
+        self.run_script("--", "--strict")
+        self.assertEqual(len(self.calls()), 3)
+        self.false.write_text(self.false.read_text() + "# another build\n")
+        self.run_script("--", "--strict")
+        self.assertEqual(len(self.calls()), 3)
+        self.run_script("--jobs", "1", "--timeout", "9", "--max-memory", "1G", "--", "--strict")
+        self.assertEqual(self.calls(), [])
+
+    def test_a_journal_that_is_torn_or_damaged_costs_what_is_damaged(self):
+        write_files(self.source, {f"good{i}.stl": b"x" for i in range(4)})
+        self.run_script()
+        self.calls()
+        journal = self.out / ".repair_folder" / "journal.jsonl"
+        lines = journal.read_bytes().splitlines(keepends=True)
+        lost = [json.loads(line)["path"] for line in lines[2:]]
+        damage = b'[1]\n{"row": 3}\n\0\0\0\n'
+        journal.write_bytes(lines[0] + damage + lines[1] + lines[2][:99] + b"\n" + lines[3][:-9])
+        self.run_script()
+        self.assertEqual(self.calls(), sorted(lost))
+        self.run_script()
+        self.assertEqual(self.calls(), [])
+
+    def test_the_old_output_of_an_input_that_now_fails_is_removed(self):
+        write_files(self.source, {"code.stl": b"1", "good.stl": b"x"})
+        self.run_script(code=1)
+        self.assertEqual(names_in(self.out), {"code.stl", "good.stl"})
+        write_files(self.source, {"code.stl": b"5 "})
+        (self.source / "good.stl").unlink()
+        result = self.run_script(code=1)
+        self.assertEqual(names_in(self.out), {"good.stl"})
+        self.assertIn("good.stl in OUT_DIR is of an earlier run", result.stderr)
+
+    def test_what_a_killed_run_has_left_is_removed(self):
+        write_files(self.source, {"good.stl": b"x"})
+        write_files(self.out, {".repair_folder/work/7/.mesh.stl.0123456789abcdef.tmp": b"half"})
+        self.run_script()
+        self.assertEqual(os.listdir(self.out / ".repair_folder" / "work"), [])
+
+
+class Signals(FolderTest):
+    def interrupt(self, number, code):
+        write_files(self.source, {"a/good.stl": b"x", "hang1.stl": b"x", "deaf.stl": b"x", "hang2.stl": b"x"})
+        process = self.start("--jobs", "2", "--quiet")
+        while not self.log.exists() or len(self.log.read_text().splitlines()) < 3:
+            time.sleep(0.01)
+        started = time.monotonic()
+        process.send_signal(number)
+        _, stderr = process.communicate(timeout=20)
+        self.assertLess(time.monotonic() - started, SECONDS_TO_END)
+        self.assertEqual(process.returncode, code)
+        self.assertEqual(stderr.count("\n"), 1, stderr)
+        self.assertEqual(self.codes(), {"a/good.stl": 0})
+        self.assertEqual(names_in(self.out), {"a/good.stl"})
+        self.assertEqual(json.loads((self.out / "summary.json").read_bytes())["totals"]["not_done"], 3)
+        self.assertEqual(kill_folder.marked_processes(os.fsencode(self.log)), [])
+
+    def test_interrupt(self):
+        self.interrupt(signal.SIGINT, 130)
+
+    def test_termination(self):
+        self.interrupt(signal.SIGTERM, 143)
+
+    def test_workers_die_with_the_script(self):
+        write_files(self.source, {"hang.stl": b"x", "deaf.stl": b"x"})
+        process = self.start("--jobs", "2")
+        while not self.log.exists() or len(self.log.read_text().splitlines()) < 2:
+            time.sleep(0.01)
+        process.kill()
+        process.communicate()
+        deadline = time.monotonic() + 5
+        while kill_folder.marked_processes(os.fsencode(self.log)):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+
+    def test_a_second_run_refuses(self):
+        write_files(self.source, {"good.stl": b"x"})
+        self.run_script()
+        with open(self.out / ".repair_folder" / "lock", "rb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            result = self.run_script(code=6)
+        self.assertIn("another run is at work here", result.stderr)
+        self.run_script()
+
+
+class Names(FolderTest):
+    def test_odd_names(self):
+        odd = [b"-x.stl", b"a b.stl", b"new\nline.stl", b"caf\xe9.stl", "\u00e9\u4e2d.StL".encode(),
+               b"q\"uote,.obj", b"sub\n/--help.stl", b"%s{0}.off", b".hidden.stl", b"back\\slash.ply",
+               b"long" * 60 + b".stl"]
+        write_files(self.source, {name: TETRAHEDRON for name in odd})
+        self.run_script(program=MESHREPAIR)
+        self.assertEqual(set(kill_folder.outputs_in(self.out)), set(odd))
+        self.assertEqual(set(self.rows()), {name.decode("utf-8", "backslashreplace") for name in odd})
+        before = self.rows()
+        self.run_script(program=MESHREPAIR)
+        self.assertEqual(self.rows(), before)  # with the same times: nothing was done again
+
+    def test_what_is_no_file_is_left_out_and_never_waited_for(self):
+        write_files(self.source, {"good.stl": b"x", "sub/good.stl": b"x"})
+        os.mkfifo(self.source / "fifo.stl")
+        os.symlink("fifo.stl", self.source / "link_to_fifo.stl")
+        os.symlink("good.stl", self.source / "good2.stl")
+        os.symlink("..", self.source / "sub" / "loop")
+        os.symlink("sub", self.source / "link.stl")
+        os.symlink("round.stl", self.source / "round.stl")
+        os.symlink("nowhere", self.source / "dangling.obj")
+        result = self.run_script(code=1)
+        self.assertEqual(self.codes(), {
+            "good.stl": 0, "sub/good.stl": 0, "good2.stl": 0, "round.stl": 3, "dangling.obj": 3})
+        for line in ("fifo.stl: left out: is no regular file", "link_to_fifo.stl: left out: is no regular",
+                     "sub/loop: left out: is a link to a folder", "link.stl: left out: is a link to a folder"):
+            self.assertIn(line, result.stderr)
+
+    def test_files_that_vanish_or_cannot_be_read_are_rows(self):
+        write_files(self.source, {"slow.stl": b"x", "t_gone.stl": b"x", "shut.stl": b"x"})
+        os.chmod(self.source / "shut.stl", 0)
+        process = self.start("--jobs", "1")
+        while not self.log.exists():
+            time.sleep(0.01)
+        os.unlink(self.source / "t_gone.stl")
+        process.communicate(timeout=20)
+        self.assertEqual(self.rows()["t_gone.stl"]["error"], "cannot be opened: No such file or directory")
+        if os.getuid() != 0:
+            self.assertEqual(self.rows()["shut.stl"]["error"], "cannot be opened: Permission denied")
+            self.calls()
+            os.chmod(self.source / "shut.stl", 0o600)
+            self.run_script(code=1)
+            self.assertEqual(self.calls(), ["shut.stl"])
+
+    @unittest.skipIf(os.getuid() == 0, "root reads every folder")
+    def test_a_folder_that_cannot_be_read_is_no_success(self):
+        write_files(self.source, {"good.stl": b"x", "shut/good.stl": b"x"})
+        os.chmod(self.source / "shut", 0)
+        self.addCleanup(os.chmod, self.source / "shut", stat.S_IRWXU)
+        self.assertIn("shut/: left out: cannot be read: Permission denied", self.run_script(code=1).stderr)
+
+    def test_outputs_of_one_name_keep_their_extensions(self):
+        names = ["a.stl", "a.obj", "b.stl", "c.stl", "c.STL", "a.stl.obj", "d.stl", "d.obj/e.stl", "e/a.stl"]
+        write_files(self.source, {name: TETRAHEDRON for name in names})
+        self.run_script("--format", "obj", program=MESHREPAIR)
+        self.assertEqual({path: row["output"] for path, row in self.rows().items()}, {
+            "a.stl": "a.stl.obj", "a.obj": "a.obj.obj", "a.stl.obj": "a.stl.obj.obj", "b.stl": "b.obj",
+            "c.stl": "c.stl.obj", "c.STL": "c.STL.obj", "d.stl": "d.stl.obj",
+            "d.obj/e.stl": "d.obj/e.obj", "e/a.stl": "e/a.obj"})
+        self.assertEqual(names_in(self.out), {row["output"] for row in self.rows().values()})
+
+
+class Folders(FolderTest):
+    def test_outputs_never_become_inputs_or_replace_them(self):
+        write_files(self.source, {"good.stl": b"x", "sub/good.stl": b"x"})
+        for out in (self.source, self.folder, self.source / "sub" / ".."):
+            self.assertIn("outputs could replace inputs", self.run_script(out=out, code=2).stderr)
+        self.out = self.source / "repaired"
+        self.run_script()
+        self.run_script()
+        self.assertEqual(names_in(self.out), {"good.stl", "sub/good.stl"})
+
+    def test_links_in_the_output_folder_are_not_followed(self):
+        write_files(self.source, {"good.stl": b"x", "sub/good.stl": b"x"})
+        self.out.mkdir()
+        self.run_script(source=self.out, out=self.folder / "other")  # nothing to do
+        os.symlink(self.source / "sub", self.out / "sub")
+        result = self.run_script(code=2)
+        self.assertIn("not from repair_folder.py, 1 of them, such as sub/good.stl", result.stderr)
+        os.symlink(self.source / "good.stl", self.out / "good.stl")
+        self.run_script("--restart", code=1)
+        self.assertEqual(self.codes(), {"good.stl": 0, "sub/good.stl": 6})
+        self.assertEqual((self.source / "good.stl").read_bytes(), b"x")
+        self.assertEqual((self.source / "sub" / "good.stl").read_bytes(), b"x")
+        self.assertFalse((self.out / "good.stl").is_symlink())
+
+    def test_foreign_files_are_not_replaced_unasked(self):
+        write_files(self.source, {"good.stl": b"x", "code.stl": b"5"})
+        write_files(self.out, {"good.stl": b"mine", "code.stl": b"mine"})
+        self.run_script(code=2)
+        self.assertEqual((self.out / "good.stl").read_bytes(), b"mine")
+        self.run_script("--restart", code=1)
+        self.assertEqual(names_in(self.out), {"good.stl"})
+
+    def test_an_empty_folder_is_no_failure(self):
+        self.assertIn("no .stl, .obj, .off or .ply files", self.run_script().stderr)
+        self.assertEqual(self.rows(), {})
+
+
+class CommandLine(FolderTest):
+    def test_workers_get_limits_threads_and_options(self):
+        write_files(self.source, {"good.stl": b"x"})
+        self.environment["FAKE_HELP"] = "  --max-memory SIZE"
+        self.run_script("--jobs", "1", "--timeout", "7", "--max-memory", "2G", "--", "--inside", "solidity")
+        call = json.loads(self.log.read_text())
+        cores = str(len(os.sched_getaffinity(0)))
+        self.assertEqual(call[:11], ["--quiet", "--threads", cores, "--time-limit", "7", "--inside", "solidity",
+                                     "--max-memory", "2048M", "--format", "stl"])
+
+    def test_wrong_usage_is_one_line(self):
+        for options in (["--frobnicate"], ["--jobs", "0"], ["--jobs", "many"], ["--timeout", "-1"],
+                        ["--timeout", "nan"], ["--max-memory", "lots"], ["--format", "xyz"],
+                        ["--meshrepair", "/nowhere"], ["--", "--report=x"], ["--", "-q"], ["--", "--bogus"]):
+            result = self.run_script(*options, code=2)
+            self.assertRegex(result.stderr, "^repair_folder.py: [^\n]+\n$", options)
+        self.run_script(source=self.folder / "nowhere", code=2)
+        self.run_script(program="/bin/true", code=2)
+        self.run_script(out=self.false, code=2)
+        self.assertFalse(self.out.exists())
+
+    def test_nobody_needs_to_listen(self):
+        write_files(self.source, {"good.stl": b"x", "code.stl": b"5"})
+        words = " ".join(f"'{word}'" for word in self.command())
+        for closing in ("<&- >&- 2>&-", "2>&-", ">/dev/full 2>/dev/full", "2>&1 | true; exit ${PIPESTATUS[0]}"):
+            shutil.rmtree(self.out, ignore_errors=True)
+            code = subprocess.run(["bash", "-c", f"{words} {closing}"], env=self.environment, check=False,
+                                  stdout=subprocess.DEVNULL).returncode
+            self.assertEqual(code, 1, closing)
+            self.assertEqual(self.codes(), {"good.stl": 0, "code.stl": 5})
+
+    def test_help(self):
+        text = self.run_script("--help").stdout
+        self.assertRegex(text, "(?s)--timeout SECONDS.*default: 600.*Examples:\n  repair_folder")
+
+
+def main():
+    global MESHREPAIR
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
+        print(__doc__.strip(), file=sys.stdout if sys.argv[1:] == ["--help"] else sys.stderr)
+        sys.exit(0 if sys.argv[1:] == ["--help"] else 2)
+    MESHREPAIR = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
+
+
+if __name__ == "__main__":
+    main()
