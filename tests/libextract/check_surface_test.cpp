@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <bsp/topology.h>
 #include <extract/check_surface.h>
 
 #include "shapes.h"
@@ -78,6 +80,47 @@ TEST(CheckSurface, NestingHoldsForRaysThroughEdgesAndCorners) {
   for (const SurfacePart& part : check.parts) depths.push_back(part.depth);
   EXPECT_EQ(depths, (std::vector<std::uint32_t>{0, 1, 2, 0, 0, 0, 0}));
   EXPECT_TRUE(check.valid_solid());
+}
+
+// Whichever of its triangles comes first: the corner that the nesting is told by may lie on the
+// other.
+TEST(CheckSurface, TouchingIsNotNesting) {
+  for (int direction = 0; direction < 27; ++direction) {
+    const Vec3d way(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+    if (way.cwiseAbs().sum() < 2) continue;  // the same, or a face in common
+    for (std::size_t first = 0; first < 12; ++first) {
+      TriangleSoup other = moved(cube(), way);
+      std::rotate(other.triangles.begin(), other.triangles.begin() + static_cast<long>(first),
+                  other.triangles.end());
+      TriangleSoup soup = cube();
+      append(soup, other);
+      const SurfaceCheck check = check_surface(soup);
+      EXPECT_EQ(all_defects(check), 0u) << way.transpose() << ", " << first;
+      EXPECT_EQ(check.cavities, 0u);
+    }
+  }
+}
+
+// The wall of a cavity that touches the outer wall from within, in a corner.
+TEST(CheckSurface, TouchingFromWithinIsNesting) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d at(corner & 1, corner >> 1 & 1, corner >> 2);
+    const Vec3d inward = Vec3d::Ones() - 2 * at;
+    TriangleSoup wall;
+    wall.points = {at, at + inward.cwiseProduct(Vec3d(0.3, 0.1, 0.1)),
+                   at + inward.cwiseProduct(Vec3d(0.1, 0.3, 0.1)),
+                   at + inward.cwiseProduct(Vec3d(0.1, 0.1, 0.3))};
+    wall.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    if (signed_volume(wall) > 0) wall = flipped(wall);
+    for (std::size_t first = 0; first < 4; ++first) {
+      std::rotate(wall.triangles.begin(), wall.triangles.begin() + 1, wall.triangles.end());
+      TriangleSoup soup = cube();
+      append(soup, wall);
+      const SurfaceCheck check = check_surface(soup);
+      EXPECT_EQ(all_defects(check), 0u) << corner << ", " << first;
+      EXPECT_EQ(check.cavities, 1u);
+    }
+  }
 }
 
 TEST(CheckSurface, FindsPartsThatAreInsideOut) {
