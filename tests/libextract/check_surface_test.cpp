@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -78,6 +82,60 @@ TEST(CheckSurface, NestingHoldsForRaysThroughEdgesAndCorners) {
   for (const SurfacePart& part : check.parts) depths.push_back(part.depth);
   EXPECT_EQ(depths, (std::vector<std::uint32_t>{0, 1, 2, 0, 0, 0, 0}));
   EXPECT_TRUE(check.valid_solid());
+}
+
+// Whatever triangle of a part comes first, and whatever corner of it.
+template <class Check>
+void for_each_start(const TriangleSoup& part, Check check) {
+  for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      SCOPED_TRACE(std::to_string(t) + " from corner " + std::to_string(corner));
+      TriangleSoup turned = part;
+      std::swap(turned.triangles[0], turned.triangles[t]);
+      auto& first = turned.triangles[0];
+      std::rotate(first.begin(), first.begin() + corner, first.end());
+      check(turned);
+    }
+  }
+}
+
+// At all corners, edges, and both; a ray from a corner that touches has to know on which side its
+// part goes on.
+TEST(CheckSurface, PartsThatTouchFromOutsideAreNotInEachOther) {
+  const TriangleSoup outer = cube();
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (std::abs(x) + std::abs(y) + std::abs(z) < 2) continue;  // itself, or a common face
+        for_each_start(moved(cube(), {x * 1.0, y * 1.0, z * 1.0}), [&](const TriangleSoup& part) {
+          TriangleSoup soup = outer;
+          append(soup, part);
+          EXPECT_TRUE(check_surface(soup).valid_solid()) << x << ' ' << y << ' ' << z;
+        });
+      }
+    }
+  }
+}
+
+TEST(CheckSurface, CavitiesThatTouchTheWallAreStillInside) {
+  const TriangleSoup outer = box({0, 0, 0}, {8, 8, 8});
+  const std::vector<Vec3d> corners = outer.points;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      // Along an edge of the box; others would run through its faces.
+      if ((corners[i] - corners[j]).norm() != 8) continue;
+      TriangleSoup cavity{{corners[i], corners[j], {3, 4, 5}, {5, 3, 4}},
+                          {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 1}}, {{1, 3, 2}}}};
+      if (check_surface(cavity).volume > 0) cavity = flipped(cavity);
+      for_each_start(cavity, [&](const TriangleSoup& part) {
+        TriangleSoup soup = outer;
+        append(soup, part);
+        const SurfaceCheck check = check_surface(soup);
+        EXPECT_EQ(check.cavities, 1u);
+        EXPECT_TRUE(check.valid_solid());
+      });
+    }
+  }
 }
 
 TEST(CheckSurface, FindsPartsThatAreInsideOut) {
