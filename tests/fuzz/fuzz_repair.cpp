@@ -12,37 +12,11 @@
 #include <extract/check_surface.h>
 #include <repair/repair.h>
 
-#include "fuzz_soup.h"
+#include "repair_request.h"
+#include "require_surface.h"
 
 namespace meshrepair::testing {
 namespace {
-
-constexpr std::size_t kMostTriangles = 40;
-
-// What is done to the input that must not change the output.
-enum class Change { none, turn_some, copy_some, take_steps };
-
-struct Request {
-  RepairOptions options;
-  Change change = Change::none;
-  std::uint64_t chosen = 0;  // the triangles that the change is about, as bits
-};
-
-Request decode_request(FuzzInput& input) {
-  Request request;
-  RepairOptions& o = request.options;
-  o.inside.rule = static_cast<InsideRule>(input.below(4));
-  o.holes.mode = static_cast<HoleMode>(input.below(3));
-  const std::uint8_t flags = input.byte();
-  o.inside.cavities = (flags & 1) != 0 ? Cavities::fill : Cavities::keep;
-  o.extract.touching = (flags & 2) != 0 ? Touching::join : Touching::separate;
-  o.certify.precision = (flags & 4) != 0 ? Precision::float32 : Precision::float64;
-  o.certify.welded = (flags & 8) != 0;
-  o.check_cells = (flags & 16) != 0;
-  request.change = static_cast<Change>(input.below(4));
-  request.chosen = input.number<std::uint16_t>() * std::uint64_t{0x0001000100010001};
-  return request;
-}
 
 struct Outcome {
   std::optional<Surface> surface;  // if any
@@ -96,12 +70,6 @@ void require_sound_numbers(const Surface& surface, const TriangleSoup& input, Pr
   }
 }
 
-void require_closed_manifold(const SurfaceCheck& check) {
-  require(check.closed(), "the surface is not closed");
-  require(check.manifold(), "the surface is not manifold");
-  require(check.oriented(), "the surface is not oriented");
-}
-
 void require_sound_report(const RepairReport& report) {
   require(report.clip.fallbacks() == 0, "the clipper fell back");
   require(report.tree.lost_fragments == 0, "the tree lost a fragment");
@@ -122,7 +90,7 @@ void require_true_certificate(const Surface& surface, const CertifyReport& repor
   require(check.self_intersections.count == report.pairs, "other triangles intersect");
   require(check.self_intersections.degenerate == report.degenerate, "others are degenerate");
   if (!report.passed()) return;
-  require(check.valid_solid(), "what is certified is no valid solid");
+  require_valid_solid(check);
 }
 
 void require_sound(const Outcome& outcome, const TriangleSoup& input,
@@ -170,7 +138,8 @@ bool is_blind_to_orientation(InsideRule rule) {
   return rule == InsideRule::solidity || rule == InsideRule::parity;
 }
 
-void require_unchanged(const TriangleSoup& soup, const Request& request, const Outcome& outcome) {
+void require_unchanged(const RepairRequest& request, const Outcome& outcome) {
+  const TriangleSoup& soup = request.soup;
   const RepairOptions& options = request.options;
   switch (request.change) {
     case Change::none:
@@ -188,11 +157,10 @@ void require_unchanged(const TriangleSoup& soup, const Request& request, const O
 }
 
 void check(FuzzInput& input) {
-  const Request request = decode_request(input);
-  const TriangleSoup soup = SoupDecoder(input, kMostTriangles).run();
-  const Outcome outcome = repair_at_once(soup, request.options);
-  require_sound(outcome, soup, request.options);
-  require_unchanged(soup, request, outcome);
+  const RepairRequest request = decode_request(input);
+  const Outcome outcome = repair_at_once(request.soup, request.options);
+  require_sound(outcome, request.soup, request.options);
+  require_unchanged(request, outcome);
 }
 
 }  // namespace

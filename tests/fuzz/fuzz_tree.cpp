@@ -11,10 +11,10 @@
 #include <bsp/tree_io.h>
 #include <extract/build_cells.h>
 #include <extract/check_complex.h>
-#include <extract/check_surface.h>
 #include <repair/repair.h>
 
 #include "fuzz_input.h"
+#include "require_surface.h"
 #include "tree_bytes.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
@@ -51,8 +51,8 @@ void check_extracting(const Tree& tree, const RepairOptions& options) {
   RepairReport report;
   const Surface surface = extract_mesh(tree, options, report);
   const SurfaceCheck check = check_surface(surface.mesh);
-  require(check.closed() && check.manifold() && check.oriented(), "no closed manifold came out");
-  require(!report.certify.passed() || check.valid_solid(), "what is certified is no valid solid");
+  require_closed_manifold(check);
+  if (report.certify.passed()) require_valid_solid(check);
 }
 
 void check_labelling(Tree tree, const RepairOptions& options) {
