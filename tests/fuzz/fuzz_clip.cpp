@@ -16,7 +16,7 @@
 namespace meshrepair::testing {
 namespace {
 
-constexpr std::size_t kMostClips = 40;
+constexpr std::size_t kMostClips = 24;
 // Of the box's sides, in steps of the coordinates below.
 constexpr std::size_t kSteps = 16;
 constexpr std::int32_t kStep = kGridRadius / kSteps;
