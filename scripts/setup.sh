@@ -7,7 +7,8 @@ usage() {
 Usage: scripts/setup.sh [build|all]
 
   build   what is needed to build the programs and to run the tests
-  all     the same, and what the checks need: clang-format, clang-tidy (default)
+  all     the same, and what the checks need: clang-format, clang-tidy, and the
+          runtime of clang's fuzzer (default)
 
 Asks for nothing, and does nothing if all is there. Needs Debian 12 or a relative of it, and root or sudo
 if something is missing.
@@ -35,6 +36,7 @@ check_packages=(
   clang
   clang-format-14
   clang-tidy
+  libclang-rt-dev
   python3-numpy
 )
 

@@ -115,6 +115,8 @@ void read_points(SectionReader& in, CleanSoup& soup) {
     for (std::int32_t* x : {&g.x, &g.y, &g.z}) *x = in.get<std::int32_t>();
     in.require(at.allFinite(), "has a point that is not finite");
     in.require(in_grid(g.x) && in_grid(g.y) && in_grid(g.z), "has a point outside the grid");
+    // Decisions are made on the grid, but these coordinates are written.
+    in.require(soup.grid.to_grid(at) == g, "has a point that is not at its place on the grid");
     soup.points.push_back(at);
     soup.grid_points.push_back(g);
   }

@@ -1,7 +1,11 @@
 // A point is inside a closed part if a ray from it passes the part an odd number of times. The rays
-// run along the z axis; so that none meets an edge, each starts a step of e along x and e^2 along y
-// beside its point, for an e that is smaller than any positive number: a turn that is 0 is decided
-// by that step, which makes each turn consistent with all others.
+// run along the z axis, each from a corner of a triangle of the part in question.
+//
+// Other parts may touch that corner, where inside and outside meet, and a ray may meet an edge. So
+// it starts beside the corner, by four steps, each smaller by far than the one before and smaller
+// than any positive number: along the triangle's two sides, which leads into its interior, where
+// nothing touches it, then along x and y. A turn that is 0 is decided by the first step that turns
+// it, which makes each turn consistent with all others.
 #include "part_nesting.h"
 
 #include <algorithm>
@@ -21,18 +25,35 @@ constexpr std::size_t kPartsPerTask = 64;
 
 int sign_of_difference(double a, double b) { return static_cast<int>(a > b) - (a < b); }
 
-// The turn from a over b to p seen along z, p being moved by the step. 0 only if a and b are one.
-int turn(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
-  const int sign = orientation_along(2, a, b, p);
-  if (sign != 0) return sign;
+// Where a ray starts: beside `corner`, into the triangle that has it and the other two.
+struct Start {
+  Vec3d corner, second, third;
+};
+
+// The turn from a over b to the start seen along z. 0 only if a and b are one. What a step along a
+// side adds is the turn to the side's end, as the corner itself adds nothing.
+int turn(const Vec3d& a, const Vec3d& b, const Start& start) {
+  for (const Vec3d* p : {&start.corner, &start.second, &start.third}) {
+    const int sign = orientation_along(2, a, b, *p);
+    if (sign != 0) return sign;
+  }
   const int by_x = sign_of_difference(a.y(), b.y());
   return by_x != 0 ? by_x : sign_of_difference(b.x(), a.x());
 }
 
-bool is_passed_above(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
-  const int upward = turn(a, b, p);
-  if (upward == 0 || turn(b, c, p) != upward || turn(c, a, p) != upward) return false;
-  return orientation(a, b, c, p) == -upward;
+// 0 only if the two triangles lie in one plane.
+int side_of_plane(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Start& start) {
+  for (const Vec3d* p : {&start.corner, &start.second, &start.third}) {
+    const int sign = orientation(a, b, c, *p);
+    if (sign != 0) return sign;
+  }
+  return 0;
+}
+
+bool is_passed_above(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Start& start) {
+  const int upward = turn(a, b, start);
+  if (upward == 0 || turn(b, c, start) != upward || turn(c, a, start) != upward) return false;
+  return side_of_plane(a, b, c, start) == -upward;
 }
 
 class RayCaster {
@@ -48,16 +69,19 @@ class RayCaster {
     tree_.emplace_back(boxes);
   }
 
-  // The number of parts around a point, but for the point's own.
-  std::uint32_t parts_around(const Vec3d& p, std::uint32_t own, std::vector<std::uint32_t>& passed,
+  // The number of parts around a triangle, but for its own.
+  std::uint32_t parts_around(std::uint32_t inner, std::vector<std::uint32_t>& passed,
                              SharedProgress& progress) const {
+    const auto& corners = soup_.triangles[inner];
+    const Start start{soup_.points[corners[0]], soup_.points[corners[1]], soup_.points[corners[2]]};
+    const std::uint32_t own = part_of_[inner];
     passed.clear();
     std::size_t steps = 0;
-    visit_column(p, [&](std::uint32_t triangle) {
+    visit_column(start.corner, [&](std::uint32_t triangle) {
       if (++steps % 4096 == 0) progress.poll();
       const auto& t = soup_.triangles[triangle];
       if (part_of_[triangle] == own) return;
-      if (is_passed_above(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]], p)) {
+      if (is_passed_above(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]], start)) {
         passed.push_back(part_of_[triangle]);
       }
     });
@@ -128,8 +152,7 @@ std::vector<std::uint32_t> nesting_depths(const TriangleSoup& soup,
     std::vector<std::uint32_t> passed;
     const std::size_t end = std::min(parts, (task + 1) * kPartsPerTask);
     for (std::size_t part = task * kPartsPerTask; part < end; ++part) {
-      const Vec3d& p = soup.points[soup.triangles[first[part]][0]];
-      depths[part] = caster.parts_around(p, static_cast<std::uint32_t>(part), passed, shared);
+      depths[part] = caster.parts_around(first[part], passed, shared);
     }
     shared.done();
   });

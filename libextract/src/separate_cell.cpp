@@ -13,7 +13,6 @@ namespace meshrepair {
 CellId Clipper::clip(CellId cell, PlaneId plane) {
   ++report_.clips;
   ++stamp_;
-  plain_ = true;
   classify_vertices(cell, plane);
   split_edges(plane);
   for (const FacetId f : to_clip_) clip_facet(f, plane);

@@ -20,6 +20,7 @@ void Clipper::classify_vertices(CellId cell, PlaneId plane) {
   to_clip_.clear();
   to_split_.clear();
   on_plane_.clear();
+  bool any_above = false;
   complex_.for_each_facet(cell, [&](FacetId f) {
     facets_.push_back(f);
     bool above = false;
@@ -43,7 +44,10 @@ void Clipper::classify_vertices(CellId cell, PlaneId plane) {
     } while (u != first);
     facet_sides_[f] = below ? kBelow : kAbove;
     if (above && below) to_clip_.push_back(f);
+    any_above |= above;
   });
+  // Where the plane holds a facet and all else is below, that facet's border looks like a cut.
+  plain_ = any_above;
 }
 
 void Clipper::split_edges(PlaneId plane) {

@@ -233,5 +233,18 @@ TEST(TreeIo, DanglingAndRepeatedReferencesAreRefused) {
   EXPECT_NE(refusal_with(bytes, 0, 28, 0x3FF80000), "");  // a unit of 1.5 or so
 }
 
+// They would be written where no decision was made for them: what encloses may be turned inside
+// out.
+TEST(TreeIo, PointsAwayFromTheirPlaceOnTheGridAreRefused) {
+  const std::string bytes = format_tree(labelled_tree(cube(), 13));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t high_word = 8 * axis + 4;
+    for (const std::uint32_t to : {0x40000000u, 0xC0000000u, 0x7FE00000u}) {
+      const std::string why = refusal_with(bytes, 1, high_word, to);
+      EXPECT_NE(why.find("PNTS"), std::string::npos) << why;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace meshrepair

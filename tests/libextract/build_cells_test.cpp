@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bsp/build_tree.h>
+#include <bsp/error.h>
 #include <extract/build_cells.h>
 #include <extract/check_complex.h>
 
@@ -80,6 +81,28 @@ TEST(BuildCells, InvariantsHoldAfterEveryClip) {
   options.check_every_clip = true;
   EXPECT_NO_THROW((void)build_cells(tree, options, report));
   EXPECT_GT(report.clips, 0u);
+}
+
+// Below the plane that a facet lies in as well as above it.
+TEST(BuildCells, PlaneOfTheRegionsOwnFacetIsRefused) {
+  for (const std::size_t side : {0u, 1u}) {
+    BuildTreeReport tree_report;
+    Tree tree = tree_of(cube(), tree_report);
+    const PlaneId plane = tree.nodes[NodeId(0u)].plane;
+    tree.nodes.clear();
+    tree.leaves.assign(3, {});
+    TreeNode root;
+    root.plane = plane;
+    root.child[side] = TreeRef(NodeId(1u));
+    root.child[1 - side] = TreeRef(LeafId(0u));
+    tree.nodes.push_back(root);
+    TreeNode again;
+    again.plane = plane;
+    again.child = {TreeRef(LeafId(1u)), TreeRef(LeafId(2u))};
+    tree.nodes.push_back(again);
+    ClipReport report;
+    EXPECT_THROW((void)build_cells(tree, {}, report), InputError);
+  }
 }
 
 // Answers at random near the plane: the topology has to stay valid whatever the numbers say.

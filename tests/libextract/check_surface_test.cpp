@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <bsp/topology.h>
 #include <extract/check_surface.h>
 
 #include "shapes.h"
@@ -82,43 +84,56 @@ TEST(CheckSurface, NestingHoldsForRaysThroughEdgesAndCorners) {
   EXPECT_TRUE(check.valid_solid());
 }
 
-// Whichever of its triangles comes first: the corner that the nesting is told by may lie on the
-// other.
-TEST(CheckSurface, TouchingIsNotNesting) {
-  for (int direction = 0; direction < 27; ++direction) {
-    const Vec3d way(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
-    if (way.cwiseAbs().sum() < 2) continue;  // the same, or a face in common
-    for (std::size_t first = 0; first < 12; ++first) {
-      TriangleSoup other = moved(cube(), way);
-      std::rotate(other.triangles.begin(), other.triangles.begin() + static_cast<long>(first),
-                  other.triangles.end());
-      TriangleSoup soup = cube();
-      append(soup, other);
-      const SurfaceCheck check = check_surface(soup);
-      EXPECT_EQ(all_defects(check), 0u) << way.transpose() << ", " << first;
-      EXPECT_EQ(check.cavities, 0u);
+// Whatever triangle of a part comes first, and whatever corner of it.
+template <class Check>
+void for_each_start(const TriangleSoup& part, Check check) {
+  for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      SCOPED_TRACE(std::to_string(t) + " from corner " + std::to_string(corner));
+      TriangleSoup turned = part;
+      std::swap(turned.triangles[0], turned.triangles[t]);
+      auto& first = turned.triangles[0];
+      std::rotate(first.begin(), first.begin() + corner, first.end());
+      check(turned);
     }
   }
 }
 
-// The wall of a cavity that touches the outer wall from within, in a corner.
-TEST(CheckSurface, TouchingFromWithinIsNesting) {
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d at(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Vec3d inward = Vec3d::Ones() - 2 * at;
-    TriangleSoup wall;
-    wall.points = {at, at + inward.cwiseProduct(Vec3d(0.3, 0.1, 0.1)),
-                   at + inward.cwiseProduct(Vec3d(0.1, 0.3, 0.1)),
-                   at + inward.cwiseProduct(Vec3d(0.1, 0.1, 0.3))};
-    wall.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    if (signed_volume(wall) > 0) wall = flipped(wall);
-    for (std::size_t first = 0; first < 4; ++first) {
-      std::rotate(wall.triangles.begin(), wall.triangles.begin() + 1, wall.triangles.end());
-      TriangleSoup soup = cube();
-      append(soup, wall);
-      const SurfaceCheck check = check_surface(soup);
-      EXPECT_EQ(all_defects(check), 0u) << corner << ", " << first;
-      EXPECT_EQ(check.cavities, 1u);
+// At all corners, edges, and both; a ray from a corner that touches has to know on which side its
+// part goes on.
+TEST(CheckSurface, PartsThatTouchFromOutsideAreNotInEachOther) {
+  const TriangleSoup outer = cube();
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (std::abs(x) + std::abs(y) + std::abs(z) < 2) continue;  // itself, or a common face
+        for_each_start(moved(cube(), {x * 1.0, y * 1.0, z * 1.0}), [&](const TriangleSoup& part) {
+          TriangleSoup soup = outer;
+          append(soup, part);
+          EXPECT_TRUE(check_surface(soup).valid_solid()) << x << ' ' << y << ' ' << z;
+        });
+      }
+    }
+  }
+}
+
+TEST(CheckSurface, CavitiesThatTouchTheWallAreStillInside) {
+  const TriangleSoup outer = box({0, 0, 0}, {8, 8, 8});
+  const std::vector<Vec3d> corners = outer.points;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      // Along an edge of the box; others would run through its faces.
+      if ((corners[i] - corners[j]).norm() != 8) continue;
+      TriangleSoup cavity{{corners[i], corners[j], {3, 4, 5}, {5, 3, 4}},
+                          {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 1}}, {{1, 3, 2}}}};
+      if (check_surface(cavity).volume > 0) cavity = flipped(cavity);
+      for_each_start(cavity, [&](const TriangleSoup& part) {
+        TriangleSoup soup = outer;
+        append(soup, part);
+        const SurfaceCheck check = check_surface(soup);
+        EXPECT_EQ(check.cavities, 1u);
+        EXPECT_TRUE(check.valid_solid());
+      });
     }
   }
 }

@@ -88,7 +88,7 @@ class Clipper {
   std::vector<UseId> on_plane_;   // with both ends on the plane, or made by clipping a facet
   std::vector<UseId> curve_;      // uses by facets below, in order once it is traced
   std::vector<FacetId> below_, above_;
-  bool plain_ = true;  // no facet had several groups
+  bool plain_ = true;  // something is above, and no facet had several groups
   std::vector<FacetId> queue_;
   std::vector<TriangleId> triangles_;
 };
