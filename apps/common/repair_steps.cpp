@@ -112,6 +112,9 @@ std::string missing_guarantees(const Findings& findings, SoupFormat format) {
   if (certified.degenerate > 0) {
     missing += ", with " + number_of(certified.degenerate, "triangle") + " without area";
   }
+  if (certified.inside_out_parts > 0) {
+    missing += ", with " + number_of(certified.inside_out_parts, "part") + " inside out";
+  }
   return missing.empty() ? missing : missing.substr(2);
 }
 

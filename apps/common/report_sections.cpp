@@ -145,7 +145,7 @@ Json certificate_of(const RepairReport& repair) {
   const CertifyReport& certified = repair.certify;
   return {{"closed", verdict(repair.output.closed())},
           {"manifold", verdict(repair.output.manifold())},
-          {"oriented", verdict(repair.output.oriented())},
+          {"oriented", verdict(repair.output.oriented() && certified.inside_out_parts == 0)},
           {"no_self_intersections", verdict(certified.done && certified.pairs == 0)},
           {"no_degenerate_triangles", verdict(certified.done && certified.degenerate == 0)},
           {"intersecting_pairs", certified.pairs},
@@ -154,6 +154,7 @@ Json certificate_of(const RepairReport& repair) {
           {"rounds", certified.rounds},
           {"snapped_points", certified.snapped_points},
           {"dropped_parts", certified.dropped_parts},
+          {"inside_out_parts", certified.inside_out_parts},
           {"joined_points", certified.joined_points}};
 }
 

@@ -155,11 +155,14 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
     lines.add("kept", kept_triangles(repair));
   }
   lines.add("removed", removed_parts(repair));
-  lines.add("checked", joined({output.closed() ? "closed" : "NOT CLOSED",
-                               output.manifold() ? "manifold" : "NOT MANIFOLD",
-                               output.oriented() ? "oriented" : "NOT ORIENTED",
-                               repair.certify.passed() ? "free of self-intersections"
-                                                       : "WITH SELF-INTERSECTIONS"}));
+  lines.add("checked",
+            joined({output.closed() ? "closed" : "NOT CLOSED",
+                    output.manifold() ? "manifold" : "NOT MANIFOLD",
+                    output.oriented() && repair.certify.inside_out_parts == 0 ? "oriented"
+                                                                              : "NOT ORIENTED",
+                    repair.certify.pairs + repair.certify.degenerate == 0 && repair.certify.done
+                        ? "free of self-intersections"
+                        : "WITH SELF-INTERSECTIONS"}));
   lines.add("size", fmt::format("volume {:.6g}, area {:.6g}, in the input's units",
                                 repair.output_volume, repair.output_area));
 }

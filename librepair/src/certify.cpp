@@ -73,6 +73,7 @@ class Certifier {
     report_.pairs = current_.found.count;
     report_.degenerate = current_.found.degenerate;
     report_.joined_points = current_.joined;
+    report_.inside_out_parts = current_.inside_out_parts;
     report_.dropped_parts = current_.dropped_parts;
     report_.done = true;
     return std::move(current_.surface);
@@ -84,7 +85,10 @@ class Certifier {
     SelfIntersections found;
     std::size_t joined = 0;
     std::size_t dropped_parts = 0;
-    [[nodiscard]] std::size_t faults() const { return found.count + found.degenerate + joined; }
+    std::size_t inside_out_parts = 0;  // known where nothing intersects
+    [[nodiscard]] std::size_t faults() const {
+      return found.count + found.degenerate + joined + inside_out_parts;
+    }
   };
 
   // `before`: where the points were before they were moved, if not just before rounding.
@@ -96,7 +100,18 @@ class Certifier {
     options.most_pairs = kMostPairs;
     options.progress = progress_;
     attempt.found = self_intersections(attempt.surface.mesh, options);
+    attempt.inside_out_parts = 0;
+    if (attempt.found.count + attempt.found.degenerate == 0) {
+      const auto parts = internal::drop_inside_out_parts(attempt.surface, reach(), progress_);
+      attempt.inside_out_parts = parts.left;
+      attempt.dropped_parts += parts.dropped;
+    }
     attempt.joined = options_.welded ? internal::count_copies(attempt.surface.mesh) : 0;
+  }
+
+  // How far points may have been moved by now, with what nudge_points() and separate_copies() add.
+  [[nodiscard]] double reach() const {
+    return 64 * spacing_ + std::ldexp(step_, 2 * static_cast<int>(report_.rounds));
   }
 
   // Often all that is wrong is that input points closer than a step of the grid were joined.

@@ -1,11 +1,16 @@
 #include "drop_turned_parts.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include <bsp/disjoint_sets.h>
+#include <extract/part_orientation.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -53,7 +58,60 @@ void remove_parts(Surface& surface, const std::vector<std::uint32_t>& part,
   }
 }
 
+// Of each part: no thicker than this, on average?
+std::vector<char> thin_parts(const TriangleSoup& mesh, const PartOrientation& parts,
+                             double thickness) {
+  struct Size {
+    Vec3d base = Vec3d::Zero();
+    double area = -1;
+    double volume = 0;
+  };
+  std::vector<Size> sizes(parts.inside_out.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Size& size = sizes[parts.part_of[t]];
+    const auto& corners = mesh.triangles[t];
+    if (size.area < 0) size = {mesh.points[corners[0]], 0, 0};
+    const Vec3d a = mesh.points[corners[0]] - size.base;
+    const Vec3d b = mesh.points[corners[1]] - size.base;
+    const Vec3d c = mesh.points[corners[2]] - size.base;
+    size.area += 0.5 * (b - a).cross(c - a).norm();
+    size.volume += a.dot(b.cross(c)) / 6;
+  }
+  std::vector<char> thin;
+  thin.reserve(sizes.size());
+  // A slab has two faces.
+  for (const Size& size : sizes) {
+    thin.push_back(2 * std::abs(size.volume) <= size.area * thickness ? 1 : 0);
+  }
+  return thin;
+}
+
 }  // namespace
+
+InsideOutParts drop_inside_out_parts(Surface& surface, double reach, ProgressObserver* progress) {
+  TriangleSoup& mesh = surface.mesh;
+  const PartOrientation parts = examine_part_orientation(mesh, progress);
+  const auto wrong = std::count(parts.inside_out.begin(), parts.inside_out.end(), 1);
+  if (wrong == 0) return {};
+  // Both walls may have moved.
+  const std::vector<char> thin = thin_parts(mesh, parts, 2 * reach);
+  std::vector<char> drop(mesh.points.size(), 0);
+  InsideOutParts result;
+  for (std::size_t part = 0; part < thin.size(); ++part) {
+    if (parts.inside_out[part] != 0) ++(thin[part] != 0 ? result.dropped : result.left);
+  }
+  const bool nothing_else = result.dropped == thin.size();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (parts.inside_out[parts.part_of[t]] == 0 || thin[parts.part_of[t]] == 0) continue;
+    if (nothing_else) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    for (const std::uint32_t p : mesh.triangles[t]) drop[p] = nothing_else ? 0 : 1;
+  }
+  if (nothing_else) return {};
+  std::vector<std::uint32_t> itself(mesh.points.size());
+  std::iota(itself.begin(), itself.end(), 0u);
+  if (result.dropped > 0) remove_parts(surface, itself, drop);
+  return result;
+}
 
 std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before) {
   const TriangleSoup& mesh = surface.mesh;

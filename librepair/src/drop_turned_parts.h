@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <bsp/progress.h>
 #include <extract/surface.h>
 
 namespace meshrepair::internal {
@@ -12,5 +13,16 @@ namespace meshrepair::internal {
 // points `before` go: they are no larger than what the numbers can tell apart. Returns how many; 0
 // too when all would have to go.
 std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before);
+
+struct InsideOutParts {
+  std::size_t dropped = 0;
+  std::size_t left = 0;
+};
+
+// Parts that face the wrong way, the surface being free of intersections. Moving points by `reach`
+// can do this to parts that are thinner, and these go; if nothing else is there, they are turned
+// round instead. What is thicker is left.
+[[nodiscard]] InsideOutParts drop_inside_out_parts(Surface& surface, double reach,
+                                                   ProgressObserver* progress);
 
 }  // namespace meshrepair::internal

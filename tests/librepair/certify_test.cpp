@@ -4,6 +4,7 @@
 
 #include <bsp/error.h>
 #include <bsp/soup_io.h>
+#include <extract/check_surface.h>
 #include <extract/self_intersections.h>
 #include <repair/repair.h>
 
@@ -70,6 +71,68 @@ TEST(Certify, NudgesPointsOffTheFacesThatTheyFellOn) {
   EXPECT_EQ(report.rounds, 0u);
   EXPECT_EQ(self_intersections(result.mesh).count, 0u);
   EXPECT_LT((result.mesh.points[first] - tip.points[0]).norm(), 1e-13);
+}
+
+// Facing inward and too thin for the numbers to tell.
+TriangleSoup inverted_sliver() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0x1p-50}},
+          {{{0, 1, 2}}, {{0, 3, 1}}, {{1, 3, 2}}, {{2, 3, 0}}}};
+}
+
+TEST(Certify, DropsThinPartsThatFaceTheWrongWay) {
+  TriangleSoup soup = moved(cube(), {2, 0, 0});
+  append(soup, inverted_sliver());
+  CertifyReport report;
+  const Surface result = certified(surface_of(soup), {}, report);
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(report.dropped_parts, 1u);
+  EXPECT_TRUE(check_surface(result.mesh).valid_solid());
+  EXPECT_EQ(result.mesh.triangles.size(), 12u);
+  EXPECT_EQ(result.source.size(), 12u);
+}
+
+TEST(Certify, TurnsThinPartsThatFaceTheWrongWayWhereThereIsNothingElse) {
+  CertifyReport report;
+  const Surface result = certified(surface_of(inverted_sliver()), {}, report);
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(report.dropped_parts, 0u);
+  EXPECT_TRUE(check_surface(result.mesh).valid_solid());
+}
+
+TEST(Certify, SaysThatAThickPartFacesTheWrongWay) {
+  TriangleSoup soup = cube();
+  append(soup, flipped(moved(cube(), {2, 0, 0})));
+  CertifyReport report;
+  const Surface result = certified(surface_of(soup), {}, report);
+  EXPECT_TRUE(report.done);
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(report.inside_out_parts, 1u);
+  EXPECT_EQ(report.dropped_parts, 0u);
+  EXPECT_EQ(result.mesh.triangles.size(), 24u);
+}
+
+TEST(Certify, KnowsCavitiesFromPartsThatFaceTheWrongWay) {
+  TriangleSoup soup = cube();
+  append(soup, flipped(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
+  CertifyReport report;
+  (void)certified(surface_of(soup), {}, report);
+  EXPECT_TRUE(report.passed());
+  (void)certified(surface_of(flipped(soup)), {}, report);
+  EXPECT_EQ(report.inside_out_parts, 2u);
+}
+
+// Outward on the working grid, inward with the coordinates that are written.
+TEST(Certify, SheetsThinnerThanTheGridFaceOutward) {
+  const TriangleSoup soup = {
+      {{0, 0, 0}, {-1.4285714285714284, 0, -0.5714285714285714}, {5, 0, 2}, {0, 2, 0}},
+      {{{2, 0, 3}}, {{1, 3, 2}}}};
+  for (const Precision precision : {Precision::float64, Precision::float32}) {
+    RepairOptions options;
+    options.certify.precision = precision;
+    const RepairResult result = repair(soup, options);
+    EXPECT_TRUE(result.report.certify.passed());
+    EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
+  }
 }
 
 TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {

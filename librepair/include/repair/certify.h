@@ -28,17 +28,18 @@ struct CertifyOptions {
 };
 
 struct CertifyReport {
-  bool done = false;               // the test ran to its end
-  std::size_t pairs_at_first = 0;  // of triangles that intersected once rounded
-  std::size_t pairs = 0;           // that are left
-  std::size_t degenerate = 0;      // triangles without area, in the end
-  std::size_t rounds = 0;          // of mending
-  std::size_t snapped_points = 0;  // moved onto a grid in the last of them
-  std::size_t dropped_parts = 0;   // that rounding flattened or turned inside out
-  std::size_t joined_points = 0;   // that a welding format still joins with others
+  bool done = false;                 // the test ran to its end
+  std::size_t pairs_at_first = 0;    // of triangles that intersected once rounded
+  std::size_t pairs = 0;             // that are left
+  std::size_t degenerate = 0;        // triangles without area, in the end
+  std::size_t rounds = 0;            // of mending
+  std::size_t snapped_points = 0;    // moved onto a grid in the last of them
+  std::size_t dropped_parts = 0;     // that rounding flattened or turned inside out
+  std::size_t joined_points = 0;     // that a welding format still joins with others
+  std::size_t inside_out_parts = 0;  // that are left, known where no triangles intersect
 
   [[nodiscard]] bool passed() const {
-    return done && pairs == 0 && degenerate == 0 && joined_points == 0;
+    return done && pairs == 0 && degenerate == 0 && joined_points == 0 && inside_out_parts == 0;
   }
 };
 
