@@ -1,8 +1,11 @@
 // Points are spread over the first mesh in proportion to area, one in each of as many equal shares
 // of it, and the nearest point of the second is looked up in a tree of its triangles. What is
 // random about a point depends on its number alone, and sums are taken in a fixed order, so that
-// threads do not matter.
+// threads do not matter. What lies on a triangle that both meshes have is not looked up: it is at
+// no distance, and around the tip of a cone all boxes are near, so that a look-up takes long.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -10,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include <bsp/error.h>
+#include <bsp/hash_index.h>
 #include <bsp/shared_progress.h>
 #include <extract/mesh_distance.h>
 
@@ -36,8 +40,9 @@ double random_share(std::uint64_t seed, std::uint64_t position) {
 
 struct FiniteMesh {
   std::vector<Corners> triangles;
-  std::vector<Vec3d> corners;      // each point of a triangle once
-  std::vector<double> area_up_to;  // of the triangles before and this one
+  std::vector<std::array<std::uint32_t, 3>> corner_of;  // of each triangle, in `corners`
+  std::vector<Vec3d> corners;                           // each point of a triangle once
+  std::vector<double> area_up_to;                       // of the triangles before and this one
   Box box;
   std::size_t not_finite = 0;
 
@@ -58,7 +63,8 @@ struct FiniteMesh {
 FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
   FiniteMesh mesh;
   mesh.triangles.reserve(soup.triangles.size());
-  std::vector<char> used(soup.points.size(), 0);
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place(soup.points.size(), kNone);
   double area = 0;
   for (const auto& t : soup.triangles) {
     const Corners corners = {soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]};
@@ -67,30 +73,74 @@ FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
       continue;
     }
     for (const Vec3d& p : corners) mesh.box.add(p);
-    for (const std::uint32_t p : t) used[p] = 1;
+    for (const std::uint32_t p : t) {
+      if (place[p] != kNone) continue;
+      place[p] = static_cast<std::uint32_t>(mesh.corners.size());
+      mesh.corners.push_back(soup.points[p]);
+    }
+    mesh.corner_of.push_back({place[t[0]], place[t[1]], place[t[2]]});
     area += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
     mesh.triangles.push_back(corners);
     mesh.area_up_to.push_back(area);
-  }
-  for (std::size_t p = 0; p < used.size(); ++p) {
-    if (used[p] != 0) mesh.corners.push_back(soup.points[p]);
   }
   if (mesh.triangles.empty()) throw InputError(name + ": no triangle has finite coordinates");
   return mesh;
 }
 
+// Which triangles of a mesh are in another one, too, with the same corners in any order?
+std::vector<char> common_triangles(const FiniteMesh& mesh, const FiniteMesh& other) {
+  const auto key = [](Corners corners) {
+    std::sort(corners.begin(), corners.end(), [](const Vec3d& p, const Vec3d& q) {
+      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    });
+    return corners;
+  };
+  const auto hash = [](const Corners& corners) {
+    std::uint64_t sum = 0;
+    for (const Vec3d& p : corners) {
+      // -0 is 0.
+      for (const double x : p) sum = internal::hash_mix(sum, std::bit_cast<std::uint64_t>(x + 0.0));
+    }
+    return sum;
+  };
+  internal::HashIndex index(other.triangles.size());
+  const auto find_or_insert = [&](const Corners& corners, std::uint32_t fresh) {
+    return index.find_or_insert(hash(corners), fresh, [&](std::uint32_t candidate) {
+      return key(other.triangles[candidate]) == corners;
+    });
+  };
+  for (std::uint32_t t = 0; t < other.triangles.size(); ++t) {
+    (void)find_or_insert(key(other.triangles[t]), t);
+  }
+  std::vector<char> common;
+  common.reserve(mesh.triangles.size());
+  for (const Corners& t : mesh.triangles) {
+    const Corners corners = key(t);
+    const std::uint32_t found = index.find(hash(corners), [&](std::uint32_t candidate) {
+      return key(other.triangles[candidate]) == corners;
+    });
+    common.push_back(found != internal::HashIndex::kNone ? 1 : 0);
+  }
+  return common;
+}
+
+struct Sample {
+  std::size_t triangle;
+  Vec3d point;
+};
+
 // Sample `i` of `samples`.
-Vec3d sample_point(const FiniteMesh& mesh, std::size_t i, const DistanceOptions& options) {
+Sample sample_point(const FiniteMesh& mesh, std::size_t i, const DistanceOptions& options) {
   const auto random = [&](std::uint64_t k) { return random_share(options.seed, 3 * i + k); };
   const double share = (static_cast<double>(i) + random(0)) / static_cast<double>(options.samples);
   const auto found = std::upper_bound(mesh.area_up_to.begin(), mesh.area_up_to.end(),
                                       share * mesh.area_up_to.back());
   const auto last = static_cast<std::ptrdiff_t>(mesh.triangles.size()) - 1;
-  const Corners& t =
-      mesh.triangles[static_cast<std::size_t>(std::min(found - mesh.area_up_to.begin(), last))];
+  const auto triangle = static_cast<std::size_t>(std::min(found - mesh.area_up_to.begin(), last));
+  const Corners& t = mesh.triangles[triangle];
   const double root = std::sqrt(random(1));
   const double to_c = root * random(2);
-  return (1 - root) * t[0] + (root - to_c) * t[1] + to_c * t[2];
+  return {triangle, (1 - root) * t[0] + (root - to_c) * t[1] + to_c * t[2]};
 }
 
 struct Sums {
@@ -113,8 +163,19 @@ struct Sums {
 
 class OneWay {
  public:
-  OneWay(const FiniteMesh& from, const NearestTriangle& to, const DistanceOptions& options)
-      : from_(from), to_(to), options_(options) {}
+  // `common`: the triangles that `to` has, too.
+  OneWay(const FiniteMesh& from, const NearestTriangle& to, const std::vector<char>& common,
+         const DistanceOptions& options)
+      : from_(from),
+        to_(to),
+        options_(options),
+        common_(common),
+        common_corners_(from.corners.size(), 0) {
+    for (std::size_t t = 0; t < common.size(); ++t) {
+      if (common[t] == 0) continue;
+      for (const std::uint32_t p : from.corner_of[t]) common_corners_[p] = 1;
+    }
+  }
 
   OneSidedDistance run() const {
     if (options_.progress != nullptr) options_.progress->stage("sample");
@@ -145,22 +206,34 @@ class OneWay {
   [[nodiscard]] Sums measure(std::size_t begin, std::size_t end, std::size_t samples) const {
     Sums sums;
     std::uint32_t hint = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const bool is_sample = i < samples;
-      const Vec3d p = is_sample ? sample_point(from_, i, options_) : from_.corners[i - samples];
-      const Nearest nearest = to_.find(p, hint);
-      hint = nearest.triangle;
-      sums.note_largest(nearest.squared_distance, p);
-      if (!is_sample) continue;
-      sums.sum += std::sqrt(nearest.squared_distance);
-      sums.squares += nearest.squared_distance;
+    for (std::size_t i = begin; i < end && i < samples; ++i) {
+      const Sample sample = sample_point(from_, i, options_);
+      const double squared = squared_distance(sample.point, common_[sample.triangle] != 0, hint);
+      sums.note_largest(squared, sample.point);
+      sums.sum += std::sqrt(squared);
+      sums.squares += squared;
+    }
+    for (std::size_t i = std::max(begin, samples); i < end; ++i) {
+      const Vec3d& corner = from_.corners[i - samples];
+      const bool is_common = common_corners_[i - samples] != 0;
+      sums.note_largest(squared_distance(corner, is_common, hint), corner);
     }
     return sums;
+  }
+
+  [[nodiscard]] double squared_distance(const Vec3d& point, bool is_common,
+                                        std::uint32_t& hint) const {
+    if (is_common) return 0;
+    const Nearest nearest = to_.find(point, hint);
+    hint = nearest.triangle;
+    return nearest.squared_distance;
   }
 
   const FiniteMesh& from_;
   const NearestTriangle& to_;
   const DistanceOptions& options_;
+  const std::vector<char>& common_;
+  std::vector<char> common_corners_;
 };
 
 void require_sense(const DistanceOptions& options) {
@@ -171,7 +244,8 @@ void require_sense(const DistanceOptions& options) {
 OneSidedDistance distance_between(const FiniteMesh& from, const FiniteMesh& to,
                                   const DistanceOptions& options) {
   const NearestTriangle nearest(to.triangles);
-  OneSidedDistance distance = OneWay(from, nearest, options).run();
+  const std::vector<char> common = common_triangles(from, to);
+  OneSidedDistance distance = OneWay(from, nearest, common, options).run();
   if (!options.bound) return distance;
   if (options.progress != nullptr) options.progress->stage("bound");
   const internal::BoundOptions bound = {options.bound_factor, options.most_pieces, distance.largest,

@@ -1,7 +1,8 @@
 // The triangles' boxes are put into a tree, and the tree is compared with itself: two nodes whose
 // boxes meet, then their children, down to pairs of triangles, which are tested exactly. The upper
 // part of that walk becomes a list of tasks, the same whatever the number of threads. With a list
-// of triangles the tree holds these alone, and all the others are looked up in it.
+// of triangles the tree holds these alone, and all the others are looked up in it. Where boxes tell
+// little, spatial_comparison.h takes over.
 #include <algorithm>
 
 #include <tbb/parallel_for.h>
@@ -10,6 +11,7 @@
 #include <extract/box_tree.h>
 #include <extract/self_intersections.h>
 
+#include "spatial_comparison.h"
 #include "triangle_hubs.h"
 #include "triangle_list.h"
 #include "triangle_pair.h"
@@ -295,11 +297,19 @@ void compare_around_hubs(const TriangleList& list, const std::vector<std::uint32
 
 SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOptions& options) {
   const BoxTree tree(list.boxes());
-  SortedTriangles sorted(list, tree);
   const std::vector<std::uint32_t> hubs = internal::find_hubs(list.triangles());
-  sorted.leave_out_hubs(hubs);
   std::vector<Findings> findings;
-  compare(sorted, options, findings);
+  if (internal::boxes_tell_little(list.triangles(), list.boxes(), hubs, tree)) {
+    findings.emplace_back(options.most_pairs);
+    for (const auto& [a, b, meeting] :
+         internal::compare_in_space(list.triangles(), hubs, options.progress)) {
+      findings.back().add(list.ids()[a], list.ids()[b], meeting);
+    }
+  } else {
+    SortedTriangles sorted(list, tree);
+    sorted.leave_out_hubs(hubs);
+    compare(sorted, options, findings);
+  }
   compare_around_hubs(list, hubs, options, findings);
   return gather(findings, options.most_pairs);
 }

@@ -1,0 +1,131 @@
+#include "../../libextract/src/spatial_comparison.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <bsp/error.h>
+#include <extract/self_intersections.h>
+
+#include "../../libextract/src/triangle_hubs.h"
+#include "../../libextract/src/triangle_list.h"
+#include "degenerate_soups.h"
+#include "shapes.h"
+
+namespace meshrepair::internal {
+namespace {
+
+using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+
+class Compared {
+ public:
+  explicit Compared(const TriangleSoup& soup)
+      : corners_(soup, true), list_(corners_), hubs_(list_.size(), kNoHub) {}
+
+  void use_hubs() { hubs_ = find_hubs(list_.triangles()); }
+
+  [[nodiscard]] Pairs in_space(ProgressObserver* progress = nullptr) const {
+    Pairs pairs;
+    for (const MeetingPair& pair : compare_in_space(list_.triangles(), hubs_, progress)) {
+      EXPECT_EQ(pair.meeting, meeting_of(list_.triangles()[pair.a], list_.triangles()[pair.b]));
+      pairs.push_back({pair.a, pair.b});
+    }
+    return pairs;
+  }
+
+  [[nodiscard]] Pairs one_by_one() const {
+    Pairs pairs;
+    for (std::uint32_t a = 0; a < list_.size(); ++a) {
+      for (std::uint32_t b = a + 1; b < list_.size(); ++b) {
+        if (hubs_[a] != kNoHub && hubs_[a] == hubs_[b]) continue;
+        if (meeting_of(list_.triangles()[a], list_.triangles()[b]) != Meeting::apart) {
+          pairs.push_back({a, b});
+        }
+      }
+    }
+    return pairs;
+  }
+
+  [[nodiscard]] bool boxes_tell_little() const {
+    return internal::boxes_tell_little(list_.triangles(), list_.boxes(), hubs_,
+                                       BoxTree(list_.boxes()));
+  }
+
+ private:
+  SoupCorners corners_;
+  TriangleList list_;
+  std::vector<std::uint32_t> hubs_;
+};
+
+// Two cones base to base, all of whose upper triangles have boxes that meet many lower ones.
+TriangleSoup double_cone(std::uint32_t sides) {
+  TriangleSoup soup = testing::cone(sides);
+  soup.triangles.resize(sides);
+  const auto tip = static_cast<std::uint32_t>(soup.points.size());
+  soup.points.emplace_back(0, 0, -1);
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const auto [top, a, b] = soup.triangles[i];
+    soup.triangles.push_back({tip, b, a});
+  }
+  return soup;
+}
+
+TEST(CompareInSpace, FindsWhatComparingOneByOneFinds) {
+  for (const testing::SoupFamily& family : testing::degenerate_families()) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      const Compared compared(family.make(seed));
+      EXPECT_EQ(compared.in_space(), compared.one_by_one()) << family.name << ", seed " << seed;
+    }
+  }
+}
+
+TEST(CompareInSpace, HoldsAtAllScalesAndFarFromTheOrigin) {
+  const TriangleSoup soup = testing::random_cubes(20, 3);
+  const Pairs pairs = Compared(soup).one_by_one();
+  ASSERT_GT(pairs.size(), 10u);
+  for (const double scale : {0x1p-900, 0x1p-60, 0x1p60, 0x1p900}) {
+    EXPECT_EQ(Compared(testing::scaled(soup, scale)).in_space(), pairs) << scale;
+  }
+  const TriangleSoup far = testing::moved(soup, {1e9, -1e9, 1e9});
+  EXPECT_EQ(Compared(far).in_space(), Compared(far).one_by_one());
+}
+
+TEST(CompareInSpace, TakesOverWhereBoxesTellLittle) {
+  Compared cone(double_cone(5000));
+  cone.use_hubs();
+  EXPECT_TRUE(cone.boxes_tell_little());
+  EXPECT_TRUE(cone.in_space().empty());
+  Compared sphere(testing::sphere(10'000));
+  sphere.use_hubs();
+  EXPECT_FALSE(sphere.boxes_tell_little());
+}
+
+// The same by looking up each triangle among all others.
+TEST(CompareInSpace, FindsWhatCrossesAConeOfVeryManySides) {
+  TriangleSoup soup = double_cone(3000);
+  testing::append(soup, testing::moved(testing::scaled(testing::sphere(200), 0.3), {0.9, 0, 0}));
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) all.push_back(t);
+  SelfIntersectionOptions options;
+  options.most_pairs = 1'000'000;
+  const SelfIntersections found = self_intersections(soup, options);
+  const SelfIntersections looked_up = self_intersections(soup, all, options);
+  EXPECT_GT(found.count, 100u);
+  EXPECT_EQ(found.pairs, looked_up.pairs);
+  EXPECT_EQ(found.crossing, looked_up.crossing);
+  EXPECT_EQ(found.touching, looked_up.touching);
+}
+
+TEST(CompareInSpace, StopsWhenItIsToldTo) {
+  class Stop : public ProgressObserver {
+   public:
+    bool cancelled() override { return true; }
+  };
+  Stop stop;
+  EXPECT_THROW((void)Compared(testing::sphere(20'000)).in_space(&stop), Cancelled);
+}
+
+}  // namespace
+}  // namespace meshrepair::internal
