@@ -41,6 +41,8 @@ def parse_arguments():
                         help="leave out larger meshes (%(default)s)")
     parser.add_argument("--timeout", type=float, default=60, metavar="SECONDS",
                         help="a longer run is a finding (%(default)s)")
+    parser.add_argument("--time-limit", type=float, default=45, metavar="SECONDS",
+                        help="of meshrepair, to whose exit code 4 it leads (%(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="at once (%(default)s)")
     parser.add_argument("--meshrepair", default=f"{ROOT}/build/asan-ubsan/bin/meshrepair")
     parser.add_argument("--meshcheck", default=f"{ROOT}/build/release/bin/meshcheck")
@@ -121,7 +123,8 @@ def run(number, meshes, arguments):
         start = time.monotonic()
         try:
             result = subprocess.run(
-                [arguments.meshrepair, source, output, "--quiet", "--threads", "1", *copy.options],
+                [arguments.meshrepair, source, output, "--quiet", "--threads", "1",
+                 "--time-limit", str(arguments.time_limit), *copy.options],
                 capture_output=True, check=False, timeout=arguments.timeout, env=ENVIRONMENT)
             code = result.returncode
             trouble = trouble_of(code, result.stderr, output, arguments)
