@@ -4,6 +4,7 @@
 // of triangles the tree holds these alone, and all the others are looked up in it. Where boxes tell
 // little, spatial_comparison.h takes over.
 #include <algorithm>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -299,10 +300,13 @@ SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOp
   const BoxTree tree(list.boxes());
   const std::vector<std::uint32_t> hubs = internal::find_hubs(list.triangles());
   std::vector<Findings> findings;
+  std::optional<std::vector<internal::MeetingPair>> in_space;
   if (internal::boxes_tell_little(list.triangles(), list.boxes(), hubs, tree)) {
+    in_space = internal::compare_in_space(list.triangles(), hubs, options.progress);
+  }
+  if (in_space) {
     findings.emplace_back(options.most_pairs);
-    for (const auto& [a, b, meeting] :
-         internal::compare_in_space(list.triangles(), hubs, options.progress)) {
+    for (const auto& [a, b, meeting] : *in_space) {
       findings.back().add(list.ids()[a], list.ids()[b], meeting);
     }
   } else {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include <bsp/error.h>
@@ -28,6 +29,9 @@ constexpr std::size_t kFew = 16;
 // Cuts in a row that took few triangles away: what is left lies together in one place.
 constexpr int kMostVainCuts = 9;
 constexpr std::size_t kCellsPerQuestion = 256;
+// For each triangle: about 70 are enough to tell the sides of a cone of 100,000 apart, while thin
+// triangles that pass each other closely, askew to the axes, fall into ever more parts.
+constexpr std::size_t kMostClips = 256;
 
 // Coordinates are scaled to at most 1. Each of those that clipping makes is off by a few 2^-53.
 constexpr double kMargin = 0x1p-42;
@@ -127,7 +131,7 @@ class SpatialComparison {
     }
   }
 
-  std::vector<MeetingPair> run() {
+  std::optional<std::vector<MeetingPair>> run() {
     std::vector<Part> parts;
     parts.reserve(scaled_.size());
     for (std::uint32_t i = 0; i < scaled_.size(); ++i) {
@@ -140,6 +144,7 @@ class SpatialComparison {
       Cell cell = std::move(cells_.back());
       cells_.pop_back();
       ask();
+      if (clips_ > kMostClips * scaled_.size()) return std::nullopt;
       look_at(std::move(cell));
     }
     keep_once();
@@ -191,6 +196,7 @@ class SpatialComparison {
       std::vector<Part> parts;
       for (const Part& part : cell.parts) {
         if (!part.box.meets(half)) continue;
+        ++clips_;
         const ClippedTriangle clipped(scaled_[part.triangle], half);
         if (!clipped.empty()) parts.push_back({part.triangle, clipped.box()});
       }
@@ -236,6 +242,7 @@ class SpatialComparison {
   std::vector<MeetingPair> found_;
   std::size_t once_ = 0;  // how many of them are known to be there once
   std::size_t steps_ = 0;
+  std::size_t clips_ = 0;
 };
 
 }  // namespace
@@ -258,9 +265,9 @@ bool boxes_tell_little(std::span<const CornerTriangle> triangles, std::span<cons
   return neighbours > kSamples * kManyNeighbours && hits * kHitsAreRare < tests;
 }
 
-std::vector<MeetingPair> compare_in_space(std::span<const CornerTriangle> triangles,
-                                          std::span<const std::uint32_t> hubs,
-                                          ProgressObserver* progress) {
+std::optional<std::vector<MeetingPair>> compare_in_space(std::span<const CornerTriangle> triangles,
+                                                         std::span<const std::uint32_t> hubs,
+                                                         ProgressObserver* progress) {
   return SpatialComparison(triangles, hubs, progress).run();
 }
 

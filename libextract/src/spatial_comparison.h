@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,11 +25,11 @@ struct MeetingPair {
                                      std::span<const Box> boxes,
                                      std::span<const std::uint32_t> hubs, const BoxTree& tree);
 
-// All pairs that meet, but for those with the same hub; sorted. Near to linear in the number of
-// triangles and of pairs that are near to each other, however long the triangles are. `progress` is
-// asked whether to go on; it may be null.
-[[nodiscard]] std::vector<MeetingPair> compare_in_space(std::span<const CornerTriangle> triangles,
-                                                        std::span<const std::uint32_t> hubs,
-                                                        ProgressObserver* progress);
+// All pairs that meet, but for those with the same hub; sorted. n log n where triangles are near to
+// few others, however long they are; empty where that is not so, and comparing boxes may be as
+// fast. `progress` is asked whether to go on; it may be null.
+[[nodiscard]] std::optional<std::vector<MeetingPair>> compare_in_space(
+    std::span<const CornerTriangle> triangles, std::span<const std::uint32_t> hubs,
+    ProgressObserver* progress);
 
 }  // namespace meshrepair::internal

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -26,9 +27,11 @@ class Compared {
 
   void use_hubs() { hubs_ = find_hubs(list_.triangles()); }
 
-  [[nodiscard]] Pairs in_space(ProgressObserver* progress = nullptr) const {
+  [[nodiscard]] std::optional<Pairs> in_space(ProgressObserver* progress = nullptr) const {
+    const auto found = compare_in_space(list_.triangles(), hubs_, progress);
+    if (!found) return std::nullopt;
     Pairs pairs;
-    for (const MeetingPair& pair : compare_in_space(list_.triangles(), hubs_, progress)) {
+    for (const MeetingPair& pair : *found) {
       EXPECT_EQ(pair.meeting, meeting_of(list_.triangles()[pair.a], list_.triangles()[pair.b]));
       pairs.push_back({pair.a, pair.b});
     }
@@ -73,12 +76,18 @@ TriangleSoup double_cone(std::uint32_t sides) {
 }
 
 TEST(CompareInSpace, FindsWhatComparingOneByOneFinds) {
+  std::size_t given_up = 0;
   for (const testing::SoupFamily& family : testing::degenerate_families()) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       const Compared compared(family.make(seed));
-      EXPECT_EQ(compared.in_space(), compared.one_by_one()) << family.name << ", seed " << seed;
+      const auto in_space = compared.in_space();
+      given_up += !in_space;
+      if (in_space) {
+        EXPECT_EQ(in_space, compared.one_by_one()) << family.name << ", seed " << seed;
+      }
     }
   }
+  EXPECT_LE(given_up, 4u);
 }
 
 TEST(CompareInSpace, HoldsAtAllScalesAndFarFromTheOrigin) {
@@ -96,7 +105,7 @@ TEST(CompareInSpace, TakesOverWhereBoxesTellLittle) {
   Compared cone(double_cone(5000));
   cone.use_hubs();
   EXPECT_TRUE(cone.boxes_tell_little());
-  EXPECT_TRUE(cone.in_space().empty());
+  EXPECT_EQ(cone.in_space(), Pairs());
   Compared sphere(testing::sphere(10'000));
   sphere.use_hubs();
   EXPECT_FALSE(sphere.boxes_tell_little());
