@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "large_polygons.h"
 #include "soup_fixtures.h"
 
 namespace meshrepair {
@@ -95,6 +96,22 @@ TEST(TriangulatePolygon, WhatHasNoEarsIsTheFan) {
   EXPECT_EQ(triangulate({{0, 0, 0}, {nan, 0, 0}, {1, 1, 0}, {0, 1, 0}}), fan);
   EXPECT_EQ(triangulate({{0, 0, 0}, {huge, 0, 0}, {-huge, huge, 0}, {0, 1, 0}}), fan);
   EXPECT_EQ(triangulate({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}), fan);
+}
+
+TEST(TriangulatePolygon, LargeConcavePolygonIsCoveredWithoutOverlap) {
+  const std::vector<Vec3d> points = testing::koch_curve(3, 6);
+  ASSERT_GT(points.size(), 10000u);
+  const std::vector<Triangle> triangles = triangulate(points);
+  EXPECT_EQ(triangles.size(), points.size() - 2);
+  EXPECT_LT(overlap(points, triangles), 1e-9);
+}
+
+TEST(TriangulatePolygon, LargePolygonThatCrossesItselfOverlapsLittle) {
+  std::vector<Vec3d> points = testing::koch_curve(3, 6);
+  std::swap(points[5000], points[5001]);
+  const std::vector<Triangle> triangles = triangulate(points);
+  EXPECT_EQ(triangles.size(), points.size() - 2);
+  EXPECT_LT(overlap(points, triangles), 0.1);
 }
 
 TEST(TriangulatePolygon, ManyCornersTakeNoQuadraticTime) {

@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <bsp/soup_io.h>
 #include <extract/check_complex.h>
 #include <extract/cover_facets.h>
 
 #include "complexes.h"
 #include "degenerate_soups.h"
+#include "large_polygons.h"
 
 namespace meshrepair {
 namespace {
@@ -152,6 +154,17 @@ TEST(CoverFacets, SidesAreSplitAlongTheirDiagonals) {
   EXPECT_EQ(report.split_facets, 6u);
   EXPECT_EQ(report.opaque_facets, 11u);
   expect_facets_add_up(cells, cover);
+}
+
+// Once the caps were fans, whose triangles lay on each other in millions of pieces.
+TEST(CoverFacets, LargeConcaveFaceIsSplitAFewTimesForEachOfItsCorners) {
+  const std::vector<Vec3d> base = koch_curve(5, 5);
+  ASSERT_GT(base.size(), 5000u);
+  Cells cells = cells_of(read_soup(prism_off(base), "prism.off").soup);
+  CoverReport report;
+  (void)cover_facets(cells.complex, own_windings(cells.tree->input), report);
+  EXPECT_GT(report.opaque_facets, 4 * base.size());
+  EXPECT_LT(report.split_facets, 16 * base.size());
 }
 
 TEST(CoverFacets, OppositeTrianglesOnOneFacetCancelAndAreOpaque) {
