@@ -164,7 +164,7 @@ CASES = {
     "the same under one triangle": lambda: united(
         city(100), ([(-9e3, -9e3, 5), (9e3, -9e3, 5.5), (0, 9e3, 6)], [(0, 1, 2)])),
     "Menger sponge of 8,000 cubes": lambda: sponge(3),
-    "prism of a Koch curve, 3,072 sides": lambda: koch_prism(5),
+    "prism of a Koch curve, 12,288 sides": lambda: koch_prism(6),
     "strip in 200 folds": lambda: folded_strip(200),
     "crumpled sheet of 4,800 triangles": lambda: crumpled(25),
     "all corners on a line": lambda: ([(i, 2 * i, 3 * i) for i in range(999)],
