@@ -38,6 +38,9 @@ std::string what_was_read(const Findings& findings, const TriangleSoup& soup) {
 
 ExitCode check_mesh(Options& options, Run& run) {
   if (options.marked == "-") throw UsageError("--mark: needs the name of a file");
+  if (!options.marked.empty() && is_same_file(options.marked, options.input)) {
+    throw UsageError("--mark: " + options.marked + " is the input, too");
+  }
   check_files(options.input, options.marked, run);
   options.check.progress = &run.progress;
   options.check.mark_triangles = !options.marked.empty();

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Repairs shapes of extreme geometry, each made for it, and prints what comes of them and how long it takes."""
+"""Repairs shapes of extreme geometry, each made for it, and prints what comes of them and how long it takes.
+
+The exit code is 0 if each ended as documented, and what was certified is a valid solid to meshcheck.
+"""
 
 import argparse
 import json
@@ -10,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 
+DOCUMENTED = (0, 1, 4, 5, 6)
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 
 
@@ -147,6 +151,8 @@ CASES = {
     "sphere of 1e-38": lambda: scaled(sphere(), 1e-38),
     "sphere of 1e300": lambda: scaled(sphere(), 1e300),
     "sphere of 1e-300": lambda: scaled(sphere(), 1e-300),
+    "spheres of 1 and 1e-3, times 1e104": lambda: scaled(united(sphere(), sphere(20, 1e-3, (1.5, 0, 0))), 1e104),
+    "spheres of 1 and 1e-3, times 1e-106": lambda: scaled(united(sphere(), sphere(20, 1e-3, (1.5, 0, 0))), 1e-106),
     "spheres of 1 and 1e-6, apart": lambda: united(sphere(), sphere(20, 1e-6, (1.5, 0.3, 0.2))),
     "spheres of 1 and 1e-6, crossing": lambda: united(sphere(), sphere(20, 1e-6, (0, 0, 1))),
     "spheres of 1 and 1e-9, apart": lambda: united(sphere(), sphere(20, 1e-9, (1.5, 0.3, 0.2))),
@@ -172,7 +178,7 @@ CASES = {
     "all corners in a plane": lambda: ([(i % 30, i // 30, i % 30 + i // 30) for i in range(900)],
                                        [(i, i + 1, i + 31) for i in range(860)]),
     "all corners in one point": lambda: ([(3, 4, 5)] * 99, [(i, i + 1, i + 2) for i in range(97)]),
-    "two triangles, a needle of 1e12 to 1": lambda: ([(0, 0, 0), (1e12, 0, 0), (0, 1, 0), (0, 0, 1)],
+    "tetrahedron, a needle of 1e12 to 1": lambda: ([(0, 0, 0), (1e12, 0, 0), (0, 1, 0), (0, 0, 1)],
                                                      [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]),
 }
 
@@ -203,7 +209,7 @@ def run(name, make, folder, arguments):
         what = told["result"]
         outcome = (f"{what['triangles']} triangles, {what['parts']} parts, volume {what['volume']:.6g}"
                    if what["volume"] is not None else f"{what['triangles']} triangles, {what['parts']} parts")
-        outcome += "" if check.returncode == 0 else ", NO VALID SOLID"
+        outcome += "" if check.returncode == 0 or result.returncode == 1 else ", NO VALID SOLID"
     else:
         outcome = (told["error"] or "").removeprefix(source + ": ")
     if result.returncode == 1:
@@ -211,7 +217,7 @@ def run(name, make, folder, arguments):
     memory = told["peak_memory_bytes"] / 2**20
     print(f"{name:<38} {len(mesh[1]):>8} {result.returncode:>4} {told['seconds']:>7.2f} {memory:>6.0f}  {outcome}",
           flush=True)
-    return result.returncode
+    return result.returncode in DOCUMENTED and "NO VALID SOLID" not in outcome
 
 
 def main():
@@ -222,12 +228,13 @@ def main():
     parser.add_argument("--meshrepair", default=f"{ROOT}/build/release/bin/meshrepair")
     parser.add_argument("--meshcheck", default=f"{ROOT}/build/release/bin/meshcheck")
     arguments = parser.parse_args()
+    sound = True
     print(f"{'input':<38} {'faces':>8} {'exit':>4} {'s':>7} {'MB':>6}  result")
     with tempfile.TemporaryDirectory() as folder:
         for name, make in CASES.items():
             if not arguments.names or any(word in name for word in arguments.names):
-                run(name, make, folder, arguments)
-    return 0
+                sound &= run(name, make, folder, arguments)
+    return 0 if sound else 1
 
 
 if __name__ == "__main__":

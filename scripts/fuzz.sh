@@ -39,7 +39,7 @@ name=$1
 seconds=$2
 shift 2
 if [ "$name" = all ]; then targets=("${all[@]}"); else targets=("$name"); fi
-if [[ " ${all[*]} all " != *" $name "* ]]; then
+if [[ $name == *" "* || " ${all[*]} all " != *" $name "* ]]; then
   echo "fuzz.sh: no target $name: there are ${all[*]}" >&2
   exit 2
 fi

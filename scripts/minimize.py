@@ -18,6 +18,7 @@ fans. Writes OBJ or OFF, which keep every bit of a coordinate.
 """
 
 import argparse
+import hashlib
 import math
 import pathlib
 import re
@@ -217,7 +218,8 @@ class Shrinker:
 
     @staticmethod
     def key(mesh):
-        return tuple(mesh.points), tuple(mesh.triangles)
+        """Not the mesh itself: of a large one very many are tried."""
+        return hashlib.sha256(repr((mesh.points, mesh.triangles)).encode()).digest()
 
     def accept(self, mesh):
         """Goes on from this mesh if the command still fails on it."""

@@ -105,11 +105,15 @@ def trouble_of(code, errors, output, arguments):
         return f"exit code {code}: " + errors.decode("utf-8", "replace")[-300:]
     if os.path.exists(output) != (code in WRITTEN):
         return f"exit code {code}, but the output is " + ("there" if code not in WRITTEN else "missing")
-    if code != CERTIFIED and not errors.strip().splitlines()[-1:]:
-        return f"exit code {code} without a word"
+    lines = [line for line in errors.splitlines() if line.startswith(b"meshrepair: ") and b": warning: " not in line]
+    if len(lines) != (0 if code == CERTIFIED else 1):
+        return f"exit code {code} with {len(lines)} lines"
+    if len(os.listdir(os.path.dirname(output))) != 1 + (code in WRITTEN):
+        return f"exit code {code}, and other files: {os.listdir(os.path.dirname(output))}"
     if code != CERTIFIED:
         return ""
-    check = subprocess.run([arguments.meshcheck, output], capture_output=True, check=False)
+    check = subprocess.run([arguments.meshcheck, output, "--time-limit", str(arguments.timeout)],
+                           capture_output=True, check=False)
     return "" if check.returncode == 0 else "certified, but: " + check.stdout.decode()[-300:]
 
 

@@ -112,6 +112,9 @@ def parse_arguments(arguments):
     end = arguments.index("--") if "--" in arguments else len(arguments)
     options = command_line().parse_args(arguments[:end])
     options.passed = arguments[end + 1:]
+    for folder in (options.in_dir, options.out_dir):
+        if not folder:
+            raise Stop(USAGE, f"the name of a folder is empty (try '{NAME} --help')")
     for argument in options.passed:
         if argument.split("=")[0] in OWN_OPTIONS:
             raise Stop(USAGE, f"{argument} after --: {NAME} sets this itself (try '{NAME} --help')")

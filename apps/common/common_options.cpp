@@ -1,8 +1,10 @@
 #include "common/common_options.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -51,6 +53,19 @@ std::string why_no_duration(const std::string& text) {
   return text + " is not a number of seconds, 0 or more";
 }
 
+// Decimal digits alone: CLI11 takes -1 for a very large number, and 010 for eight.
+std::optional<std::size_t> parse_count(const std::string& text) {
+  std::size_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, count);
+  if (error != std::errc() || at != end) return std::nullopt;
+  return count;
+}
+
+std::string why_no_count(const std::string& text) {
+  return parse_count(text) ? std::string() : "'" + text + "' is not a number, 0 or more";
+}
+
 // CLI11 looks for what is missing first: whoever mistypes the only option would be told of IN.
 std::string message_of(const CLI::App& app, const CLI::RequiredError& error) {
   const std::vector<std::string> unknown = app.remaining();
@@ -97,9 +112,12 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->capture_default_str()
       ->type_name("SIZE")
       ->group(running);
-  app.add_option("--max-triangles", options.max_triangles,
-                 "Give up on inputs of more triangles; 0 is any number")
-      ->capture_default_str()
+  app.add_option_function<std::string>(
+         "--max-triangles",
+         [&options](const std::string& text) { options.max_triangles = *parse_count(text); },
+         "Give up on inputs of more triangles; 0 is any number")
+      ->default_str("0")
+      ->check(why_no_count)
       ->type_name("N")
       ->group(running);
   app.add_option("--report", options.report, "Write a report as JSON; - is standard output")

@@ -30,7 +30,8 @@ constexpr std::uint64_t kStackBytes = std::uint64_t{4} << 20;  // of a thread of
 constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;       // beyond what the program has taken
 
 [[noreturn]] void fail(const std::string& text) {
-  throw UsageError("--max-memory: " + text + " is no size of memory such as 200M, 1.5G or 80%");
+  throw UsageError("--max-memory: " + (text.empty() ? "''" : text) +
+                   " is no size of memory such as 200M, 1.5G or 80%");
 }
 
 double factor_of(std::string_view unit, const std::string& text) {
@@ -44,10 +45,12 @@ double factor_of(std::string_view unit, const std::string& text) {
   return std::pow(1024.0, static_cast<double>(power) + 1);
 }
 
+// Nothing free is no reason for no limit.
 std::uint64_t share_of_free(double percent, const std::string& text) {
-  if (percent > 100) fail(text);
+  if (percent > 100 || percent == 0) fail(text);
   const auto free = free_memory();
-  return free ? static_cast<std::uint64_t>(static_cast<double>(*free) * percent / 100) : 0;
+  if (!free) return 0;
+  return static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(*free) * percent / 100));
 }
 
 // The number after "KEY" of a file of the system, one "KEY number" a line; empty if there is none.
@@ -73,7 +76,8 @@ std::optional<std::uint64_t> free_in_group(const fs::path& group, std::string_vi
   const auto limit = number_of_key(group / limit_file, "");
   const auto used = number_of_key(group / usage_file, "");
   if (!limit || !used) return std::nullopt;
-  const std::uint64_t files = number_of_key(group / "memory.stat", "inactive_file ").value_or(0);
+  const std::uint64_t files = number_of_key(group / "memory.stat", "inactive_file ").value_or(0) +
+                              number_of_key(group / "memory.stat", "active_file ").value_or(0);
   const std::uint64_t taken = *used - std::min(*used, files);
   return *limit - std::min(*limit, taken);
 }
@@ -108,16 +112,16 @@ std::uint64_t of_self(std::string_view key) {
 
 }  // namespace
 
-std::uint64_t parse_memory_limit(const std::string& text) {
+MemoryLimit parse_memory_limit(const std::string& text) {
   double number = 0;
   const char* const end = text.data() + text.size();
   const auto [at, error] = std::from_chars(text.data(), end, number);
   if (error != std::errc() || !(number >= 0)) fail(text);
   const std::string_view unit(at, static_cast<std::size_t>(end - at));
-  if (unit == "%") return share_of_free(number, text);
+  if (unit == "%") return {share_of_free(number, text), true};
   const double bytes = number * factor_of(unit, text);
-  if (!(bytes < 9e18)) fail(text);
-  return static_cast<std::uint64_t>(bytes);
+  if (!(bytes < 9e18) || (bytes > 0 && bytes < 1)) fail(text);
+  return {static_cast<std::uint64_t>(bytes), false};
 }
 
 std::optional<std::uint64_t> free_memory() {
@@ -136,13 +140,17 @@ std::uint64_t resident_memory() {
   return std::uint64_t{resident} * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit_memory(std::uint64_t bytes, unsigned threads) {
+void limit_memory(const MemoryLimit& limit_wanted, unsigned threads) {
+  const std::uint64_t bytes = limit_wanted.bytes;
   if (bytes == 0) return;
   const std::uint64_t used = of_self("RssAnon:");
-  const std::uint64_t code = of_self("VmRSS:") - std::min(of_self("VmRSS:"), used);
+  const std::uint64_t resident = of_self("VmRSS:");
+  const std::uint64_t code = resident - std::min(resident, used);
   if (bytes < used + code + kLeast) {
-    throw UsageError("--max-memory: " + memory_text(bytes) + " is less than the program needs, " +
-                     memory_text(used + code + kLeast));
+    const std::string what = memory_text(bytes) + " is less than the program needs, " +
+                             memory_text(used + code + kLeast);
+    if (limit_wanted.is_share) throw LimitError("too little memory is free: " + what);
+    throw UsageError("--max-memory: " + what);
   }
   const std::uint64_t reserved = of_self("VmData:") + of_self("VmStk:");
   const std::uint64_t unused = reserved - std::min(reserved, used);

@@ -4,6 +4,8 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <stdexcept>
+#include <string_view>
 #include <thread>
 
 #include <spdlog/spdlog.h>
@@ -31,11 +33,16 @@ std::optional<tbb::global_control> limit_threads(unsigned threads) {
                                             tbb::global_control::max_allowed_parallelism, threads);
 }
 
-ProgressBar::Options bar_options(const CommonOptions& options) {
+// What TBB throws where the system gives it no thread, for want of memory or by a limit of its own.
+bool is_lack_of_threads(const std::runtime_error& error) {
+  return std::string_view(error.what()).find("pthread_create") != std::string_view::npos;
+}
+
+ProgressBar::Options bar_options(const CommonOptions& options, const MemoryLimit& memory) {
   ProgressBar::Options bar;
   bar.draw = !options.quiet && stderr_is_terminal();
   bar.time_limit = options.time_limit;
-  bar.memory_limit = parse_memory_limit(options.max_memory);
+  bar.memory_limit = memory.bytes;
   return bar;
 }
 
@@ -72,17 +79,19 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
     add_common_options(command_line_, options_);
     if (!parse(argc, argv)) return ExitCode::done;
     set_up_logging(command_line_.get_name(), options_.verbosity());
-    const ProgressBar::Options bar = bar_options(options_);
-    progress.emplace(bar);
+    const MemoryLimit memory = parse_memory_limit(options_.max_memory);
+    progress.emplace(bar_options(options_, memory));
     watchdog.emplace(command_line_.get_name(), *progress);
-    limit_memory(bar.memory_limit, thread_count(options_.threads));
+    limit_memory(memory, thread_count(options_.threads));
     const auto thread_limit = limit_threads(options_.threads);
     Run run{report, *progress, options_};
     code = body(run);
     flush_standard_output();
-    watchdog.reset();
   } catch (const std::bad_alloc&) {
     error = std::make_exception_ptr(LimitError(progress->out_of_memory()));
+  } catch (const std::runtime_error& e) {
+    error = std::current_exception();
+    if (is_lack_of_threads(e)) error = std::make_exception_ptr(progress->out_of_threads());
   } catch (...) {
     error = std::current_exception();
   }
@@ -104,13 +113,13 @@ bool Program::parse(int argc, const char* const* argv) {
 
 // An error of the run outweighs one of its report.
 void Program::write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
-                           const ProgressBar& progress) const {
+                           ProgressBar& progress) const {
   if (options_.report.empty() || report.withheld()) return;
   std::optional<Failure> failure;
   if (error) failure = describe_failure(error);
   const std::string text = report.text(failure ? failure->code : code, failure, progress);
   try {
-    write_file_atomically(options_.report, text);
+    write_file_atomically(options_.report, text, error ? nullptr : &progress);
   } catch (const OutputError& e) {
     if (!error) throw;
     spdlog::warn("no report: {}", e.what());

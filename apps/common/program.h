@@ -50,7 +50,7 @@ class Program {
   ExitCode run_and_report(int argc, const char* const* argv, const Body& body);
   bool parse(int argc, const char* const* argv);
   void write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
-                    const ProgressBar& progress) const;
+                    ProgressBar& progress) const;
 
   CLI::App command_line_;
   CommonOptions options_;

@@ -110,9 +110,18 @@ std::string ProgressBar::out_of_memory() const {
   return fmt::format("memory limit of {} reached {}", memory_text(options_.memory_limit), where());
 }
 
+LimitError ProgressBar::out_of_threads() const {
+  const std::string what = "the system gives no further thread; --threads 1 needs none";
+  if (options_.memory_limit == 0) return LimitError(what + ", " + where());
+  return LimitError(out_of_memory() + ": " + what);
+}
+
 std::string ProgressBar::where() const {
   const std::scoped_lock lock(where_mutex_);
-  if (stage_.empty()) return "before the first stage";
+  if (stage_.empty()) {
+    return stages_.empty() ? "before the first stage"
+                           : fmt::format("after stage '{}'", stages_.back().name);
+  }
   return fmt::format("in stage '{}', {} % done", stage_, percent_of(share_));
 }
 
@@ -126,6 +135,7 @@ double ProgressBar::seconds() const { return seconds_between(start_, Clock::now(
 void ProgressBar::end_stage() {
   if (stage_.empty()) return;
   const double seconds = seconds_between(stage_start_, Clock::now());
+  const std::scoped_lock lock(where_mutex_);
   const auto known = std::find_if(stages_.begin(), stages_.end(),
                                   [&](const StageTime& time) { return time.name == stage_; });
   if (known != stages_.end()) {
@@ -134,7 +144,6 @@ void ProgressBar::end_stage() {
     stages_.push_back({stage_, seconds});
   }
   spdlog::info("{}: {:.3f} s", stage_, seconds);
-  const std::scoped_lock lock(where_mutex_);
   stage_.clear();
 }
 

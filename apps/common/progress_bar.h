@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <bsp/error.h>
 #include <bsp/progress.h>
 
 #include "common/exit_code.h"
@@ -48,6 +49,8 @@ class ProgressBar : public ProgressObserver {
   [[nodiscard]] std::optional<Failure> reason_to_stop() const;
   // For std::bad_alloc: the limit, the stage and how far it was.
   [[nodiscard]] std::string out_of_memory() const;
+  // For a thread that the system refuses.
+  [[nodiscard]] LimitError out_of_threads() const;
   // What clears the line on the terminal.
   [[nodiscard]] std::string clearing() const { return options_.draw ? "\r\x1b[K" : ""; }
 

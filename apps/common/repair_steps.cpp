@@ -1,12 +1,14 @@
 #include "common/repair_steps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 
 #include <spdlog/spdlog.h>
 
+#include <bsp/atomic_file.h>
 #include <bsp/error.h>
 
 #include "common/report_sections.h"
@@ -19,14 +21,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostWarnings = 10;
 
-// Devices may be named as often as one likes: /dev/null.
-bool is_same_file(const fs::path& a, const fs::path& b) {
-  if (a == "-" || b == "-") return a == b;
+// Where a path leads, also where nothing is yet.
+fs::path place_of(const fs::path& path) {
   std::error_code error;
-  if (fs::is_character_file(a, error)) return false;
-  if (fs::exists(a, error) && fs::exists(b, error)) return fs::equivalent(a, b, error);
-  return fs::weakly_canonical(fs::absolute(a, error), error) ==
-         fs::weakly_canonical(fs::absolute(b, error), error);
+  return fs::weakly_canonical(fs::absolute(follow_links(path), error), error);
 }
 
 void check_report(Run& run, const std::string& file, const std::string& what) {
@@ -63,6 +61,7 @@ void warn_of_coarse_grid(const Findings& findings) {
 void warn_of_made_up_surface(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   constexpr double kWorthAWarning = 0.3;
+  if (!std::isfinite(repair.output_area)) return;
   if (repair.closing_area <= kWorthAWarning * repair.output_area) return;
   spdlog::warn(
       "{}: {:.0f} % of the result's surface is not of the input, but closes what is open there: is "
@@ -146,6 +145,14 @@ ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
 }
 
 }  // namespace
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  if (a == "-" || b == "-") return a == b;
+  std::error_code error;
+  if (fs::is_character_file(a, error)) return false;
+  if (fs::exists(a, error) && fs::exists(b, error)) return fs::equivalent(a, b, error);
+  return place_of(a) == place_of(b);
+}
 
 std::string Findings::input_name() const { return input == "-" ? "standard input" : input; }
 

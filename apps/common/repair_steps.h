@@ -69,6 +69,10 @@ using StepBody = std::function<void(const StepOptions&, Run&, Findings&)>;
 [[nodiscard]] int run_steps(Program& program, int argc, const char* const* argv,
                             StepOptions& options, const StepBody& body);
 
+// Whether two names lead to one file, there already or not. Devices are never one: /dev/null may be
+// named as often as one likes.
+[[nodiscard]] bool is_same_file(const std::string& a, const std::string& b);
+
 // What can be said of the files before hours of work; `output` is empty when nothing is written.
 // Throws UsageError where the report is the input or the output, too, and withholds it; OutputError
 // where the output cannot be.

@@ -163,6 +163,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
                     repair.certify.pairs + repair.certify.degenerate == 0 && repair.certify.done
                         ? "free of self-intersections"
                         : "WITH SELF-INTERSECTIONS"}));
+  if (!std::isfinite(repair.output_volume) || !std::isfinite(repair.output_area)) return;
   lines.add("size", fmt::format("volume {:.6g}, area {:.6g}, in the input's units",
                                 repair.output_volume, repair.output_area));
 }

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <csignal>
+#include <new>
 #include <optional>
+#include <poll.h>
 #include <unistd.h>
 #include <utility>
 
@@ -51,18 +53,26 @@ void Watchdog::watch() {
   int looks_in_vain = 0;
   std::unique_lock lock(mutex_);
   while (!ended_.wait_for(lock, kBetweenLooks, [this] { return done_; })) {
-    const std::optional<Failure> reason = progress_.reason_to_stop();
-    looks_in_vain = reason ? looks_in_vain + 1 : 0;
-    if (looks_in_vain > kMostLooks) end_process(*reason);
+    try {
+      const std::optional<Failure> reason = progress_.reason_to_stop();
+      looks_in_vain = reason ? looks_in_vain + 1 : 0;
+      if (looks_in_vain > kMostLooks) end_process(*reason);
+    } catch (const std::bad_alloc&) {
+      // The work meets it, too, and gives some back when it ends.
+    }
   }
 }
 
-// With no help of the C library, whose locks the work may hold.
+// Without the streams of the C library, whose locks the work may hold, and without waiting for
+// anyone to read. The file goes last: the work may have made it just now.
 void Watchdog::end_process(const Failure& reason) const {
-  remove_unfinished_file();
   const std::string line = progress_.clearing() + program_ + ": " + reason.message + "\n";
-  const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
-  static_cast<void>(written);
+  pollfd standard_error = {STDERR_FILENO, POLLOUT, 0};
+  if (::poll(&standard_error, 1, 0) > 0) {
+    const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+    static_cast<void>(written);
+  }
+  remove_unfinished_file();
   _exit(static_cast<int>(reason.code));
 }
 

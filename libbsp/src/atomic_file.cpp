@@ -27,9 +27,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The name of the unfinished file; null if there is none. Read by signal handlers.
+// The name of the unfinished file; null if there is none. Read by signal handlers and from other
+// threads, so that it lives in a place that is never freed.
 std::atomic<const char*> unfinished_name = nullptr;
 static_assert(std::atomic<const char*>::is_always_lock_free);
+std::array<char, PATH_MAX + 1> unfinished_buffer;
+
+void register_unfinished(const std::string& name) {
+  if (name.size() >= unfinished_buffer.size()) return;  // no system makes such a file
+  std::copy_n(name.c_str(), name.size() + 1, unfinished_buffer.begin());
+  unfinished_name.store(unfinished_buffer.data());
+}
 
 std::mutex one_at_a_time;
 
@@ -100,7 +108,7 @@ std::string temporary_name(const fs::path& target) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target), name_(temporary_name(target)) {
-    unfinished_name.store(name_.c_str());
+    register_unfinished(name_);
     descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) {
       const int error = errno;
@@ -151,14 +159,6 @@ void sync_folder(const fs::path& target) {
   ::close(descriptor);
 }
 
-// A link stays a link: the file it leads to is replaced.
-fs::path follow_links(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_symlink(path, ignored)) return path;
-  const fs::path target = fs::canonical(path, ignored);
-  return target.empty() ? path : target;
-}
-
 void replace_file(const fs::path& path, std::string_view bytes, const struct stat* old,
                   ProgressObserver* progress) {
   const std::lock_guard lock(one_at_a_time);
@@ -173,6 +173,16 @@ void replace_file(const fs::path& path, std::string_view bytes, const struct sta
 }
 
 }  // namespace
+
+fs::path follow_links(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as the system has it
+  fs::path place = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(place, error); ++i) {
+    place = place.parent_path() / fs::read_symlink(place, error);
+  }
+  return place;
+}
 
 void write_file_atomically(const fs::path& path, std::string_view bytes,
                            ProgressObserver* progress) {

@@ -37,6 +37,14 @@ class Descriptor {
   throw InputError(name + ": " + what + ": " + std::generic_category().message(error));
 }
 
+// A pipe that nobody writes into yet would be waited for in open(), where nobody can be asked. What
+// is waited for later has to be waited for as ever.
+int open_to_read(const std::filesystem::path& path, bool at_once) {
+  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (at_once ? O_NONBLOCK : 0));
+  if (number >= 0 && at_once) ::fcntl(number, F_SETFL, ::fcntl(number, F_GETFL) & ~O_NONBLOCK);
+  return number;
+}
+
 void stop_if_cancelled(ProgressObserver* progress) {
   if (progress != nullptr && progress->cancelled()) throw Cancelled();
 }
@@ -57,7 +65,7 @@ void wait_until_readable(int descriptor, ProgressObserver* progress) {
 FileBytes::FileBytes(const std::filesystem::path& path, ProgressObserver* progress) {
   const bool is_stdin = path == "-";
   const std::string name = is_stdin ? "standard input" : path.string();
-  const int number = is_stdin ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int number = is_stdin ? STDIN_FILENO : open_to_read(path, progress != nullptr);
   if (number < 0) fail(name, "cannot be opened", errno);
   const Descriptor file(number, !is_stdin);
 
@@ -83,6 +91,8 @@ void FileBytes::read_to_end(int descriptor, const std::string& name, ProgressObs
     if (progress != nullptr) wait_until_readable(descriptor, progress);
     const std::size_t room = std::min(capacity_ - size_, kBytesAtOnce);
     const ssize_t count = ::read(descriptor, buffer_.get() + size_, room);
+    // With nobody to ask, an interrupted read is an error like any other: a program that handles
+    // signals is to stop then, and a read begun anew would wait on.
     if (count < 0 && errno == EINTR && progress != nullptr) continue;
     if (count < 0) fail(name, "cannot be read", errno);
     if (count == 0) return;

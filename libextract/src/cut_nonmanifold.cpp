@@ -10,6 +10,7 @@
 
 #include <bsp/assert.h>
 #include <bsp/disjoint_sets.h>
+#include <bsp/error.h>
 #include <extract/cut_nonmanifold.h>
 
 namespace meshrepair {
@@ -122,7 +123,12 @@ class NonmanifoldCutter {
   [[nodiscard]] UseId mate_in(CellId cell, UseId use) const {
     const auto found =
         std::lower_bound(uses_of_cells_.begin(), uses_of_cells_.end(), std::pair(cell, UseId(0u)));
-    return found->second == use ? std::next(found)->second : found->second;
+    const auto mate =
+        found != uses_of_cells_.end() && found->second == use ? std::next(found) : found;
+    if (mate == uses_of_cells_.end() || mate->first != cell) {
+      throw InternalError("internal error: an edge of a cell has only one facet");
+    }
+    return mate->second;
   }
 
   // Turns around the edge through the cells of a wedge until the next boundary facet. Invalid where

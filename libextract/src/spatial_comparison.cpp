@@ -11,6 +11,7 @@
 #include <optional>
 #include <tuple>
 
+#include <bsp/assert.h>
 #include <bsp/error.h>
 
 #include "triangle_hubs.h"
@@ -29,11 +30,14 @@ constexpr std::size_t kFew = 16;
 // Cuts in a row that took few triangles away: what is left lies together in one place.
 constexpr int kMostVainCuts = 9;
 constexpr std::size_t kCellsPerQuestion = 256;
-// For each triangle: about 70 are enough to tell the sides of a cone of 100,000 apart, while thin
-// triangles that pass each other closely, askew to the axes, fall into ever more parts.
-constexpr std::size_t kMostClips = 256;
+// For each triangle: about 70 clipped parts are enough to tell the sides of a cone of 100,000
+// apart, while thin triangles that pass each other closely, askew to the axes, fall into ever more.
+constexpr std::size_t kMostWork = 256;
 
-// Coordinates are scaled to at most 1. Each of those that clipping makes is off by a few 2^-53.
+// Coordinates are scaled to at most 1. A point that two triangles have in common is in one of the
+// two halves of each cell that it is in, and this far at least from its walls, but for rounding.
+// What rounding in clip() can lose of a triangle lies within a few 2^-53 of a wall, so that the
+// point is kept in both triangles' parts.
 constexpr double kMargin = 0x1p-42;
 
 bool have_one_hub(std::span<const std::uint32_t> hubs, std::uint32_t a, std::uint32_t b) {
@@ -60,6 +64,13 @@ void visit_neighbours(const BoxTree& tree, std::span<const Box> boxes, const Box
   }
 }
 
+void widen(Box& box) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] -= kMargin;
+    box.high[k] += kMargin;
+  }
+}
+
 // The part of a triangle in a box: a convex polygon of at most nine corners.
 class ClippedTriangle {
  public:
@@ -76,10 +87,7 @@ class ClippedTriangle {
   [[nodiscard]] Box box() const {
     Box box;
     for (std::size_t i = 0; i < count_; ++i) box.add(corners_[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] -= kMargin;
-      box.high[k] += kMargin;
-    }
+    widen(box);
     return box;
   }
 
@@ -94,6 +102,7 @@ class ClippedTriangle {
     for (std::size_t i = 0; i < count_; ++i) {
       const Vec3d& a = corners_[i];
       const Vec3d& b = corners_[i + 1 == count_ ? 0 : i + 1];
+      MESHREPAIR_ASSERT(kept_count + 2 <= kMostCorners);
       if (!below(a)) kept[kept_count++] = a;
       if (below(a) == below(b)) continue;
       const double share = height(a) / (height(a) - height(b));
@@ -137,6 +146,7 @@ class SpatialComparison {
     for (std::uint32_t i = 0; i < scaled_.size(); ++i) {
       Box box;
       for (const Vec3d& p : scaled_[i]) box.add(p);
+      widen(box);
       parts.push_back({i, box});
     }
     cells_.push_back({std::move(parts), 0});
@@ -144,7 +154,7 @@ class SpatialComparison {
       Cell cell = std::move(cells_.back());
       cells_.pop_back();
       ask();
-      if (clips_ > kMostClips * scaled_.size()) return std::nullopt;
+      if (work_ > kMostWork * scaled_.size()) return std::nullopt;
       look_at(std::move(cell));
     }
     keep_once();
@@ -169,7 +179,9 @@ class SpatialComparison {
   void look_at(Cell cell) {
     if (cell.parts.size() < 2 || all_have_one_hub(cell.parts)) return;
     if (cell.parts.size() <= kFew || cell.vain_cuts >= kMostVainCuts) {
-      compare_all(cell.parts);
+      // Many in one place count before they are compared, so that too many never are.
+      if (cell.parts.size() > kFew) work_ += cell.parts.size() * cell.parts.size() / 2;
+      if (work_ <= kMostWork * scaled_.size()) compare_all(cell.parts);
     } else {
       halve(cell);
     }
@@ -196,7 +208,7 @@ class SpatialComparison {
       std::vector<Part> parts;
       for (const Part& part : cell.parts) {
         if (!part.box.meets(half)) continue;
-        ++clips_;
+        ++work_;
         const ClippedTriangle clipped(scaled_[part.triangle], half);
         if (!clipped.empty()) parts.push_back({part.triangle, clipped.box()});
       }
@@ -242,7 +254,7 @@ class SpatialComparison {
   std::vector<MeetingPair> found_;
   std::size_t once_ = 0;  // how many of them are known to be there once
   std::size_t steps_ = 0;
-  std::size_t clips_ = 0;
+  std::size_t work_ = 0;  // parts clipped, and pairs tested
 };
 
 }  // namespace

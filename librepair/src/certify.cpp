@@ -66,7 +66,7 @@ class Certifier {
     if (current_.faults() > 0) {
       best_ = current_;
       improve();
-      if (best_.faults() > 0 && options_.precision == Precision::float64) move_to_grid();
+      if (best_.misplaced() > 0 && options_.precision == Precision::float64) move_to_grid();
       mend();
       std::swap(current_, best_);
     }
@@ -86,9 +86,9 @@ class Certifier {
     std::size_t joined = 0;
     std::size_t dropped_parts = 0;
     std::size_t inside_out_parts = 0;  // known where nothing intersects
-    [[nodiscard]] std::size_t faults() const {
-      return found.count + found.degenerate + joined + inside_out_parts;
-    }
+    // What moving points and repairing again may mend.
+    [[nodiscard]] std::size_t misplaced() const { return found.count + found.degenerate + joined; }
+    [[nodiscard]] std::size_t faults() const { return misplaced() + inside_out_parts; }
   };
 
   // `before`: where the points were before they were moved, if not just before rounding.
@@ -147,7 +147,7 @@ class Certifier {
   void mend() {
     double step = step_;
     std::size_t in_vain = 0;
-    while (best_.faults() > 0 && report_.rounds < options_.most_rounds &&
+    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds &&
            in_vain < kMostRoundsInVain) {
       ++report_.rounds;
       report_.snapped_points = snap_concerned(current_, step);

@@ -17,16 +17,36 @@ namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-// Six times the signed volume of each part, relative to one of its own points, so that small parts
-// far from the origin keep their digits. Indexed by the part's root.
+// Brings all coordinates to at most 1, so that no volume overflows, and none of a part that the
+// working grid can hold is lost below the smallest number.
+class Scale {
+ public:
+  explicit Scale(const std::vector<Vec3d>& points) {
+    double largest = 0;
+    for (const Vec3d& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    (void)std::frexp(largest, &exponent_);
+  }
+
+  [[nodiscard]] double operator()(double x) const { return std::ldexp(x, -exponent_); }
+  [[nodiscard]] Vec3d operator()(const Vec3d& p) const {
+    return {(*this)(p.x()), (*this)(p.y()), (*this)(p.z())};
+  }
+
+ private:
+  int exponent_ = 0;
+};
+
+// Six times the signed volume of each part, scaled, relative to one of its own points, so that
+// small parts far from the origin keep their digits. Indexed by the part's root.
 std::vector<double> volumes(const TriangleSoup& mesh, const std::vector<Vec3d>& points,
-                            const std::vector<std::uint32_t>& part) {
+                            const std::vector<std::uint32_t>& part, const Scale& scale) {
   std::vector<double> volume(points.size(), 0);
   for (const auto& t : mesh.triangles) {
     const std::uint32_t root = part[t[0]];
-    const Vec3d a = points[t[0]] - points[root];
-    const Vec3d b = points[t[1]] - points[root];
-    const Vec3d c = points[t[2]] - points[root];
+    const Vec3d base = scale(points[root]);
+    const Vec3d a = scale(points[t[0]]) - base;
+    const Vec3d b = scale(points[t[1]]) - base;
+    const Vec3d c = scale(points[t[2]]) - base;
     volume[root] += a.dot(b.cross(c));
   }
   return volume;
@@ -66,14 +86,15 @@ std::vector<char> thin_parts(const TriangleSoup& mesh, const PartOrientation& pa
     double area = -1;
     double volume = 0;
   };
+  const Scale scale(mesh.points);
   std::vector<Size> sizes(parts.inside_out.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     Size& size = sizes[parts.part_of[t]];
     const auto& corners = mesh.triangles[t];
-    if (size.area < 0) size = {mesh.points[corners[0]], 0, 0};
-    const Vec3d a = mesh.points[corners[0]] - size.base;
-    const Vec3d b = mesh.points[corners[1]] - size.base;
-    const Vec3d c = mesh.points[corners[2]] - size.base;
+    if (size.area < 0) size = {scale(mesh.points[corners[0]]), 0, 0};
+    const Vec3d a = scale(mesh.points[corners[0]]) - size.base;
+    const Vec3d b = scale(mesh.points[corners[1]]) - size.base;
+    const Vec3d c = scale(mesh.points[corners[2]]) - size.base;
     size.area += 0.5 * (b - a).cross(c - a).norm();
     size.volume += a.dot(b.cross(c)) / 6;
   }
@@ -81,14 +102,13 @@ std::vector<char> thin_parts(const TriangleSoup& mesh, const PartOrientation& pa
   thin.reserve(sizes.size());
   // A slab has two faces.
   for (const Size& size : sizes) {
-    thin.push_back(2 * std::abs(size.volume) <= size.area * thickness ? 1 : 0);
+    thin.push_back(2 * std::abs(size.volume) <= size.area * scale(thickness) ? 1 : 0);
   }
   return thin;
 }
 
-}  // namespace
-
-InsideOutParts drop_inside_out_parts(Surface& surface, double reach, ProgressObserver* progress) {
+// As drop_inside_out_parts(), without a look at what then is around the others.
+InsideOutParts drop_once(Surface& surface, double reach, ProgressObserver* progress) {
   TriangleSoup& mesh = surface.mesh;
   const PartOrientation parts = examine_part_orientation(mesh, progress);
   const auto wrong = std::count(parts.inside_out.begin(), parts.inside_out.end(), 1);
@@ -113,6 +133,18 @@ InsideOutParts drop_inside_out_parts(Surface& surface, double reach, ProgressObs
   return result;
 }
 
+}  // namespace
+
+InsideOutParts drop_inside_out_parts(Surface& surface, double reach, ProgressObserver* progress) {
+  InsideOutParts all;
+  for (;;) {
+    const InsideOutParts now = drop_once(surface, reach, progress);
+    all.dropped += now.dropped;
+    all.left = now.left;
+    if (now.dropped == 0) return all;
+  }
+}
+
 std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before) {
   const TriangleSoup& mesh = surface.mesh;
   DisjointSets joined(mesh.points.size());
@@ -122,8 +154,9 @@ std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before
   }
   std::vector<std::uint32_t> part(mesh.points.size());
   for (std::uint32_t p = 0; p < part.size(); ++p) part[p] = joined.root(p);
-  const std::vector<double> was = volumes(mesh, before, part);
-  const std::vector<double> is = volumes(mesh, mesh.points, part);
+  const Scale scale(before);
+  const std::vector<double> was = volumes(mesh, before, part, scale);
+  const std::vector<double> is = volumes(mesh, mesh.points, part, scale);
   std::vector<char> drop(mesh.points.size(), 0);
   std::size_t dropped = 0;
   std::size_t parts = 0;

@@ -9,9 +9,9 @@
 
 namespace meshrepair::internal {
 
-// Parts are connected across edges. Those whose signed volume has another sign than it had with the
-// points `before` go: they are no larger than what the numbers can tell apart. Returns how many; 0
-// too when all would have to go.
+// Parts are connected through points. Those whose signed volume has another sign than it had with
+// the points `before` go: they are no larger than what the numbers can tell apart. Returns how
+// many; 0 too when all would have to go.
 std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before);
 
 struct InsideOutParts {
@@ -20,8 +20,9 @@ struct InsideOutParts {
 };
 
 // Parts that face the wrong way, the surface being free of intersections. Moving points by `reach`
-// can do this to parts that are thinner, and these go; if nothing else is there, they are turned
-// round instead. What is thicker is left.
+// can do this to parts that are thinner, and these go, as do those that face the wrong way then; if
+// nothing else is there, they are turned round instead, which is not counted. What is thicker is
+// left.
 [[nodiscard]] InsideOutParts drop_inside_out_parts(Surface& surface, double reach,
                                                    ProgressObserver* progress);
 

@@ -47,8 +47,8 @@ class FolderRun:
         threads = max(1, len(os.sched_getaffinity(0)) // options.jobs)
         command = [program.path, "--quiet", "--threads", str(threads),
                    "--time-limit", f"{options.timeout:.10g}", *options.passed]
-        if options.max_memory and program.limits_memory:
-            command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M"]
+        if program.limits_memory:
+            command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M" if options.max_memory else "0"]
         return command
 
     def catch_signals(self):

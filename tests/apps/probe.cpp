@@ -28,6 +28,9 @@ ExitCode fail(const std::string& how) {
   if (how == "cancelled") throw Cancelled();
   if (how == "assert") MESHREPAIR_ASSERT(how.empty());
   if (how == "exception") throw std::runtime_error("first line\nsecond line");
+  if (how == "threads_gone") {
+    throw std::runtime_error("pthread_create has failed: Resource temporarily unavailable");
+  }
   if (how == "unknown") throw 1;
   return how == "not_certified" ? ExitCode::not_certified : ExitCode::done;
 }

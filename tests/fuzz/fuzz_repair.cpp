@@ -1,9 +1,12 @@
 // The whole way: any soup is refused by one of the exceptions that are meant for it, or becomes a
 // surface that is what the report says, by an examination that shares nothing with the repair.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <bsp/error.h>
 #include <bsp/float32.h>

@@ -218,5 +218,13 @@ TEST(RemoveUnfinishedFile, DoesNothingWhenNoFileIsBeingWritten) {
   EXPECT_EQ(content_of(folder.path() / "out"), "x");
 }
 
+TEST(WriteFileAtomically, WritesToWhereALinkLeadsThoughNothingIsThere) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("there", folder.path() / "link");
+  write_file_atomically(folder.path() / "link", "bytes");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / "there"));
+}
+
 }  // namespace
 }  // namespace meshrepair

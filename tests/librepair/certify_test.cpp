@@ -111,6 +111,50 @@ TEST(Certify, SaysThatAThickPartFacesTheWrongWay) {
   EXPECT_EQ(result.mesh.triangles.size(), 24u);
 }
 
+// Repairing again would unite it with what is around, and hide it.
+TEST(Certify, DoesNotRepairAgainBecauseAPartFacesTheWrongWay) {
+  TriangleSoup soup = box({0, 0, 0}, {4, 4, 4});
+  append(soup, box({1, 1, 1}, {2, 2, 2}));
+  CleanReport cleaned;
+  CertifyReport report;
+  std::size_t repairs = 0;
+  (void)certify(
+      surface_of(soup), clean_soup(soup, cleaned).grid, {},
+      [&](const TriangleSoup& again) {
+        ++repairs;
+        return surface_of(again);
+      },
+      nullptr, report);
+  EXPECT_EQ(repairs, 0u);
+  EXPECT_EQ(report.inside_out_parts, 1u);
+  EXPECT_FALSE(report.passed());
+}
+
+// Dropping what is around turns outside and inside about.
+TEST(Certify, LooksAgainAtWhatIsInADroppedPart) {
+  TriangleSoup soup = moved(cube(), {2, 0, 0});
+  append(soup, inverted_sliver());
+  TriangleSoup wall = inverted_sliver();
+  for (Vec3d& p : wall.points) p = Vec3d(0.3, 0.3, 0x1p-53) + p.cwiseProduct(Vec3d(0.1, 0.1, 0.01));
+  append(soup, wall);
+  CertifyReport report;
+  const Surface result = certified(surface_of(soup), {}, report);
+  EXPECT_TRUE(report.passed());
+  EXPECT_TRUE(check_surface(result.mesh).valid_solid());
+}
+
+TEST(Certify, LosesNoPartToTheRangeOfDoubles) {
+  TriangleSoup soup = sphere(200);
+  append(soup, moved(scaled(sphere(100), 1e-3), {1.5, 0, 0}));
+  for (const double scale : {1e104, 1e-106}) {
+    CertifyReport report;
+    const Surface result = certified(surface_of(scaled(soup, scale)), {}, report);
+    EXPECT_TRUE(report.passed());
+    EXPECT_EQ(report.dropped_parts, 0u);
+    EXPECT_EQ(result.mesh.triangles.size(), soup.triangles.size());
+  }
+}
+
 TEST(Certify, KnowsCavitiesFromPartsThatFaceTheWrongWay) {
   TriangleSoup soup = cube();
   append(soup, flipped(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));

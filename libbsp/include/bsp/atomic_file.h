@@ -16,6 +16,10 @@ namespace meshrepair {
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            ProgressObserver* progress = nullptr);
 
+// Where a chain of symbolic links ends, whether there is something or not; `path` itself if it is
+// no link.
+[[nodiscard]] std::filesystem::path follow_links(const std::filesystem::path& path);
+
 // Removes the temporary file that is being written, if any. Safe to call from a signal handler.
 void remove_unfinished_file() noexcept;
 

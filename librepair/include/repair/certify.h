@@ -50,7 +50,9 @@ using RepairAgain = std::function<Surface(const TriangleSoup&)>;
 // Rounds the coordinates to the precision and tests exactly for triangles that intersect or have no
 // area. Where it finds some, it brings their corners onto the working grid, where every decision
 // was exact, then onto coarser ones, and repairs what comes of that; the best attempt is returned.
-// Points of the input that are not concerned stay where they are. `surface.source` keeps naming
+// Points of the input that are not concerned stay where they are. Parts that are so thin that
+// rounding turned them inside out are dropped, or turned where there is nothing else; thicker ones
+// that face the wrong way are counted and left. `surface.source` keeps naming
 // triangles of the first input.
 [[nodiscard]] Surface certify(Surface surface, const Grid& grid, const CertifyOptions& options,
                               const RepairAgain& repair_again, ProgressObserver* progress,
