@@ -90,7 +90,7 @@ bool ProgressBar::cancelled() {
 }
 
 std::optional<Failure> ProgressBar::reason_to_stop() const {
-  if (const auto signal = failure_of_signal()) return signal;
+  if (auto signal = failure_of_signal()) return signal;
   if (auto limit = limit_reached()) return Failure{ExitCode::limit, std::move(*limit)};
   return std::nullopt;
 }

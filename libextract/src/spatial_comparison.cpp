@@ -151,11 +151,11 @@ class SpatialComparison {
     }
     cells_.push_back({std::move(parts), 0});
     while (!cells_.empty()) {
-      Cell cell = std::move(cells_.back());
+      const Cell cell = std::move(cells_.back());
       cells_.pop_back();
       ask();
       if (work_ > kMostWork * scaled_.size()) return std::nullopt;
-      look_at(std::move(cell));
+      look_at(cell);
     }
     keep_once();
     return std::move(found_);
@@ -176,7 +176,7 @@ class SpatialComparison {
     if (progress_->cancelled()) throw Cancelled();
   }
 
-  void look_at(Cell cell) {
+  void look_at(const Cell& cell) {
     if (cell.parts.size() < 2 || all_have_one_hub(cell.parts)) return;
     if (cell.parts.size() <= kFew || cell.vain_cuts >= kMostVainCuts) {
       // Many in one place count before they are compared, so that too many never are.
