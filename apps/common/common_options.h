@@ -1,8 +1,7 @@
 // The options that every program has, and how its command line is parsed.
 #pragma once
 
-#include <cstdint>
-#include <limits>
+#include <cstddef>
 #include <string>
 
 #include <CLI/App.hpp>

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <mutex>
-#include <poll.h>
 #include <random>
 #include <string>
 #include <sys/stat.h>
@@ -21,6 +20,8 @@
 
 #include <bsp/atomic_file.h>
 #include <bsp/error.h>
+
+#include "wait_for_descriptor.h"
 
 namespace meshrepair {
 namespace {
@@ -45,22 +46,6 @@ std::mutex one_at_a_time;
   throw OutputError(path.string() + ": " + what + ": " + std::generic_category().message(error));
 }
 
-void stop_if_cancelled(ProgressObserver* progress) {
-  if (progress != nullptr && progress->cancelled()) throw Cancelled();
-}
-
-// A signal that comes just before a write wakes nobody up, so a write must not block: the waiting
-// is done here, in pieces.
-void wait_until_writable(int descriptor, ProgressObserver* progress) {
-  constexpr int kMilliseconds = 100;
-  pollfd waiting = {descriptor, POLLOUT, 0};
-  int ready = 0;
-  do {
-    stop_if_cancelled(progress);
-    ready = ::poll(&waiting, 1, kMilliseconds);
-  } while (ready == 0 || (ready < 0 && errno == EINTR));
-}
-
 // What can be written without blocking once the descriptor is writable: a pipe has room for
 // PIPE_BUF bytes then.
 std::size_t bytes_at_once(int descriptor) {
@@ -74,7 +59,7 @@ void write_all(int descriptor, std::string_view bytes, const fs::path& path,
                ProgressObserver* progress) {
   const std::size_t most = progress != nullptr ? bytes_at_once(descriptor) : bytes.size();
   while (!bytes.empty()) {
-    if (progress != nullptr) wait_until_writable(descriptor, progress);
+    if (progress != nullptr) wait_for_descriptor(descriptor, POLLOUT, *progress);
     const ssize_t count = ::write(descriptor, bytes.data(), std::min(most, bytes.size()));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail(path, "cannot be written", errno);

@@ -4,19 +4,19 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <new>
-#include <poll.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
 #include <bsp/error.h>
 
+#include "wait_for_descriptor.h"
+
 namespace meshrepair {
 namespace {
 
 // Some milliseconds of work, so that there is time to ask in between.
 constexpr std::size_t kBytesAtOnce = std::size_t{4} << 20;
-constexpr int kMillisecondsToWait = 100;
 
 class Descriptor {
  public:
@@ -43,21 +43,6 @@ int open_to_read(const std::filesystem::path& path, bool at_once) {
   const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (at_once ? O_NONBLOCK : 0));
   if (number >= 0 && at_once) ::fcntl(number, F_SETFL, ::fcntl(number, F_GETFL) & ~O_NONBLOCK);
   return number;
-}
-
-void stop_if_cancelled(ProgressObserver* progress) {
-  if (progress != nullptr && progress->cancelled()) throw Cancelled();
-}
-
-// A signal that comes just before a read wakes nobody up, and a time limit does not at all: the
-// waiting is done here, in pieces.
-void wait_until_readable(int descriptor, ProgressObserver* progress) {
-  pollfd waiting = {descriptor, POLLIN, 0};
-  int ready = 0;
-  do {
-    stop_if_cancelled(progress);
-    ready = ::poll(&waiting, 1, kMillisecondsToWait);
-  } while (ready == 0 || (ready < 0 && errno == EINTR));
 }
 
 }  // namespace
@@ -88,7 +73,7 @@ void FileBytes::reserve(std::size_t capacity) {
 void FileBytes::read_to_end(int descriptor, const std::string& name, ProgressObserver* progress) {
   for (;;) {
     if (size_ == capacity_) reserve(2 * capacity_ + kBytesAtOnce);
-    if (progress != nullptr) wait_until_readable(descriptor, progress);
+    if (progress != nullptr) wait_for_descriptor(descriptor, POLLIN, *progress);
     const std::size_t room = std::min(capacity_ - size_, kBytesAtOnce);
     const ssize_t count = ::read(descriptor, buffer_.get() + size_, room);
     // With nobody to ask, an interrupted read is an error like any other: a program that handles

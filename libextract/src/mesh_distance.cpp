@@ -104,21 +104,18 @@ std::vector<char> common_triangles(const FiniteMesh& mesh, const FiniteMesh& oth
     return sum;
   };
   internal::HashIndex index(other.triangles.size());
-  const auto find_or_insert = [&](const Corners& corners, std::uint32_t fresh) {
-    return index.find_or_insert(hash(corners), fresh, [&](std::uint32_t candidate) {
-      return key(other.triangles[candidate]) == corners;
-    });
+  const auto is_at = [&](const Corners& corners) {
+    return [&](std::uint32_t candidate) { return key(other.triangles[candidate]) == corners; };
   };
   for (std::uint32_t t = 0; t < other.triangles.size(); ++t) {
-    (void)find_or_insert(key(other.triangles[t]), t);
+    const Corners corners = key(other.triangles[t]);
+    index.find_or_insert(hash(corners), t, is_at(corners));
   }
   std::vector<char> common;
   common.reserve(mesh.triangles.size());
   for (const Corners& t : mesh.triangles) {
     const Corners corners = key(t);
-    const std::uint32_t found = index.find(hash(corners), [&](std::uint32_t candidate) {
-      return key(other.triangles[candidate]) == corners;
-    });
+    const std::uint32_t found = index.find(hash(corners), is_at(corners));
     common.push_back(found != internal::HashIndex::kNone ? 1 : 0);
   }
   return common;
