@@ -208,9 +208,9 @@ class MarkedPoints {
 // The polygon that is left, as a ring of positions in `polygon`.
 class EarClipper {
  public:
-  EarClipper(std::span<const Flat> polygon, Blocking blocking)
+  EarClipper(std::span<const Flat> polygon, EarOrder order)
       : flat_(polygon),
-        blocking_(blocking),
+        order_(order),
         next_(polygon.size()),
         previous_(polygon.size()),
         waiting_(polygon.size(), kNone),
@@ -232,6 +232,7 @@ class EarClipper {
       triangles.push_back({previous_[corner], corner, next_[corner]});
       cut_off(corner);
       corner = next_[corner];
+      if (order_ == EarOrder::in_rounds) corner = next_[corner];
     }
     triangles.push_back({previous_[corner], corner, next_[corner]});
     return {{}, looked_at_};
@@ -263,7 +264,7 @@ class EarClipper {
     const Flat& a = flat_[previous_[corner]];
     const Flat& b = flat_[corner];
     const Flat& c = flat_[next_[corner]];
-    if (blocking_ == Blocking::in_box)
+    if (order_ == EarOrder::in_rounds)
       return {{a, b, c}, a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     return {{a, b, c}, Flat::Constant(-kInfinity), Flat::Constant(kInfinity)};
   }
@@ -312,7 +313,7 @@ class EarClipper {
   }
 
   std::span<const Flat> flat_;
-  Blocking blocking_;
+  EarOrder order_;
   std::vector<std::uint32_t> next_;
   std::vector<std::uint32_t> previous_;  // kNone: cut off
   std::vector<std::uint32_t> waiting_;   // the first of the waiters of each corner
@@ -324,9 +325,9 @@ class EarClipper {
 
 }  // namespace
 
-EarClipping clip_ears(std::span<const Flat> polygon, Blocking blocking,
+EarClipping clip_ears(std::span<const Flat> polygon, EarOrder order,
                       std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  return EarClipper(polygon, blocking).run(triangles);
+  return EarClipper(polygon, order).run(triangles);
 }
 
 }  // namespace meshrepair::internal

@@ -20,11 +20,15 @@ inline double left_turn(const Flat& a, const Flat& b, const Flat& c) {
   return ab.x() * ac.y() - ab.y() * ac.x();
 }
 
-// What keeps a corner from being an ear: a reflex corner in its triangle. left_turn() takes some
-// points for points of a sliver that lie far off in its line.
-enum class Blocking {
-  by_turns,  // those block too
-  in_box,    // those beside the triangle's bounding box do not; much faster where slivers are long
+// Which ear is cut off next, and what keeps a corner from being one.
+enum class EarOrder {
+  // The next ear after the last one. A convex polygon becomes a fan. left_turn() takes some points
+  // for points of a sliver that lie far off in its line; they block it. For small polygons.
+  around,
+  // The next but one, so that a line crosses few triangles: in a convex polygon of n corners about
+  // 2 log n, where a fan may have all of its n crossed. What lies beside a triangle's bounding box
+  // does not block it, which is much faster where slivers are long.
+  in_rounds,
 };
 
 struct EarClipping {
@@ -36,10 +40,9 @@ struct EarClipping {
 };
 
 // Appends the triangles of a polygon that turns to the left, as positions in `polygon`: goes around
-// it from the first corner and cuts off each ear it comes to. At least 3 corners, fewer than 2^31.
-// Near n log n for polygons as they occur if blocking is in_box, else near n^1.5; nothing better
-// than n^2 is guaranteed.
-EarClipping clip_ears(std::span<const Flat> polygon, Blocking blocking,
+// it from the first corner and cuts off ears. At least 3 corners, fewer than 2^31. In rounds near
+// n log n for polygons as they occur, around near n^1.5; nothing better than n^2 is guaranteed.
+EarClipping clip_ears(std::span<const Flat> polygon, EarOrder order,
                       std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 }  // namespace meshrepair::internal

@@ -15,9 +15,9 @@ using internal::Flat;
 using internal::left_turn;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Polygons up to here are cut in just the way in which they always were. For larger ones there are
-// better ways to deal with what is not exact: see append_ears().
-constexpr std::size_t kMostCornersAsEver = 4096;
+// Up to here a fan is good enough, and is what users expect. The thin triangles of a larger one are
+// crossed by whatever crosses the polygon.
+constexpr std::size_t kFewCorners = 32;
 
 std::vector<std::uint32_t> without_repetitions(std::span<const std::uint32_t> corners) {
   std::vector<std::uint32_t> kept;
@@ -74,17 +74,17 @@ bool is_star_shaped_from_first(const std::vector<Flat>& flat) {
   return true;
 }
 
-// A large polygon that crosses itself still gives its ears, and one fan only of what is left: the
-// triangles of a fan lie on each other, and in the end their plane falls into as many pieces as
-// there are pairs of them.
+// A polygon of many corners that crosses itself still gives its ears, and one fan only of what is
+// left: the triangles of a fan lie on each other, and in the end their plane falls into as many
+// pieces as there are pairs of them.
 void append_ears(const std::vector<Flat>& flat, std::span<const std::uint32_t> ring,
                  Triangles& triangles) {
-  using internal::Blocking;
-  const bool as_ever = ring.size() <= kMostCornersAsEver;
+  using internal::EarOrder;
+  const bool few = ring.size() <= kFewCorners;
   const std::size_t count_before = triangles.size();
   const std::vector<std::uint32_t> rest =
-      internal::clip_ears(flat, as_ever ? Blocking::by_turns : Blocking::in_box, triangles).rest;
-  if (!rest.empty() && as_ever) {
+      internal::clip_ears(flat, few ? EarOrder::around : EarOrder::in_rounds, triangles).rest;
+  if (!rest.empty() && few) {
     triangles.resize(count_before);
     return append_fan(ring, triangles);
   }
@@ -103,7 +103,9 @@ void triangulate_polygon(const std::vector<Vec3d>& points, std::span<const std::
   const Vec3d area = area_vector(points, ring);
   if (!area.allFinite() || area.isZero(0)) return append_fan(ring, triangles);
   const std::vector<Flat> flat = flatten(points, ring, area);
-  if (is_star_shaped_from_first(flat)) return append_fan(ring, triangles);
+  if (ring.size() <= kFewCorners && is_star_shaped_from_first(flat)) {
+    return append_fan(ring, triangles);
+  }
   append_ears(flat, ring, triangles);
 }
 

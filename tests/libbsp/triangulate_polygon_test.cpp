@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -45,6 +46,27 @@ TEST(TriangulatePolygon, ConvexPolygonIsTheFanOfItsFirstCorner) {
   for (int i = 0; i < 6; ++i) points.emplace_back(std::cos(i), 5, std::sin(i));
   EXPECT_EQ(triangulate(points),
             (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
+}
+
+TEST(TriangulatePolygon, ALineCrossesFewTrianglesOfALargeConvexPolygon) {
+  constexpr std::size_t kCorners = 10000;
+  std::vector<Vec3d> points;
+  points.reserve(kCorners);
+  for (std::size_t i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kCorners;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0);
+  }
+  const std::vector<Triangle> triangles = triangulate(points);
+  EXPECT_EQ(triangles.size(), kCorners - 2);
+  EXPECT_LT(overlap(points, triangles), 1e-9);
+  for (const Vec3d& normal : {Vec3d(1, 0.3, 0), Vec3d(-0.2, 1, 0), Vec3d(0.7, 0.7, 0)}) {
+    const auto crossed = std::count_if(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+      const auto above = std::count_if(
+          t.begin(), t.end(), [&](auto corner) { return normal.dot(points[corner]) > 0.1; });
+      return above == 1 || above == 2;
+    });
+    EXPECT_LT(crossed, 60);
+  }
 }
 
 TEST(TriangulatePolygon, ConcaveQuadIsCutAtItsReflexCorner) {
