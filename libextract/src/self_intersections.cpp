@@ -269,31 +269,62 @@ void compare(const SortedTriangles& sorted, const SelfIntersectionOptions& optio
   });
 }
 
-// All boxes around a hub meet there; but two triangles with a common corner that meet elsewhere do
-// so in some direction from it.
-void compare_around_hubs(const TriangleList& list, const std::vector<std::uint32_t>& hubs,
-                         const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
+// The triangles of one group, to be compared with each other.
+struct Group {
+  std::vector<CornerTriangle> triangles;
+  std::vector<std::uint32_t> ids;
+};
+
+// Calls visit(hub, group) for those with the same hub, in the order of the hubs.
+template <class Visit>
+void visit_groups(std::span<const CornerTriangle> triangles, std::span<const std::uint32_t> ids,
+                  const std::vector<std::uint32_t>& hubs, Visit visit) {
   std::vector<std::uint32_t> items;
   for (std::uint32_t i = 0; i < hubs.size(); ++i) {
     if (hubs[i] != internal::kNoHub) items.push_back(i);
   }
   std::stable_sort(items.begin(), items.end(),
                    [&](std::uint32_t i, std::uint32_t j) { return hubs[i] < hubs[j]; });
-  std::vector<CornerTriangle> triangles;
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> ids;
+  Group group;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::uint32_t hub = hubs[items[i]];
-    triangles.push_back(list.triangles()[items[i]]);
-    boxes.push_back(internal::directions_from(hub, triangles.back()));
-    ids.push_back(list.ids()[items[i]]);
+    group.triangles.push_back(triangles[items[i]]);
+    group.ids.push_back(ids[items[i]]);
     if (i + 1 < items.size() && hubs[items[i + 1]] == hub) continue;
-    const BoxTree tree(boxes);
-    compare(SortedTriangles(triangles, boxes, ids, tree), options, findings);
-    triangles.clear();
-    boxes.clear();
-    ids.clear();
+    visit(hub, group);
+    group = {};
   }
+}
+
+// Two triangles with a common edge that meet elsewhere leave it in one direction.
+void compare_around_edge(const Group& group, std::array<std::uint32_t, 2> edge,
+                         const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
+  std::vector<Box> boxes;
+  boxes.reserve(group.triangles.size());
+  for (const CornerTriangle& triangle : group.triangles) {
+    boxes.push_back(internal::direction_across(edge, triangle));
+  }
+  const BoxTree tree(boxes);
+  compare(SortedTriangles(group.triangles, boxes, group.ids, tree), options, findings);
+}
+
+// All boxes around a hub meet there; but two triangles with a common corner that meet elsewhere do
+// so in some direction from it.
+void compare_around_hub(const Group& group, std::uint32_t hub,
+                        const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
+  std::vector<Box> boxes;
+  boxes.reserve(group.triangles.size());
+  for (const CornerTriangle& triangle : group.triangles) {
+    boxes.push_back(internal::directions_from(hub, triangle));
+  }
+  const std::vector<std::uint32_t> second = internal::find_second_hubs(hub, group.triangles);
+  const BoxTree tree(boxes);
+  SortedTriangles sorted(group.triangles, boxes, group.ids, tree);
+  sorted.leave_out_hubs(second);
+  compare(sorted, options, findings);
+  visit_groups(group.triangles, group.ids, second, [&](std::uint32_t end, const Group& around) {
+    compare_around_edge(around, {hub, end}, options, findings);
+  });
 }
 
 SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOptions& options) {
@@ -314,7 +345,9 @@ SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOp
     sorted.leave_out_hubs(hubs);
     compare(sorted, options, findings);
   }
-  compare_around_hubs(list, hubs, options, findings);
+  visit_groups(list.triangles(), list.ids(), hubs, [&](std::uint32_t hub, const Group& group) {
+    compare_around_hub(group, hub, options, findings);
+  });
   return gather(findings, options.most_pairs);
 }
 

@@ -1,8 +1,9 @@
 // Long thin triangles, as those between the tip of a cone and its rim, have boxes that meet nearly
-// all others. So space is cut in halves instead, and each half gets the parts of triangles in it,
-// with boxes of these parts alone, until few triangles are left, or only such as have a hub in
-// common. The boxes are what rounding leaves of them and a margin that is far larger than its
-// errors; a pair is decided exactly. It may be met in several places: what is found is found once.
+// all others. So space is cut in halves instead, along one of the triangles where they lie askew,
+// and each half gets the parts of triangles in it, with boxes of these parts alone, until few
+// triangles are left, or only such as have a hub in common. The boxes are what rounding leaves of
+// them and a margin that is far larger than its errors; a pair is decided exactly. It may be met in
+// several places: what is found is found once.
 #include "spatial_comparison.h"
 
 #include <algorithm>
@@ -14,6 +15,8 @@
 #include <bsp/assert.h>
 #include <bsp/error.h>
 
+#include "clipped_triangle.h"
+#include "dividing_wall.h"
 #include "triangle_hubs.h"
 
 namespace meshrepair::internal {
@@ -29,16 +32,13 @@ constexpr std::size_t kHitsAreRare = 16;
 constexpr std::size_t kFew = 16;
 // Cuts in a row that took few triangles away: what is left lies together in one place.
 constexpr int kMostVainCuts = 9;
+// How many triangles offer walls, and on how many each wall is judged.
+constexpr std::size_t kOffered = 12;
+constexpr std::size_t kJudges = 48;
 constexpr std::size_t kCellsPerQuestion = 256;
 // For each triangle: about 70 clipped parts are enough to tell the sides of a cone of 100,000
 // apart, while thin triangles that pass each other closely, askew to the axes, fall into ever more.
 constexpr std::size_t kMostWork = 256;
-
-// Coordinates are scaled to at most 1. A point that two triangles have in common is in one of the
-// two halves of each cell that it is in, and this far at least from its walls, but for rounding.
-// What rounding in clip() can lose of a triangle lies within a few 2^-53 of a wall, so that the
-// point is kept in both triangles' parts.
-constexpr double kMargin = 0x1p-42;
 
 bool have_one_hub(std::span<const std::uint32_t> hubs, std::uint32_t a, std::uint32_t b) {
   return hubs[a] != kNoHub && hubs[a] == hubs[b];
@@ -63,61 +63,6 @@ void visit_neighbours(const BoxTree& tree, std::span<const Box> boxes, const Box
     }
   }
 }
-
-void widen(Box& box) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] -= kMargin;
-    box.high[k] += kMargin;
-  }
-}
-
-// The part of a triangle in a box: a convex polygon of at most nine corners.
-class ClippedTriangle {
- public:
-  ClippedTriangle(const std::array<Vec3d, 3>& corners, const Box& box) {
-    std::copy(corners.begin(), corners.end(), corners_.begin());
-    for (int axis = 0; axis < 3 && count_ > 0; ++axis) {
-      const auto k = static_cast<std::size_t>(axis);
-      clip(axis, box.low[k], 1);
-      clip(axis, box.high[k], -1);
-    }
-  }
-
-  [[nodiscard]] bool empty() const { return count_ == 0; }
-  [[nodiscard]] Box box() const {
-    Box box;
-    for (std::size_t i = 0; i < count_; ++i) box.add(corners_[i]);
-    widen(box);
-    return box;
-  }
-
- private:
-  // Keeps what is at `limit` or beyond, in the direction of `sign`.
-  void clip(int axis, double limit, double sign) {
-    const auto height = [&](const Vec3d& p) { return sign * (p[axis] - limit); };
-    const auto below = [&](const Vec3d& p) { return height(p) < 0; };
-    if (std::none_of(corners_.begin(), corners_.begin() + count_, below)) return;
-    std::array<Vec3d, kMostCorners> kept;
-    std::size_t kept_count = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Vec3d& a = corners_[i];
-      const Vec3d& b = corners_[i + 1 == count_ ? 0 : i + 1];
-      MESHREPAIR_ASSERT(kept_count + 2 <= kMostCorners);
-      if (!below(a)) kept[kept_count++] = a;
-      if (below(a) == below(b)) continue;
-      const double share = height(a) / (height(a) - height(b));
-      kept[kept_count] = a + share * (b - a);
-      kept[kept_count++][axis] = limit;
-    }
-    corners_ = kept;
-    count_ = kept_count;
-  }
-
-  // Each of six planes adds one at most; one more than that is room for what rounding could do.
-  static constexpr std::size_t kMostCorners = 16;
-  std::array<Vec3d, kMostCorners> corners_;
-  std::size_t count_ = 3;
-};
 
 class SpatialComparison {
  public:
@@ -193,6 +138,8 @@ class SpatialComparison {
     });
   }
 
+  // In the middle of its longest side; where most triangles are on both sides of that, along one of
+  // them.
   void halve(const Cell& cell) {
     Box whole;
     for (const Part& part : cell.parts) whole.add(part.box);
@@ -200,21 +147,54 @@ class SpatialComparison {
     for (std::size_t k = 1; k < 3; ++k) {
       if (whole.high[k] - whole.low[k] > whole.high[axis] - whole.low[axis]) axis = k;
     }
-    const double middle = 0.5 * (whole.low[axis] + whole.high[axis]);
-    Box lower = whole, upper = whole;
-    lower.high[axis] = middle + kMargin;
-    upper.low[axis] = middle - kMargin;
-    for (const Box& half : {lower, upper}) {
-      std::vector<Part> parts;
-      for (const Part& part : cell.parts) {
-        if (!part.box.meets(half)) continue;
-        ++work_;
-        const ClippedTriangle clipped(scaled_[part.triangle], half);
-        if (!clipped.empty()) parts.push_back({part.triangle, clipped.box()});
-      }
-      const bool in_vain = 8 * parts.size() > 7 * cell.parts.size();
-      cells_.push_back({std::move(parts), in_vain ? cell.vain_cuts + 1 : 0});
+    Wall wall{Vec3d::Zero(), 0.5 * (whole.low[axis] + whole.high[axis])};
+    wall.normal[static_cast<Eigen::Index>(axis)] = 1;
+    const auto on_both_sides = static_cast<std::size_t>(
+        std::count_if(cell.parts.begin(), cell.parts.end(), [&](const Part& part) {
+          return part.box.low[axis] < wall.offset && part.box.high[axis] > wall.offset;
+        }));
+    if (2 * on_both_sides > cell.parts.size()) wall = wall_along_a_triangle(cell).value_or(wall);
+    add_half(cell, wall);
+    add_half(cell, {-wall.normal, -wall.offset});
+  }
+
+  std::optional<Wall> wall_along_a_triangle(const Cell& cell) {
+    offered_.clear();
+    judges_.clear();
+    const std::size_t offered = std::min(kOffered, cell.parts.size());
+    for (std::size_t i = 0; i < offered; ++i) {
+      offered_.push_back(scaled_[cell.parts[i * cell.parts.size() / offered].triangle]);
     }
+    const std::size_t judges = std::min(kJudges, cell.parts.size());
+    for (std::size_t i = 0; i < judges; ++i) {
+      const Part& part = cell.parts[i * cell.parts.size() / judges];
+      judges_.emplace_back(scaled_[part.triangle], part.box);
+    }
+    work_ += kOffered;
+    return choose_wall(offered_, judges_);
+  }
+
+  // The parts of what is above the wall.
+  void add_half(const Cell& cell, const Wall& wall) {
+    std::vector<Part> parts;
+    for (const Part& part : cell.parts) {
+      if (highest(part.box, wall) < -kMargin) continue;
+      ++work_;
+      ClippedTriangle clipped(scaled_[part.triangle], part.box);
+      clipped.clip(wall);
+      if (!clipped.empty()) parts.push_back({part.triangle, clipped.box()});
+    }
+    const bool in_vain = 8 * parts.size() > 7 * cell.parts.size();
+    cells_.push_back({std::move(parts), in_vain ? cell.vain_cuts + 1 : 0});
+  }
+
+  static double highest(const Box& box, const Wall& wall) {
+    Vec3d corner;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      corner[k] = wall.normal[k] < 0 ? box.low[axis] : box.high[axis];
+    }
+    return wall.height(corner);
   }
 
   void compare_all(const std::vector<Part>& parts) {
@@ -250,6 +230,8 @@ class SpatialComparison {
   std::span<const std::uint32_t> hubs_;
   ProgressObserver* progress_;
   std::vector<std::array<Vec3d, 3>> scaled_;
+  std::vector<std::array<Vec3d, 3>> offered_;  // scratch
+  std::vector<ClippedTriangle> judges_;        // scratch
   std::vector<Cell> cells_;
   std::vector<MeetingPair> found_;
   std::size_t once_ = 0;  // how many of them are known to be there once

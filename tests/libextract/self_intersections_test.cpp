@@ -70,6 +70,26 @@ TEST(SelfIntersections, OfFansWithVeryManyTriangles) {
   EXPECT_EQ(found.count, expected.count);
 }
 
+// A book: pages around an edge, one behind another, one back to back with another, and some so
+// narrow that rounding leaves nothing of their direction.
+TEST(SelfIntersections, OfVeryManyTrianglesAroundAnEdge) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {0, 0, 4}};
+  const auto add_page = [&](const Vec3d& tip) {
+    soup.triangles.push_back({0, 1, static_cast<std::uint32_t>(soup.points.size())});
+    soup.points.push_back(tip);
+  };
+  for (int i = 0; i < 700; ++i) add_page({i - 350.0, 1000, 1});
+  EXPECT_EQ(self_intersections(soup).count, 0u);
+  add_page({-500, 2000, 3});  // twice the tip of page 100
+  add_page({150, -1000, 2});  // back to back with page 200
+  add_page({0x1p-60, 0, 2});  // a page of its own
+  add_page({0x1p-59, 0, 1});  // behind that
+  const SelfIntersections found = with_all_pairs(soup);
+  EXPECT_EQ(found.coplanar, 2u);
+  EXPECT_EQ(found.pairs, (std::vector<std::array<std::uint32_t, 2>>{{100, 700}, {702, 703}}));
+}
+
 TEST(SelfIntersections, EqualCornersAreSharedOnlyIfWelded) {
   TriangleSoup soup;  // two triangles of a square, each with points of its own
   soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, -0.0}};

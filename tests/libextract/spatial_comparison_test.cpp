@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -125,6 +126,19 @@ TEST(CompareInSpace, FindsWhatCrossesAConeOfVeryManySides) {
   EXPECT_EQ(found.pairs, looked_up.pairs);
   EXPECT_EQ(found.crossing, looked_up.crossing);
   EXPECT_EQ(found.touching, looked_up.touching);
+}
+
+// Each upper triangle is nearly upright, and lies in the boxes of the parts of very many others.
+TEST(CompareInSpace, TellsThinTrianglesApartThatAreAskew) {
+  TriangleSoup soup = double_cone(4000);
+  std::mt19937 random(3);
+  for (Vec3d& p : soup.points) {
+    if (std::abs(p.z()) < 0.5) p.z() += std::uniform_real_distribution<>(-0.4, 0.4)(random);
+  }
+  Compared spikes(soup);
+  spikes.use_hubs();
+  EXPECT_TRUE(spikes.boxes_tell_little());
+  EXPECT_EQ(spikes.in_space(), Pairs());
 }
 
 TEST(CompareInSpace, StopsWhenItIsToldTo) {
