@@ -39,17 +39,6 @@ std::vector<char> used_points(const TriangleSoup& soup, std::vector<char>& finit
   return used;
 }
 
-Grid grid_of(const TriangleSoup& soup, const std::vector<char>& used) {
-  Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
-  Vec3d high = -low;
-  for (std::size_t i = 0; i < soup.points.size(); ++i) {
-    if (!used[i]) continue;
-    low = low.cwiseMin(soup.points[i]);
-    high = high.cwiseMax(soup.points[i]);
-  }
-  return low.x() <= high.x() ? make_grid(low, high) : Grid{};
-}
-
 // Fills points and grid_points; returns the new id of each used point.
 std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<char>& used,
                                  CleanSoup& clean, CleanReport& report, CancelCheck& check) {
@@ -153,14 +142,35 @@ bool in_a_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 
 }  // namespace
 
+Grid make_grid(std::span<const TriangleSoup* const> soups) {
+  Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
+  Vec3d high = -low;
+  for (const TriangleSoup* soup : soups) {
+    std::vector<char> finite;
+    const std::vector<char> used = used_points(*soup, finite);
+    for (std::size_t i = 0; i < soup->points.size(); ++i) {
+      if (!used[i]) continue;
+      low = low.cwiseMin(soup->points[i]);
+      high = high.cwiseMax(soup->points[i]);
+    }
+  }
+  return low.x() <= high.x() ? make_grid(low, high) : Grid{};
+}
+
 CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report, ProgressObserver* progress) {
+  const TriangleSoup* const all[] = {&soup};
+  return clean_soup(soup, make_grid(all), report, progress);
+}
+
+CleanSoup clean_soup(const TriangleSoup& soup, const Grid& grid, CleanReport& report,
+                     ProgressObserver* progress) {
   CancelCheck check(progress);
   report = {};
   report.triangles_in = soup.triangles.size();
   std::vector<char> finite;
   const std::vector<char> used = used_points(soup, finite);
   CleanSoup clean;
-  clean.grid = grid_of(soup, used);
+  clean.grid = grid;
   report.grid_unit = clean.grid.unit;
   const std::vector<PointId> id_of = join_points(soup, used, clean, report, check);
   TriangleCollector collector(clean, report, soup.triangles.size());

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <boolean/boolean.h>
+#include <string>
+#include <utility>
+
+#include <bsp/error.h>
+
+namespace meshrepair {
+namespace {
+
+Tree empty_tree(const Grid& grid) {
+  Tree tree;
+  tree.input.grid = grid;
+  tree.root = TreeRef(tree.leaves.push_back({Label::empty, 1}));
+  return tree;
+}
+
+RepairOptions with_winding(const RepairOptions& options) {
+  RepairOptions changed = options;
+  changed.inside = {};
+  changed.inside.rule = InsideRule::winding;
+  changed.holes = {};
+  return changed;
+}
+
+[[noreturn]] void throw_too_small(std::size_t operand, const Grid& grid) {
+  throw InputError("solid " + std::to_string(operand + 1) +
+                   " is nothing beside the others: on the grid of 2^26 steps over all, of " +
+                   std::to_string(grid.unit) + " each, it has no volume");
+}
+
+// On the grid of all operands.
+Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& grid,
+                  const BooleanOptions& options, BooleanReport& report) {
+  OperandReport& operand = report.operands[number];
+  operand.volume = signed_volume(solid);
+  if (solid.triangles.empty()) return empty_tree(grid);
+  CleanSoup clean = clean_soup(solid, grid, operand.clean, options.repair.progress);
+  if (clean.triangles.empty()) throw_too_small(number, grid);
+  BuildTreeOptions tree_options = options.repair.tree;
+  tree_options.progress = options.repair.progress;
+  Tree tree = build_tree(std::move(clean), tree_options, operand.tree);
+  RepairReport labels;
+  try {
+    label_tree(tree, with_winding(options.repair), labels);
+  } catch (const NoSolidError&) {
+    throw_too_small(number, grid);
+  }
+  return tree;
+}
+
+bool has_solid(const Tree& tree) {
+  return std::any_of(tree.leaves.begin(), tree.leaves.end(),
+                     [](const Leaf& leaf) { return leaf.label == Label::solid; });
+}
+
+}  // namespace
+
+Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
+                const BooleanOptions& options, BooleanReport& report) {
+  if (solids.empty()) throw InputError("there is no solid to begin with");
+  report = {};
+  report.operands.resize(solids.size());
+  std::vector<const TriangleSoup*> all;
+  all.reserve(solids.size());
+  for (const TriangleSoup& solid : solids) all.push_back(&solid);
+  const Grid grid = make_grid(all);
+  Tree result = make_operand(solids[0], 0, grid, options, report);
+  std::size_t sources = solids[0].triangles.size();
+  for (std::size_t i = 1; i < solids.size(); ++i) {
+    const Tree next = make_operand(solids[i], i, grid, options, report);
+    MergeOptions merge_options;
+    merge_options.test = options.test;
+    merge_options.sealed = true;
+    merge_options.second_source = static_cast<std::uint32_t>(sources);
+    merge_options.progress = options.repair.progress;
+    result = merge_trees(result, next, operation, merge_options, report.merges.emplace_back());
+    sources += solids[i].triangles.size();
+  }
+  if (!has_solid(result)) return {};
+  return extract_mesh(result, with_winding(options.repair), report.result);
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <boolean/boolean.h>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <bsp/error.h>
+
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+struct Result {
+  Surface surface;
+  BooleanReport report;
+
+  [[nodiscard]] double volume() const { return signed_volume(surface.mesh); }
+};
+
+Result compute(const std::vector<TriangleSoup>& solids, SetOperation operation) {
+  Result result;
+  result.surface = boolean(solids, operation, {}, result.report);
+  if (result.surface.mesh.triangles.empty()) return result;
+  const Topology& t = result.report.result.output;
+  EXPECT_TRUE(t.closed() && t.manifold() && t.oriented());
+  EXPECT_TRUE(result.report.result.certify.passed());
+  return result;
+}
+
+std::set<std::array<std::array<double, 3>, 3>> triangles_of(const TriangleSoup& soup) {
+  std::set<std::array<std::array<double, 3>, 3>> all;
+  for (const auto& t : soup.triangles) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d& p = soup.points[t[k]];
+      corners[k] = {p.x(), p.y(), p.z()};
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    all.insert(corners);
+  }
+  return all;
+}
+
+TEST(Boolean, OfTwoBoxes) {
+  const std::vector<TriangleSoup> boxes = {cube(), box({0.5, 0.5, 0.5}, {2, 2, 2})};
+  EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::unite).volume(), 1 + 3.375 - 0.125);
+  EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::intersect).volume(), 0.125);
+  EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::subtract).volume(), 0.875);
+  EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::exclude).volume(), 0.875 + 3.25);
+}
+
+TEST(Boolean, OfBoxesThatShareAFaceLeavesNoWall) {
+  const Result united = compute({cube(), box({1, 0, 0}, {3, 1, 1})}, SetOperation::unite);
+  EXPECT_DOUBLE_EQ(united.volume(), 3);
+  EXPECT_EQ(united.surface.mesh.triangles.size(), 12u + 8u);
+  EXPECT_EQ(united.report.result.output.parts, 1u);
+}
+
+TEST(Boolean, ResultMayBeEmptyOrTheFirst) {
+  EXPECT_TRUE(compute({cube(), cube()}, SetOperation::subtract).surface.mesh.triangles.empty());
+  EXPECT_TRUE(compute({cube(), {}}, SetOperation::intersect).surface.mesh.triangles.empty());
+  EXPECT_TRUE(compute({{}, {}}, SetOperation::unite).surface.mesh.triangles.empty());
+  const TriangleSoup ball = sphere(300);
+  EXPECT_EQ(triangles_of(compute({ball, {}}, SetOperation::unite).surface.mesh),
+            triangles_of(ball));
+  EXPECT_EQ(triangles_of(compute({ball, ball}, SetOperation::intersect).surface.mesh),
+            triangles_of(ball));
+}
+
+TEST(Boolean, TrianglesThatNothingCutsStayAsTheyAre) {
+  const TriangleSoup a = sphere(2000), b = sphere(2000, 0.5, {1, 0.1, 0.2});
+  const Result result = compute({a, b}, SetOperation::subtract);
+  const auto before = triangles_of(a), after = triangles_of(result.surface.mesh);
+  std::size_t kept = 0;
+  for (const auto& t : after) kept += before.count(t);
+  EXPECT_GT(kept, 1500u);
+  bool from_both[2] = {false, false};
+  for (const std::uint32_t source : result.surface.source) {
+    ASSERT_LT(source, a.triangles.size() + b.triangles.size());
+    from_both[source < a.triangles.size() ? 0 : 1] = true;
+  }
+  EXPECT_TRUE(from_both[0] && from_both[1]);
+}
+
+TEST(Boolean, OfManyIsTakenInTurn) {
+  std::vector<TriangleSoup> boxes;
+  for (int i = 0; i < 5; ++i) boxes.push_back(moved(cube(), {0.5 * i, 0, 0}));
+  EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::unite).volume(), 3);
+  EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::subtract).volume(), 0.5);
+  boxes.resize(2);
+  EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::intersect).volume(), 0.5);
+}
+
+TEST(Boolean, WhatIsNothingOnTheCommonGridIsRefused) {
+  BooleanReport report;
+  const std::vector<TriangleSoup> solids = {scaled(cube(), 1e12), cube()};
+  EXPECT_THROW((void)boolean(solids, SetOperation::unite, {}, report), InputError);
+}
+
+}  // namespace
+}  // namespace meshrepair
