@@ -1,5 +1,5 @@
-# The package that other projects find: find_package(meshrepair) gives meshrepair::bsp, meshrepair::extract
-# and meshrepair::repair.
+# The package that other projects find: find_package(meshrepair) gives meshrepair::bsp, meshrepair::extract,
+# meshrepair::repair and meshrepair::boolean.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/meshrepair)

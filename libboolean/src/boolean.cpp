@@ -23,6 +23,16 @@ RepairOptions with_winding(const RepairOptions& options) {
   return changed;
 }
 
+// Passes on the wish to stop alone: the stages of an operand are no stages of the whole.
+class Canceller : public ProgressObserver {
+ public:
+  explicit Canceller(ProgressObserver* observer) : observer_(observer) {}
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  ProgressObserver* observer_;
+};
+
 [[noreturn]] void throw_too_small(std::size_t operand, const Grid& grid) {
   throw InputError("solid " + std::to_string(operand + 1) +
                    " is nothing beside the others: on the grid of 2^26 steps over all, of " +
@@ -41,8 +51,11 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   tree_options.progress = options.repair.progress;
   Tree tree = build_tree(std::move(clean), tree_options, operand.tree);
   RepairReport labels;
+  RepairOptions label_options = with_winding(options.repair);
+  Canceller canceller(options.repair.progress);
+  label_options.progress = &canceller;
   try {
-    label_tree(tree, with_winding(options.repair), labels);
+    label_tree(tree, label_options, labels);
   } catch (const NoSolidError&) {
     throw_too_small(number, grid);
   }
@@ -56,8 +69,8 @@ bool has_solid(const Tree& tree) {
 
 }  // namespace
 
-Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
-                const BooleanOptions& options, BooleanReport& report) {
+Tree boolean_tree(std::span<const TriangleSoup> solids, SetOperation operation,
+                  const BooleanOptions& options, BooleanReport& report) {
   if (solids.empty()) throw InputError("there is no solid to begin with");
   report = {};
   report.operands.resize(solids.size());
@@ -65,10 +78,14 @@ Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
   all.reserve(solids.size());
   for (const TriangleSoup& solid : solids) all.push_back(&solid);
   const Grid grid = make_grid(all);
+  StageMeter meter(report.result.stages, options.repair.progress);
+  meter.begin("operands");
   Tree result = make_operand(solids[0], 0, grid, options, report);
   std::size_t sources = solids[0].triangles.size();
   for (std::size_t i = 1; i < solids.size(); ++i) {
+    meter.begin("operands");
     const Tree next = make_operand(solids[i], i, grid, options, report);
+    meter.begin("merge");
     MergeOptions merge_options;
     merge_options.test = options.test;
     merge_options.sealed = true;
@@ -77,8 +94,17 @@ Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
     result = merge_trees(result, next, operation, merge_options, report.merges.emplace_back());
     sources += solids[i].triangles.size();
   }
-  if (!has_solid(result)) return {};
-  return extract_mesh(result, with_winding(options.repair), report.result);
+  return result;
+}
+
+Surface boolean_surface(const Tree& tree, const BooleanOptions& options, BooleanReport& report) {
+  if (!has_solid(tree)) return {};
+  return extract_mesh(tree, with_winding(options.repair), report.result);
+}
+
+Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
+                const BooleanOptions& options, BooleanReport& report) {
+  return boolean_surface(boolean_tree(solids, operation, options, report), options, report);
 }
 
 }  // namespace meshrepair

@@ -30,11 +30,19 @@ struct BooleanReport {
 };
 
 // `solids` are closed surfaces without self-intersections, turned outward, as repair() returns
-// them; one without triangles is the empty solid. At least one; the difference is of the first and
-// all others, and so is the symmetric difference, in turn. Triangles that the operation does not
-// cut come out bit for bit; Surface::source counts through all operands. The result may be without
-// triangles. Throws InputError where one of them is nothing on the grid of 26 bits over all.
+// them; one without triangles is the empty solid. At least one; from the first all others are
+// subtracted, and more than two are excluded in turn. The tree's sources count through all
+// operands. Throws InputError where a solid is nothing on the grid of 26 bits over all.
+[[nodiscard]] Tree boolean_tree(std::span<const TriangleSoup> solids, SetOperation operation,
+                                const BooleanOptions& options, BooleanReport& report);
+
+// The same as a surface, which may be without triangles. Triangles that the operation does not cut
+// come out bit for bit.
 [[nodiscard]] Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
                               const BooleanOptions& options, BooleanReport& report);
+
+// The boundary of a tree that boolean_tree() made; without triangles where nothing is solid.
+[[nodiscard]] Surface boolean_surface(const Tree& tree, const BooleanOptions& options,
+                                      BooleanReport& report);
 
 }  // namespace meshrepair

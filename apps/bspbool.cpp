@@ -1,0 +1,188 @@
+// bspbool A B ... --op OPERATION -o OUT: Boolean operations on solids.
+#include <boolean/boolean.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <spdlog/spdlog.h>
+
+#include <bsp/error.h>
+
+#include "common/logging.h"
+#include "common/repair_options.h"
+#include "common/repair_steps.h"
+#include "common/summary.h"
+
+namespace meshrepair {
+namespace {
+
+struct BoolOptions {
+  std::vector<std::string> inputs;
+  SetOperation operation = SetOperation::unite;
+  RegionTest test = RegionTest::cells;
+  StepOptions step;
+};
+
+bool is_tree_name(const std::string& name) {
+  return std::filesystem::path(name).extension() == ".bsp";
+}
+
+// A mesh is repaired first, a tree without labels gets some.
+Surface read_operand(const BoolOptions& options, Run& run, Findings& findings) {
+  RepairOptions repair_options = options.step.repair;
+  repair_options.progress = &run.progress;
+  if (!is_tree_name(findings.input)) {
+    return repair(read_mesh_stage(run, findings), repair_options, findings.repair);
+  }
+  Tree tree = read_tree_stage(run, findings);
+  if (!findings.tree_read->labelled) label_tree(tree, repair_options, findings.repair);
+  return extract_mesh(tree, repair_options, findings.repair);
+}
+
+Json facts_of_operand(const Findings& findings, const Surface& surface) {
+  return {{"path", findings.input},
+          {"triangles", surface.mesh.triangles.size()},
+          {"volume", signed_volume(surface.mesh)},
+          {"certified", findings.repair.certify.passed()}};
+}
+
+TriangleSoup take_operand(const BoolOptions& options, const std::string& name, Run& run,
+                          Json& facts) {
+  Findings findings(name, "");
+  Surface surface;
+  (void)with_findings(run, findings, [&] {
+    surface = read_operand(options, run, findings);
+    return ExitCode::done;
+  });
+  if (!findings.repair.certify.passed()) {
+    spdlog::warn("{}: could not be certified as a solid", findings.input_name());
+  }
+  facts.push_back(facts_of_operand(findings, surface));
+  return std::move(surface.mesh);
+}
+
+Json merge_section(const BooleanReport& report, SetOperation operation) {
+  Json merges = Json::array();
+  for (const MergeReport& merge : report.merges) {
+    merges.push_back({{"nodes", merge.nodes},
+                      {"kept_nodes", merge.kept_nodes},
+                      {"regions", merge.regions},
+                      {"cut_regions", merge.cut_regions}});
+  }
+  return {{"operation", operation_name(operation)}, {"merges", merges}};
+}
+
+std::string what_was_written(const Surface& surface) {
+  if (surface.mesh.triangles.empty()) return "nothing is solid, no triangles";
+  return fmt::format("{}, volume {:.6g}", number_of(surface.mesh.triangles.size(), "triangle"),
+                     signed_volume(surface.mesh));
+}
+
+void print_result(const BoolOptions& options, const std::string& written, Run& run) {
+  const double seconds = run.progress.seconds();
+  run.progress.finish();
+  print_summary(fmt::format(
+      "operands  {} of {}\nwritten   {}: {}, in {:.2f} s\n", operation_name(options.operation),
+      number_of(options.inputs.size(), "solid"), options.step.output, written, seconds));
+}
+
+ExitCode combine_files(const BoolOptions& options, Run& run) {
+  Json operands = Json::array();
+  std::vector<TriangleSoup> solids;
+  for (const std::string& name : options.inputs) {
+    solids.push_back(take_operand(options, name, run, operands));
+  }
+  BooleanOptions boolean_options;
+  boolean_options.test = options.test;
+  boolean_options.repair = options.step.repair;
+  boolean_options.repair.progress = &run.progress;
+  const bool to_tree = is_tree_name(options.step.output);
+  WriteOptions format;
+  if (!to_tree) {
+    format = mesh_format(options.step);
+    boolean_options.repair = certified_for(*format.format, boolean_options.repair);
+  }
+  BooleanReport report;
+  Findings findings(options.inputs.front(), options.step.output);
+  const ExitCode code = with_findings(run, findings, [&] {
+    const Tree tree = boolean_tree(solids, options.operation, boolean_options, report);
+    if (to_tree) {
+      write_tree_stage(tree, run, findings);
+      print_result(options, number_of(tree.nodes.size(), "node"), run);
+      return ExitCode::done;
+    }
+    const Surface surface = boolean_surface(tree, boolean_options, report);
+    findings.repair = report.result;
+    write_mesh_stage(surface, format, options.step, run, findings);
+    if (!findings.withheld) print_result(options, what_was_written(surface), run);
+    if (findings.missing_guarantees.empty()) return ExitCode::done;
+    spdlog::error("{}: {} {}", findings.output_name(),
+                  findings.withheld ? "not written, it would be" : "written, but",
+                  findings.missing_guarantees);
+    return ExitCode::not_certified;
+  });
+  run.report.set_section("operands", std::move(operands));
+  run.report.set_section("boolean", merge_section(report, options.operation));
+  return code;
+}
+
+void add_operation_option(CLI::App& app, SetOperation& operation) {
+  static const std::map<std::string, SetOperation> kOperations = {
+      {"union", SetOperation::unite},
+      {"intersection", SetOperation::intersect},
+      {"difference", SetOperation::subtract},
+      {"xor", SetOperation::exclude}};
+  app.add_option_function<std::string>(
+         "--op", [&operation](const std::string& name) { operation = kOperations.at(name); },
+         "union; intersection; difference: the first without all others; xor: what is in one of "
+         "two")
+      ->check(CLI::IsMember({"union", "intersection", "difference", "xor"}))
+      ->type_name("NAME")
+      ->required();
+}
+
+void add_regions_option(CLI::App& app, RegionTest& test) {
+  app.add_option_function<std::string>(
+         "--regions",
+         [&test](const std::string& name) {
+           test = name == "cells" ? RegionTest::cells : RegionTest::linear_programs;
+         },
+         "How regions are found to be cut by a plane: by carrying their cells along, or by linear "
+         "programs; the results are the same [cells]")
+      ->check(CLI::IsMember({"cells", "programs"}))
+      ->type_name("NAME");
+}
+
+}  // namespace
+}  // namespace meshrepair
+
+int main(int argc, char** argv) {
+  using namespace meshrepair;
+  BoolOptions options;
+  Program program("bspbool", "Unites, intersects and subtracts solids.",
+                  "  bspbool body.stl hole.stl --op difference -o part.stl\n"
+                  "  bspbool a.obj b.ply c.bsp --op union -o all.obj\n"
+                  "  bspbool a.bsp b.bsp --op intersection -o both.bsp\n");
+  CLI::App& app = program.command_line();
+  app.add_option("IN", options.inputs,
+                 "Two or more solids: meshes, which are repaired first, and trees (.bsp)")
+      ->required()
+      ->expected(2, -1);
+  add_operation_option(app, options.operation);
+  add_output_option(app, options.step.output, "OUT",
+                    "Mesh or, if it ends in .bsp, tree to write; - is standard output");
+  add_inside_options(app, options.step.repair.inside);
+  add_holes_option(app, options.step.repair.holes);
+  add_max_hole_option(app, options.step.repair.holes);
+  add_touching_option(app, options.step.repair.extract.touching);
+  add_regions_option(app, options.test);
+  add_format_option(app, options.step.format);
+  add_certify_options(app, options.step.repair.certify, options.step.strict);
+  return program.run(argc, argv, [&](Run& run) {
+    if (options.step.output.empty()) throw UsageError("the name of the output is empty");
+    for (const std::string& input : options.inputs) check_files(input, options.step.output, run);
+    return combine_files(options, run);
+  });
+}
