@@ -101,8 +101,9 @@ class Merger {
       const Sides sides = regions_->sides(step.region, plane);
       ++report_.regions;
       report_.cut_regions += sides.above && sides.below;
-      if (sides.above && sides.below && !is_in_one_leaf(step)) {
-        return add_node(step, node, plane);
+      if (sides.above && sides.below) {
+        if (!has_one_label(step)) return add_node(step, node, plane);
+        step.region = regions_->cut(step.region, plane)[0];
       }
       step.at = node.child[sides.above ? 0 : 1];
     }
@@ -111,7 +112,8 @@ class Merger {
                     std::min(step.first.confidence, leaf.confidence)});
   }
 
-  [[nodiscard]] bool is_in_one_leaf(const Step& step) const {
+  // Then a part of the region is enough to find the label of all.
+  [[nodiscard]] bool has_one_label(const Step& step) const {
     return options_.sealed && step.triangles.empty();
   }
 

@@ -20,7 +20,7 @@ enum class RegionTest {
 struct MergeOptions {
   RegionTest test = RegionTest::cells;
   // Both trees' labels differ only across their triangles, as those of closed surfaces do: then a
-  // region that no triangle of the second reaches is in one leaf of it, and is not cut.
+  // region that no triangle of the second reaches has one label there, and is not cut.
   bool sealed = false;
   // Added to the sources of the second tree's triangles.
   std::uint32_t second_source = 0;
