@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include <bsp/common_grid.h>
 #include <bsp/error.h>
 
 namespace meshrepair {

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <bsp/clean_soup.h>
+#include <bsp/common_grid.h>
 #include <bsp/error.h>
 #include <bsp/hash_index.h>
 

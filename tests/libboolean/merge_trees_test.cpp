@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bsp/common_grid.h>
 #include <bsp/error.h>
 #include <extract/build_cells.h>
 #include <repair/repair.h>

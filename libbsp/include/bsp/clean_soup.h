@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include <bsp/grid.h>
 #include <bsp/ids.h>
@@ -50,13 +49,6 @@ struct CleanReport {
 // index is out of range, Cancelled when `progress` says so.
 [[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report,
                                    ProgressObserver* progress = nullptr);
-
-// The same on a grid made for a box that holds all finite corners.
-[[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, const Grid& grid, CleanReport& report,
-                                   ProgressObserver* progress = nullptr);
-
-// The grid for all corners of these soups, but for triangles that are not finite.
-[[nodiscard]] Grid make_grid(std::span<const TriangleSoup* const> soups);
 
 // In the input's units.
 [[nodiscard]] double area_of(const CleanSoup& soup, const Triangle& triangle);
