@@ -13,8 +13,8 @@ constexpr int kNoAxis = -1;
 
 void widen(Box& box) {
   for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] -= kMargin;
-    box.high[k] += kMargin;
+    box.low[k] -= kClipMargin;
+    box.high[k] += kClipMargin;
   }
 }
 
@@ -29,7 +29,7 @@ ClippedTriangle::ClippedTriangle(const std::array<Vec3d, 3>& corners, const Box&
 }
 
 void ClippedTriangle::clip(const Wall& wall) {
-  keep_above([&](const Vec3d& p) { return wall.height(p) + kMargin; }, kNoAxis, 0);
+  keep_above([&](const Vec3d& p) { return wall.height(p) + kClipMargin; }, kNoAxis, 0);
 }
 
 Box ClippedTriangle::box() const {

@@ -14,7 +14,7 @@ namespace meshrepair::internal {
 // of each place that is halved, and this far at least from its walls, but for rounding. What
 // rounding in clip() can lose of a triangle lies within a few 2^-53 of a wall, so that the point is
 // kept in both triangles' parts.
-inline constexpr double kMargin = 0x1p-42;
+inline constexpr double kClipMargin = 0x1p-42;
 
 // A plane by its unit normal; heights are rounded.
 struct Wall {
@@ -31,7 +31,7 @@ class ClippedTriangle {
  public:
   ClippedTriangle(const std::array<Vec3d, 3>& corners, const Box& box);
 
-  // Keeps what is at most kMargin below the wall.
+  // Keeps what is at most kClipMargin below the wall.
   void clip(const Wall& wall);
 
   [[nodiscard]] bool empty() const { return count_ == 0; }

@@ -27,8 +27,8 @@ Division divide(std::span<const ClippedTriangle> judges, const Wall& wall) {
     bool above = false, below = false;
     for (const Vec3d& corner : judge.corners()) {
       const double height = wall.height(corner);
-      above |= height >= -kMargin;
-      below |= height <= kMargin;
+      above |= height >= -kClipMargin;
+      below |= height <= kClipMargin;
     }
     (above && below ? division.both : above ? division.above : division.below) += 1;
   }
@@ -41,7 +41,7 @@ template <class Visit>
 void visit_walls(const std::array<Vec3d, 3>& triangle, Visit visit) {
   const auto visit_if_it_is_one = [&](const Vec3d& normal, const Vec3d& at) {
     if (!normal.allFinite() || normal.isZero(0)) return;
-    visit(Wall{normal, normal.dot(at) - 2 * kMargin});
+    visit(Wall{normal, normal.dot(at) - 2 * kClipMargin});
   };
   const Vec3d up = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).stableNormalized();
   visit_if_it_is_one(up, triangle[0]);

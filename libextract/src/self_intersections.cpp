@@ -39,7 +39,7 @@ class Findings {
   void add(std::uint32_t a, std::uint32_t b, Meeting meeting) {
     ++counts_[static_cast<std::size_t>(meeting)];
     pairs_.push_back({std::min(a, b), std::max(a, b)});
-    if (pairs_.size() >= 2 * most_ + 64) keep_lowest();
+    if (pairs_.size() > most_ && pairs_.size() - most_ >= most_ + 64) keep_lowest();
   }
 
   void add_to(SelfIntersections& result) const {
@@ -345,8 +345,11 @@ SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOp
     sorted.leave_out_hubs(hubs);
     compare(sorted, options, findings);
   }
+  CancelOnly quiet(options.progress);
+  SelfIntersectionOptions around_hubs = options;
+  around_hubs.progress = &quiet;
   visit_groups(list.triangles(), list.ids(), hubs, [&](std::uint32_t hub, const Group& group) {
-    compare_around_hub(group, hub, options, findings);
+    compare_around_hub(group, hub, around_hubs, findings);
   });
   return gather(findings, options.most_pairs);
 }

@@ -99,8 +99,8 @@ class SpatialComparison {
       const Cell cell = std::move(cells_.back());
       cells_.pop_back();
       ask();
-      if (work_ > kMostWork * scaled_.size()) return std::nullopt;
       look_at(cell);
+      if (is_too_much()) return std::nullopt;
     }
     keep_once();
     return std::move(found_);
@@ -116,6 +116,8 @@ class SpatialComparison {
     int vain_cuts;
   };
 
+  [[nodiscard]] bool is_too_much() const { return work_ > kMostWork * scaled_.size(); }
+
   void ask() {
     if (++steps_ % kCellsPerQuestion != 0 || progress_ == nullptr) return;
     if (progress_->cancelled()) throw Cancelled();
@@ -126,7 +128,7 @@ class SpatialComparison {
     if (cell.parts.size() <= kFew || cell.vain_cuts >= kMostVainCuts) {
       // Many in one place count before they are compared, so that too many never are.
       if (cell.parts.size() > kFew) work_ += cell.parts.size() * cell.parts.size() / 2;
-      if (work_ <= kMostWork * scaled_.size()) compare_all(cell.parts);
+      if (!is_too_much()) compare_all(cell.parts);
     } else {
       halve(cell);
     }
@@ -178,7 +180,7 @@ class SpatialComparison {
   void add_half(const Cell& cell, const Wall& wall) {
     std::vector<Part> parts;
     for (const Part& part : cell.parts) {
-      if (highest(part.box, wall) < -kMargin) continue;
+      if (highest(part.box, wall) < -kClipMargin) continue;
       ++work_;
       ClippedTriangle clipped(scaled_[part.triangle], part.box);
       clipped.clip(wall);

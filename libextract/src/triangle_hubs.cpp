@@ -1,14 +1,16 @@
 #include "triangle_hubs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace meshrepair::internal {
 namespace {
 
 constexpr std::uint32_t kManyTriangles = 256;
 
-constexpr double kMargin = 1e-12;
+constexpr double kDirectionMargin = 1e-12;
 
 // Of a triangle's corners, the one with the highest count if that is high; the lowest of several.
 template <class CountOf>
@@ -28,13 +30,29 @@ std::size_t place_of(std::uint32_t corner, const CornerTriangle& triangle) {
   return triangle.corner[0] == corner ? 0 : triangle.corner[1] == corner ? 1 : 2;
 }
 
-// The unit vectors to the other two corners.
-std::array<Vec3d, 2> ends_from(std::uint32_t hub, const CornerTriangle& triangle) {
-  const std::size_t k = place_of(hub, triangle);
-  // Halved, so that no difference overflows.
-  const Vec3d from = 0.5 * triangle.at[k];
-  return {(0.5 * triangle.at[(k + 1) % 3] - from).stableNormalized(),
-          (0.5 * triangle.at[(k + 2) % 3] - from).stableNormalized()};
+// The unit vector from one point to another, each component right to a few 2^-53 however large or
+// small the coordinates: a difference is rounded once and scaled by a power of two. Only where it
+// could overflow is it one of halves, which are exact then, or next to nothing.
+Vec3d direction(const Vec3d& from, const Vec3d& to) {
+  constexpr double kLarge = 0x1p1022;
+  Vec3d difference;
+  std::array<int, 3> halvings{};
+  int largest = std::numeric_limits<int>::min();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    halvings[k] = std::max(std::abs(from[axis]), std::abs(to[axis])) >= kLarge ? 1 : 0;
+    const double share = halvings[k] != 0 ? 0.5 : 1;
+    difference[axis] = share * to[axis] - share * from[axis];
+    if (difference[axis] == 0) continue;
+    int exponent = 0;
+    (void)std::frexp(difference[axis], &exponent);
+    largest = std::max(largest, exponent + halvings[k]);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    difference[axis] = std::ldexp(difference[axis], halvings[k] - largest);
+  }
+  return difference.normalized();
 }
 
 void widen(Box& box, double margin) {
@@ -64,16 +82,16 @@ std::vector<std::uint32_t> find_hubs(std::span<const CornerTriangle> triangles) 
 }
 
 // The directions are an arc between the unit vectors a and b. It leaves the box of its ends by its
-// height over their chord c at most, 1 - sqrt(1 - c^2 / 4). A difference of two coordinates is
-// rounded once, so the unit vectors are off by a few 2^-53, far below the margin.
+// height over their chord at most, which is 1 - |a + b| / 2. The unit vectors are off by a few
+// 2^-53, far below the margin.
 Box directions_from(std::uint32_t hub, const CornerTriangle& triangle) {
-  const auto [a, b] = ends_from(hub, triangle);
-  const double chord = std::min((a - b).norm(), 2.0);
-  const double margin = 1 - std::sqrt(std::max(0.0, 1 - 0.25 * chord * chord)) + kMargin;
+  const std::size_t k = place_of(hub, triangle);
+  const Vec3d a = direction(triangle.at[k], triangle.at[(k + 1) % 3]);
+  const Vec3d b = direction(triangle.at[k], triangle.at[(k + 2) % 3]);
   Box box;
   box.add(a);
   box.add(b);
-  widen(box, margin);
+  widen(box, std::max(0.0, 1 - 0.5 * (a + b).norm()) + kDirectionMargin);
   return box;
 }
 
@@ -101,10 +119,8 @@ std::vector<std::uint32_t> find_second_hubs(std::uint32_t hub,
 Box direction_across(std::array<std::uint32_t, 2> edge, const CornerTriangle& triangle) {
   const std::size_t p = place_of(edge[0], triangle);
   const std::size_t q = place_of(edge[1], triangle);
-  // Halved, so that no difference overflows.
-  const Vec3d from = 0.5 * triangle.at[p];
-  const Vec3d along = (0.5 * triangle.at[q] - from).stableNormalized();
-  const Vec3d to_tip = (0.5 * triangle.at[3 - p - q] - from).stableNormalized();
+  const Vec3d along = direction(triangle.at[p], triangle.at[q]);
+  const Vec3d to_tip = direction(triangle.at[p], triangle.at[3 - p - q]);
   const Vec3d across = to_tip - to_tip.dot(along) * along;
   const double share = across.norm();
   Box box;
@@ -113,7 +129,7 @@ Box direction_across(std::array<std::uint32_t, 2> edge, const CornerTriangle& tr
     widen(box, 2);
   } else {
     box.add(Vec3d(across / share));
-    widen(box, kMargin + 0x1p-46 / share);
+    widen(box, kDirectionMargin + 0x1p-46 / share);
   }
   return box;
 }

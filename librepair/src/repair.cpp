@@ -166,24 +166,14 @@ void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) 
 
 namespace {
 
-// Passes on the wish to stop alone.
-class Canceller : public ProgressObserver {
- public:
-  explicit Canceller(ProgressObserver* observer) : observer_(observer) {}
-  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
-
- private:
-  ProgressObserver* observer_;
-};
-
 // Orientation is sound by now, and overlaps made by moving points are to be united.
 Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
-  Canceller canceller(options.progress);
+  CancelOnly quiet(options.progress);
   RepairOptions again = options;
   again.inside.rule = InsideRule::winding;
   again.holes = {};
   again.certify.wanted = false;
-  again.progress = &canceller;
+  again.progress = &quiet;
   RepairReport report;
   return repair(soup, again, report);
 }

@@ -70,6 +70,51 @@ TEST(SelfIntersections, OfFansWithVeryManyTriangles) {
   EXPECT_EQ(found.count, expected.count);
 }
 
+// A hub with a fan of triangles below it that are not concerned.
+TriangleSoup with_crowded_origin(double size) {
+  TriangleSoup soup;
+  soup.points.emplace_back(0, 0, 0);
+  for (int i = 0; i < 300; ++i) {
+    const auto base = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.push_back(size * Vec3d(1 + i, 0, -1000));
+    soup.points.push_back(size * Vec3d(1 + i, 1, -1000));
+    soup.triangles.push_back({0, base, base + 1});
+  }
+  return soup;
+}
+
+std::size_t count_with_two_more(TriangleSoup soup, const std::array<Vec3d, 4>& corners) {
+  for (std::size_t i = 0; i < 4; i += 2) {
+    const auto base = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.push_back(corners[i]);
+    soup.points.push_back(corners[i + 1]);
+    soup.triangles.push_back({0, base, base + 1});
+  }
+  return self_intersections(soup).count;
+}
+
+TEST(SelfIntersections, AroundAHubWithAnAngleOfNearlyAHalfTurn) {
+  EXPECT_EQ(count_with_two_more(with_crowded_origin(1),
+                                {Vec3d(1, 0, 0.3), Vec3d(-1, 1e-9, -0.3), Vec3d(3e-11, 1, -1e-10),
+                                 Vec3d(-3e-11, 1, 1e-10)}),
+            1u);
+}
+
+TEST(SelfIntersections, AroundAHubAtBothEndsOfTheRangeOfDoubles) {
+  constexpr double kTiny = 0x1p-1074;
+  EXPECT_EQ(count_with_two_more(with_crowded_origin(kTiny), {Vec3d(kTiny, 0, 0), Vec3d(0, 0, kTiny),
+                                                             Vec3d(100 * kTiny, 2 * kTiny, 0),
+                                                             Vec3d(100 * kTiny, -2 * kTiny, 0)}),
+            1u);
+  constexpr double kHuge = 0x1.8p1023;
+  TriangleSoup soup = with_crowded_origin(0x1p1000);
+  for (Vec3d& p : soup.points) p += Vec3d(-kHuge, -kHuge, kHuge);
+  EXPECT_EQ(
+      count_with_two_more(soup, {Vec3d(kHuge, kHuge, kHuge), Vec3d(kHuge, kHuge, 0),
+                                 Vec3d(0, kHuge, 0.75 * kHuge), Vec3d(kHuge, 0, 0.75 * kHuge)}),
+      1u);
+}
+
 // A book: pages around an edge, one behind another, one back to back with another, and some so
 // narrow that rounding leaves nothing of their direction.
 TEST(SelfIntersections, OfVeryManyTrianglesAroundAnEdge) {

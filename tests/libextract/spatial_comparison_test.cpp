@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <vector>
@@ -139,6 +140,33 @@ TEST(CompareInSpace, TellsThinTrianglesApartThatAreAskew) {
   spikes.use_hubs();
   EXPECT_TRUE(spikes.boxes_tell_little());
   EXPECT_EQ(spikes.in_space(), Pairs());
+}
+
+// Wedges that come together in the highest place of all, without a common corner, and one triangle
+// across them near that: too much to be compared there, and the last place that is looked at.
+TEST(CompareInSpace, GivesUpBeforeItMissesAnything) {
+  TriangleSoup soup;
+  const auto add = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.insert(soup.points.end(), {a, b, c});
+    soup.triangles.push_back({first, first + 1, first + 2});
+  };
+  constexpr int kWedges = 4000;
+  for (int i = 0; i < kWedges; ++i) {
+    const double angle = (1.1 + 0.3 * i / kWedges) * std::numbers::pi;
+    const double x = std::cos(angle), y = std::sin(angle);
+    add({0x1p-48 * x, 0x1p-48 * y, 0}, {x, y, -0.02}, {x, y, 0.02});
+  }
+  for (int i = 0; i < 20'000; ++i) {
+    const double x = -1 + 0.004 * (i % 200), y = -1 + 0.004 * (i / 200);
+    add({x, y, -0.5}, {x + 0.002, y, -0.5}, {x, y + 0.002, -0.5});
+  }
+  const double at = 0.01 * std::cos(1.25 * std::numbers::pi);
+  add({at + 0.001, at - 0.001, 0}, {at - 0.001, at + 0.001, 0}, {at, at, 0.0001});
+  const auto last = static_cast<std::uint32_t>(soup.triangles.size() - 1);
+  const std::size_t crossed = self_intersections(soup, std::array{last}, {}).count;
+  EXPECT_GT(crossed, 1000u);
+  EXPECT_EQ(self_intersections(soup).count, crossed);
 }
 
 TEST(CompareInSpace, StopsWhenItIsToldTo) {

@@ -25,6 +25,17 @@ class ProgressObserver {
   virtual bool cancelled() { return false; }
 };
 
+// Passes on the wish to stop alone, for work that is a small part of a stage.
+class CancelOnly : public ProgressObserver {
+ public:
+  // `observer` may be null.
+  explicit CancelOnly(ProgressObserver* observer) : observer_(observer) {}
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  ProgressObserver* observer_;
+};
+
 // For loops whose turns are too short to ask in each: asks in one of a thousand.
 class CancelCheck {
  public:
