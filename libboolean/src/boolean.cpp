@@ -24,16 +24,6 @@ RepairOptions with_winding(const RepairOptions& options) {
   return changed;
 }
 
-// Passes on the wish to stop alone: the stages of an operand are no stages of the whole.
-class Canceller : public ProgressObserver {
- public:
-  explicit Canceller(ProgressObserver* observer) : observer_(observer) {}
-  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
-
- private:
-  ProgressObserver* observer_;
-};
-
 [[noreturn]] void throw_too_small(std::size_t operand, const Grid& grid) {
   throw InputError("solid " + std::to_string(operand + 1) +
                    " is nothing beside the others: on the grid of 2^26 steps over all, of " +
@@ -53,8 +43,8 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   Tree tree = build_tree(std::move(clean), tree_options, operand.tree);
   RepairReport labels;
   RepairOptions label_options = with_winding(options.repair);
-  Canceller canceller(options.repair.progress);
-  label_options.progress = &canceller;
+  CancelOnly quiet(options.repair.progress);
+  label_options.progress = &quiet;
   try {
     label_tree(tree, label_options, labels);
   } catch (const NoSolidError&) {
