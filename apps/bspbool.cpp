@@ -128,17 +128,23 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
   return code;
 }
 
+constexpr std::array kOperations = {SetOperation::unite, SetOperation::intersect,
+                                    SetOperation::subtract, SetOperation::exclude};
+
 void add_operation_option(CLI::App& app, SetOperation& operation) {
-  static const std::map<std::string, SetOperation> kOperations = {
-      {"union", SetOperation::unite},
-      {"intersection", SetOperation::intersect},
-      {"difference", SetOperation::subtract},
-      {"xor", SetOperation::exclude}};
+  std::vector<std::string> names;
+  names.reserve(kOperations.size());
+  for (const SetOperation known : kOperations) names.emplace_back(operation_name(known));
   app.add_option_function<std::string>(
-         "--op", [&operation](const std::string& name) { operation = kOperations.at(name); },
+         "--op",
+         [&operation](const std::string& name) {
+           operation =
+               *std::find_if(kOperations.begin(), kOperations.end(),
+                             [&](SetOperation known) { return operation_name(known) == name; });
+         },
          "union; intersection; difference: the first without all others; xor: what is in one of "
          "two")
-      ->check(CLI::IsMember({"union", "intersection", "difference", "xor"}))
+      ->check(CLI::IsMember(names))
       ->type_name("NAME")
       ->required();
 }
