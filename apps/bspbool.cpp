@@ -88,6 +88,12 @@ void print_result(const BoolOptions& options, const std::string& written, Run& r
       number_of(options.inputs.size(), "solid"), options.step.output, written, seconds));
 }
 
+// Nothing is a solid, too, though no surface.
+void write_nothing(const WriteOptions& format, Run& run, const Findings& findings) {
+  write_soup({}, findings.output, format);
+  run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
+}
+
 ExitCode combine_files(const BoolOptions& options, Run& run) {
   Json operands = Json::array();
   std::vector<TriangleSoup> solids;
@@ -115,7 +121,11 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
     }
     const Surface surface = boolean_surface(tree, boolean_options, report);
     findings.repair = report.result;
-    write_mesh_stage(surface, format, options.step, run, findings);
+    if (surface.mesh.triangles.empty()) {
+      write_nothing(format, run, findings);
+    } else {
+      write_mesh_stage(surface, format, options.step, run, findings);
+    }
     if (!findings.withheld) print_result(options, what_was_written(surface), run);
     if (findings.missing_guarantees.empty()) return ExitCode::done;
     spdlog::error("{}: {} {}", findings.output_name(),
@@ -175,7 +185,7 @@ int main(int argc, char** argv) {
   app.add_option("IN", options.inputs,
                  "Two or more solids: meshes, which are repaired first, and trees (.bsp)")
       ->required()
-      ->expected(2, -1);
+      ->expected(-1);
   add_operation_option(app, options.operation);
   add_output_option(app, options.step.output, "OUT",
                     "Mesh or, if it ends in .bsp, tree to write; - is standard output");
@@ -188,6 +198,7 @@ int main(int argc, char** argv) {
   add_certify_options(app, options.step.repair.certify, options.step.strict);
   return program.run(argc, argv, [&](Run& run) {
     if (options.step.output.empty()) throw UsageError("the name of the output is empty");
+    if (options.inputs.size() < 2) throw UsageError("IN: two solids are needed, or more");
     for (const std::string& input : options.inputs) check_files(input, options.step.output, run);
     return combine_files(options, run);
   });
