@@ -1,13 +1,17 @@
 // bspbool A B ... --op OPERATION -o OUT: Boolean operations on solids.
-#include <boolean/boolean.h>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fmt/format.h>
-#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <spdlog/spdlog.h>
 
+#include <boolean/boolean.h>
 #include <bsp/error.h>
 
 #include "common/logging.h"
@@ -29,7 +33,8 @@ bool is_tree_name(const std::string& name) {
   return std::filesystem::path(name).extension() == ".bsp";
 }
 
-// A mesh is repaired first, a tree without labels gets some.
+// A mesh is repaired first, a tree without labels gets some. One in which nothing is solid is the
+// empty solid.
 Surface read_operand(const BoolOptions& options, Run& run, Findings& findings) {
   RepairOptions repair_options = options.step.repair;
   repair_options.progress = &run.progress;
@@ -37,7 +42,11 @@ Surface read_operand(const BoolOptions& options, Run& run, Findings& findings) {
     return repair(read_mesh_stage(run, findings), repair_options, findings.repair);
   }
   Tree tree = read_tree_stage(run, findings);
-  if (!findings.tree_read->labelled) label_tree(tree, repair_options, findings.repair);
+  if (!findings.tree_read->labelled) {
+    label_tree(tree, repair_options, findings.repair);
+  } else if (findings.tree_read->solid_leaves == 0) {
+    return {};
+  }
   return extract_mesh(tree, repair_options, findings.repair);
 }
 
@@ -45,7 +54,7 @@ Json facts_of_operand(const Findings& findings, const Surface& surface) {
   return {{"path", findings.input},
           {"triangles", surface.mesh.triangles.size()},
           {"volume", signed_volume(surface.mesh)},
-          {"certified", findings.repair.certify.passed()}};
+          {"certified", surface.mesh.triangles.empty() || findings.repair.certify.passed()}};
 }
 
 TriangleSoup take_operand(const BoolOptions& options, const std::string& name, Run& run,
@@ -56,7 +65,7 @@ TriangleSoup take_operand(const BoolOptions& options, const std::string& name, R
     surface = read_operand(options, run, findings);
     return ExitCode::done;
   });
-  if (!findings.repair.certify.passed()) {
+  if (!surface.mesh.triangles.empty() && !findings.repair.certify.passed()) {
     spdlog::warn("{}: could not be certified as a solid", findings.input_name());
   }
   facts.push_back(facts_of_operand(findings, surface));
@@ -94,48 +103,61 @@ void write_nothing(const WriteOptions& format, Run& run, const Findings& finding
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
 }
 
-ExitCode combine_files(const BoolOptions& options, Run& run) {
-  Json operands = Json::array();
-  std::vector<TriangleSoup> solids;
-  for (const std::string& name : options.inputs) {
-    solids.push_back(take_operand(options, name, run, operands));
+std::string all_names(const std::vector<std::string>& inputs) {
+  std::string names = inputs.front();
+  for (std::size_t i = 1; i < inputs.size(); ++i) names += ", " + inputs[i];
+  return names;
+}
+
+ExitCode write_tree_result(const Tree& tree, const BoolOptions& options, Run& run,
+                           Findings& findings) {
+  write_tree_stage(tree, run, findings);
+  print_result(options, number_of(tree.nodes.size(), "node"), run);
+  return ExitCode::done;
+}
+
+ExitCode write_mesh_result(const Surface& surface, const WriteOptions& format,
+                           const BoolOptions& options, Run& run, Findings& findings) {
+  if (surface.mesh.triangles.empty()) {
+    write_nothing(format, run, findings);
+  } else {
+    write_mesh_stage(surface, format, options.step, run, findings);
   }
+  if (!findings.withheld) print_result(options, what_was_written(surface), run);
+  if (findings.missing_guarantees.empty()) return ExitCode::done;
+  spdlog::error("{}: {} {}", findings.output_name(),
+                findings.withheld ? "not written, it would be" : "written, but",
+                findings.missing_guarantees);
+  return ExitCode::not_certified;
+}
+
+ExitCode combine_files(const BoolOptions& options, Run& run) {
+  const bool to_tree = is_tree_name(options.step.output);
   BooleanOptions boolean_options;
   boolean_options.test = options.test;
   boolean_options.repair = options.step.repair;
   boolean_options.repair.progress = &run.progress;
-  const bool to_tree = is_tree_name(options.step.output);
   WriteOptions format;
   if (!to_tree) {
     format = mesh_format(options.step);
     boolean_options.repair = certified_for(*format.format, boolean_options.repair);
   }
-  BooleanReport report;
-  Findings findings(options.inputs.front(), options.step.output);
-  const ExitCode code = with_findings(run, findings, [&] {
+  Json operands = Json::array();
+  std::vector<TriangleSoup> solids;
+  for (const std::string& name : options.inputs) {
+    solids.push_back(take_operand(options, name, run, operands));
+  }
+  run.report.set_section("operands", std::move(operands));
+  Findings findings(all_names(options.inputs), options.step.output);
+  return with_findings(run, findings, [&] {
+    BooleanReport report;
     const Tree tree = boolean_tree(solids, options.operation, boolean_options, report);
-    if (to_tree) {
-      write_tree_stage(tree, run, findings);
-      print_result(options, number_of(tree.nodes.size(), "node"), run);
-      return ExitCode::done;
-    }
+    run.report.set_section("boolean", merge_section(report, options.operation));
+    if (to_tree) return write_tree_result(tree, options, run, findings);
     const Surface surface = boolean_surface(tree, boolean_options, report);
     findings.repair = report.result;
-    if (surface.mesh.triangles.empty()) {
-      write_nothing(format, run, findings);
-    } else {
-      write_mesh_stage(surface, format, options.step, run, findings);
-    }
-    if (!findings.withheld) print_result(options, what_was_written(surface), run);
-    if (findings.missing_guarantees.empty()) return ExitCode::done;
-    spdlog::error("{}: {} {}", findings.output_name(),
-                  findings.withheld ? "not written, it would be" : "written, but",
-                  findings.missing_guarantees);
-    return ExitCode::not_certified;
+    return write_mesh_result(surface, format, options, run, findings);
   });
-  run.report.set_section("operands", std::move(operands));
-  run.report.set_section("boolean", merge_section(report, options.operation));
-  return code;
 }
 
 constexpr std::array kOperations = {SetOperation::unite, SetOperation::intersect,

@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <boolean/boolean.h>
+#include <sstream>
 #include <string>
 #include <utility>
 
+#include <boolean/boolean.h>
 #include <bsp/common_grid.h>
 #include <bsp/error.h>
 
@@ -25,9 +26,11 @@ RepairOptions with_winding(const RepairOptions& options) {
 }
 
 [[noreturn]] void throw_too_small(std::size_t operand, const Grid& grid) {
-  throw InputError("solid " + std::to_string(operand + 1) +
-                   " is nothing beside the others: on the grid of 2^26 steps over all, of " +
-                   std::to_string(grid.unit) + " each, it has no volume");
+  std::ostringstream message;
+  message << "solid " << operand + 1
+          << " is nothing beside the others: on the grid of 2^26 steps over all, of " << grid.unit
+          << " each, it has no volume";
+  throw InputError(message.str());
 }
 
 // On the grid of all operands.

@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <boolean/collapse_tree.h>
 #include <vector>
+
+#include <boolean/collapse_tree.h>
 
 namespace meshrepair {
 namespace {

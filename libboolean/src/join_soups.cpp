@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <boolean/join_soups.h>
 
+#include <boolean/join_soups.h>
 #include <bsp/error.h>
 #include <bsp/hash_index.h>
 

@@ -7,12 +7,12 @@
 // that both solids have is covered by the triangles of both.
 #include <algorithm>
 #include <array>
-#include <boolean/collapse_tree.h>
-#include <boolean/join_soups.h>
-#include <boolean/merge_trees.h>
 #include <utility>
 #include <vector>
 
+#include <boolean/collapse_tree.h>
+#include <boolean/join_soups.h>
+#include <boolean/merge_trees.h>
 #include <bsp/error.h>
 
 #include "region_tracker.h"

@@ -85,6 +85,7 @@ def main():
         "nan.obj": tetrahedron(extra="v nan nan nan", f1="f 1 3 2\nf 1 2 5"),
         "not_finite.obj": tetrahedron(a="v nan 0 0", b="v inf 0 0", c="v 0 nan 0"),
         "single_triangle.obj": SINGLE_TRIANGLE,
+        "huge.obj": tetrahedron(b="v 1e12 0 0", c="v 0 1e12 0", d="v 0 0 1e12"),
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
         "open.obj": tetrahedron(f3=""),

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <boolean/boolean.h>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include <boolean/boolean.h>
 #include <bsp/error.h>
 
 #include "shapes.h"

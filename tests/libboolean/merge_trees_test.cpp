@@ -1,8 +1,7 @@
-#include <boolean/collapse_tree.h>
-#include <boolean/merge_trees.h>
-
 #include <gtest/gtest.h>
 
+#include <boolean/collapse_tree.h>
+#include <boolean/merge_trees.h>
 #include <bsp/common_grid.h>
 #include <bsp/error.h>
 #include <extract/build_cells.h>

@@ -1,10 +1,11 @@
 // Boolean operations on random pairs of solids, of which half share faces, edges or corners.
 #include <algorithm>
-#include <boolean/boolean.h>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <boolean/boolean.h>
 
 #include "random_geometry.h"
 #include "shapes.h"

@@ -1,11 +1,11 @@
 // Union, intersection, difference and symmetric difference of solids (WM 6.1).
 #pragma once
 
-#include <boolean/merge_trees.h>
-#include <boolean/set_operation.h>
 #include <span>
 #include <vector>
 
+#include <boolean/merge_trees.h>
+#include <boolean/set_operation.h>
 #include <repair/repair.h>
 
 namespace meshrepair {

@@ -2,10 +2,10 @@
 // 2008).
 #pragma once
 
-#include <boolean/set_operation.h>
 #include <cstddef>
 #include <cstdint>
 
+#include <boolean/set_operation.h>
 #include <bsp/progress.h>
 #include <bsp/tree.h>
 
