@@ -13,10 +13,12 @@
 
 #include <boolean/boolean.h>
 #include <bsp/error.h>
+#include <extract/check_surface.h>
 
 #include "common/logging.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
+#include "common/report_sections.h"
 #include "common/summary.h"
 
 namespace meshrepair {
@@ -33,13 +35,34 @@ bool is_tree_name(const std::string& name) {
   return std::filesystem::path(name).extension() == ".bsp";
 }
 
-// A mesh is repaired first, a tree without labels gets some. One in which nothing is solid is the
-// empty solid.
-Surface read_operand(const BoolOptions& options, Run& run, Findings& findings) {
+struct Operand {
+  TriangleSoup solid;
+  bool as_given = false;  // was the boundary of a solid already
+};
+
+// Repair leaves a solid as it is, but for the rules that fill what is hollow.
+bool is_solid_already(const TriangleSoup& soup, const RepairOptions& options, Findings& findings) {
+  const bool may_fill =
+      options.inside.rule == InsideRule::solidity || options.inside.cavities == Cavities::fill;
+  if (may_fill) return false;
+  StageMeter meter(findings.repair.stages, options.progress);
+  meter.begin("validate");
+  CancelOnly quiet(options.progress);
+  CheckOptions check;
+  check.most_places = 0;
+  check.progress = &quiet;
+  return check_surface(soup, check).valid_solid();
+}
+
+// A mesh that is no solid is repaired, a tree without labels gets some. One in which nothing is
+// solid is the empty solid.
+Operand read_operand(const BoolOptions& options, Run& run, Findings& findings) {
   RepairOptions repair_options = options.step.repair;
   repair_options.progress = &run.progress;
   if (!is_tree_name(findings.input)) {
-    return repair(read_mesh_stage(run, findings), repair_options, findings.repair);
+    TriangleSoup soup = read_mesh_stage(run, findings);
+    if (is_solid_already(soup, repair_options, findings)) return {std::move(soup), true};
+    return {repair(soup, repair_options, findings.repair).mesh};
   }
   Tree tree = read_tree_stage(run, findings);
   if (!findings.tree_read->labelled) {
@@ -47,29 +70,35 @@ Surface read_operand(const BoolOptions& options, Run& run, Findings& findings) {
   } else if (findings.tree_read->solid_leaves == 0) {
     return {};
   }
-  return extract_mesh(tree, repair_options, findings.repair);
+  return {extract_mesh(tree, repair_options, findings.repair).mesh};
 }
 
-Json facts_of_operand(const Findings& findings, const Surface& surface) {
+bool is_certified(const Operand& operand, const Findings& findings) {
+  return operand.as_given || operand.solid.triangles.empty() || findings.repair.certify.passed();
+}
+
+Json facts_of_operand(const Operand& operand, const Findings& findings) {
   return {{"path", findings.input},
-          {"triangles", surface.mesh.triangles.size()},
-          {"volume", signed_volume(surface.mesh)},
-          {"certified", surface.mesh.triangles.empty() || findings.repair.certify.passed()}};
+          {"triangles", operand.solid.triangles.size()},
+          {"volume", signed_volume(operand.solid)},
+          {"as_given", operand.as_given},
+          {"certified", is_certified(operand, findings)},
+          {"stages", stages_section(findings.repair.stages)}};
 }
 
 TriangleSoup take_operand(const BoolOptions& options, const std::string& name, Run& run,
                           Json& facts) {
   Findings findings(name, "");
-  Surface surface;
+  Operand operand;
   (void)with_findings(run, findings, [&] {
-    surface = read_operand(options, run, findings);
+    operand = read_operand(options, run, findings);
     return ExitCode::done;
   });
-  if (!surface.mesh.triangles.empty() && !findings.repair.certify.passed()) {
+  if (!is_certified(operand, findings)) {
     spdlog::warn("{}: could not be certified as a solid", findings.input_name());
   }
-  facts.push_back(facts_of_operand(findings, surface));
-  return std::move(surface.mesh);
+  facts.push_back(facts_of_operand(operand, findings));
+  return std::move(operand.solid);
 }
 
 Json merge_section(const BooleanReport& report, SetOperation operation) {
@@ -205,7 +234,7 @@ int main(int argc, char** argv) {
                   "  bspbool a.bsp b.bsp --op intersection -o both.bsp\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.inputs,
-                 "Two or more solids: meshes, which are repaired first, and trees (.bsp)")
+                 "Two or more solids: meshes, repaired first where they are none, and trees (.bsp)")
       ->required()
       ->expected(-1);
   add_operation_option(app, options.operation);

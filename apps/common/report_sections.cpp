@@ -174,9 +174,13 @@ Json result_of(const Findings& findings) {
           {"closing_area", repair.closing_area}};
 }
 
-Json stages_of(const RepairReport& repair) {
+}  // namespace
+
+Json read_section(const ReadReport& read) { return section_of(read); }
+
+Json stages_section(const std::vector<StageReport>& reports) {
   Json stages = Json::array();
-  for (const StageReport& stage : repair.stages) {
+  for (const StageReport& stage : reports) {
     stages.push_back({{"name", stage.name},
                       {"seconds", stage.seconds},
                       {"cpu_seconds", stage.cpu_seconds},
@@ -184,10 +188,6 @@ Json stages_of(const RepairReport& repair) {
   }
   return stages;
 }
-
-}  // namespace
-
-Json read_section(const ReadReport& read) { return section_of(read); }
 
 void add_sections(const Findings& findings, JsonReport& report) {
   const RepairReport& repair = findings.repair;
@@ -211,7 +211,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("certificate", certificate_of(repair));
   }
   if (findings.fidelity) report.set_section("distance", distance_section(*findings.fidelity));
-  report.set_stages(stages_of(repair));
+  report.set_stages(stages_section(repair.stages));
 }
 
 }  // namespace meshrepair

@@ -1,6 +1,10 @@
 // The sections that findings make in the JSON report (README.md, "Report").
 #pragma once
 
+#include <vector>
+
+#include <repair/stage_meter.h>
+
 #include "common/json_report.h"
 #include "common/repair_steps.h"
 
@@ -8,6 +12,9 @@ namespace meshrepair {
 
 // One section for each part of the work that was begun.
 void add_sections(const Findings& findings, JsonReport& report);
+
+// Name, times and peak of each.
+[[nodiscard]] Json stages_section(const std::vector<StageReport>& stages);
 
 // What a reader found in one mesh, as in the section "read".
 [[nodiscard]] Json read_section(const ReadReport& read);

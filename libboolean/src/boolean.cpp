@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <boolean/boolean.h>
+#include <boolean/label_beside_triangles.h>
 #include <bsp/common_grid.h>
 #include <bsp/error.h>
 
@@ -41,12 +42,14 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   if (solid.triangles.empty()) return empty_tree(grid);
   CleanSoup clean = clean_soup(solid, grid, operand.clean, options.repair.progress);
   if (clean.triangles.empty()) throw_too_small(number, grid);
+  CancelOnly quiet(options.repair.progress);
+  const bool is_solid = bounds_a_solid(clean, &quiet);
   BuildTreeOptions tree_options = options.repair.tree;
   tree_options.progress = options.repair.progress;
   Tree tree = build_tree(std::move(clean), tree_options, operand.tree);
+  if (is_solid && label_beside_triangles(tree)) return tree;
   RepairReport labels;
   RepairOptions label_options = with_winding(options.repair);
-  CancelOnly quiet(options.repair.progress);
   label_options.progress = &quiet;
   try {
     label_tree(tree, label_options, labels);

@@ -7,6 +7,7 @@
 // that both solids have is covered by the triangles of both.
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -81,12 +82,13 @@ class Merger {
 
   void follow_first(Step& step) {
     if (!step.at.is_leaf()) {
+      if (has_one_label(step)) return copy_first(step);
       const TreeNode& node = first_.nodes[step.at.node()];
       return add_node(step, node, node.plane);
     }
     const Leaf& leaf = first_.leaves[step.at.leaf()];
     if (const auto label = decided_by(operation_, leaf.label)) {
-      return add_leaf(step, {*label, leaf.confidence});
+      return hang(step.parent, step.side, add_leaf({*label, leaf.confidence}));
     }
     step.phase = Phase::second;
     step.first = leaf;
@@ -95,6 +97,15 @@ class Merger {
   }
 
   void follow_second(Step& step) {
+    if (const auto plane = next_cut(step)) {
+      return add_node(step, second_.nodes[step.at.node()], *plane);
+    }
+    hang(step.parent, step.side, add_leaf(combined(step.first, second_.leaves[step.at.leaf()])));
+  }
+
+  // Walks down the second tree to the next node that cuts the region into parts that may differ in
+  // label, and returns its plane, or to a leaf.
+  std::optional<PlaneId> next_cut(Step& step) {
     while (!step.at.is_leaf()) {
       const TreeNode& node = second_.nodes[step.at.node()];
       const PlaneId plane = map_.second_plane[node.plane];
@@ -102,47 +113,86 @@ class Merger {
       ++report_.regions;
       report_.cut_regions += sides.above && sides.below;
       if (sides.above && sides.below) {
-        if (!has_one_label(step)) return add_node(step, node, plane);
+        if (!has_one_label(step)) return plane;
         step.region = regions_->cut(step.region, plane)[0];
       }
       step.at = node.child[sides.above ? 0 : 1];
     }
-    const Leaf& leaf = second_.leaves[step.at.leaf()];
-    add_leaf(step, {combine(operation_, step.first.label, leaf.label),
-                    std::min(step.first.confidence, leaf.confidence)});
+    return std::nullopt;
   }
 
-  // Then a part of the region is enough to find the label of all.
+  // Whether the second tree says the same of the whole region: then a part of it is enough to find
+  // what.
   [[nodiscard]] bool has_one_label(const Step& step) const {
     return options_.sealed && step.triangles.empty();
   }
 
-  void add_leaf(const Step& step, const Leaf& leaf) {
-    hang(step, TreeRef(merged_.leaves.push_back(leaf)));
+  // The nodes of the first tree in a region that has one label in the second.
+  void copy_first(Step& step) {
+    struct Place {
+      TreeRef at;
+      std::uint32_t parent;
+      std::size_t side;
+    };
+    std::vector<Place> places{{step.at, step.parent, step.side}};
+    step.at = second_.root;
+    (void)next_cut(step);
+    const Leaf& second = second_.leaves[step.at.leaf()];
+    while (!places.empty()) {
+      const Place place = places.back();
+      places.pop_back();
+      if (place.at.is_leaf()) {
+        const Leaf& first = first_.leaves[place.at.leaf()];
+        hang(place.parent, place.side, add_leaf(combined(first, second)));
+        continue;
+      }
+      const TreeNode& node = first_.nodes[place.at.node()];
+      TreeNode copy = begin_node(node.plane);
+      add_triangles_of_first(node);
+      sort_triangles_at_node(copy);
+      const NodeId id = merged_.nodes.push_back(copy);
+      hang(place.parent, place.side, TreeRef(id));
+      for (const std::size_t side : {1u, 0u}) places.push_back({node.child[side], id.value, side});
+    }
   }
 
-  void hang(const Step& step, TreeRef ref) {
-    if (step.parent == kRoot) {
+  [[nodiscard]] Leaf combined(const Leaf& first, const Leaf& second) const {
+    return {combine(operation_, first.label, second.label),
+            std::min(first.confidence, second.confidence)};
+  }
+
+  TreeRef add_leaf(const Leaf& leaf) { return TreeRef(merged_.leaves.push_back(leaf)); }
+
+  void hang(std::uint32_t parent, std::size_t side, TreeRef ref) {
+    if (parent == kRoot) {
       merged_.root = ref;
     } else {
-      merged_.nodes[NodeId(step.parent)].child[step.side] = ref;
+      merged_.nodes[NodeId(parent)].child[side] = ref;
+    }
+  }
+
+  // Its triangles are those that node_triangles gets from now on.
+  [[nodiscard]] TreeNode begin_node(PlaneId plane) const {
+    TreeNode node;
+    node.plane = plane;
+    node.first_triangle = static_cast<std::uint32_t>(merged_.node_triangles.size());
+    return node;
+  }
+
+  void add_triangles_of_first(const TreeNode& node) {
+    for (std::uint32_t i = 0; i < node.triangle_count; ++i) {
+      const TriangleId t = first_.node_triangles[node.first_triangle + i];
+      merged_.node_triangles.push_back(map_.first_triangle[t]);
     }
   }
 
   void add_node(Step& step, const TreeNode& node, PlaneId plane) {
-    TreeNode added;
-    added.plane = plane;
-    added.first_triangle = static_cast<std::uint32_t>(merged_.node_triangles.size());
-    if (step.phase == Phase::first) {
-      for (std::uint32_t i = 0; i < node.triangle_count; ++i) {
-        const TriangleId t = first_.node_triangles[node.first_triangle + i];
-        merged_.node_triangles.push_back(map_.first_triangle[t]);
-      }
-    }
+    TreeNode added = begin_node(plane);
+    if (step.phase == Phase::first) add_triangles_of_first(node);
     std::array<std::vector<TriangleId>, 2> parts = part_triangles(step.triangles, plane);
     sort_triangles_at_node(added);
     const NodeId id = merged_.nodes.push_back(added);
-    hang(step, TreeRef(id));
+    hang(step.parent, step.side, TreeRef(id));
     const auto regions = regions_->cut(step.region, plane);
     for (const std::size_t side : {1u, 0u}) {
       steps_.push_back({step.phase, node.child[side], step.first, id.value, side, regions[side],
