@@ -4,11 +4,13 @@ set -euo pipefail
 
 usage() {
   cat <<TEXT
-Usage: scripts/setup.sh [build|all]
+Usage: scripts/setup.sh [build|all|bench]
 
   build   what is needed to build the programs and to run the tests
   all     the same, and what the checks need: clang-format, clang-tidy, and the
           runtime of clang's fuzzer (default)
+  bench   what is needed to build, and the libraries that the benchmarks compare
+          this project with
 
 Asks for nothing, and does nothing if all is there. Needs Debian 12 or a relative of it, and root or sudo
 if something is missing.
@@ -40,9 +42,17 @@ check_packages=(
   python3-numpy
 )
 
+bench_packages=(
+  libcgal-dev
+  libgmp-dev
+  libmpfr-dev
+  libopenvdb-dev
+)
+
 case "${1:-all}" in
   build) packages=("${build_packages[@]}") ;;
   all) packages=("${build_packages[@]}" "${check_packages[@]}") ;;
+  bench) packages=("${build_packages[@]}" "${bench_packages[@]}") ;;
   -h | --help) usage; exit 0 ;;
   *) usage >&2; exit 2 ;;
 esac
