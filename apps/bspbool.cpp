@@ -77,13 +77,16 @@ bool is_certified(const Operand& operand, const Findings& findings) {
   return operand.as_given || operand.solid.triangles.empty() || findings.repair.certify.passed();
 }
 
-Json facts_of_operand(const Operand& operand, const Findings& findings) {
-  return {{"path", findings.input},
-          {"triangles", operand.solid.triangles.size()},
-          {"volume", signed_volume(operand.solid)},
-          {"as_given", operand.as_given},
-          {"certified", is_certified(operand, findings)},
-          {"stages", stages_section(findings.repair.stages)}};
+// With the sections that a report of it alone would have.
+Json facts_of_operand(const Operand& operand, const Findings& findings, Json sections) {
+  Json facts = {{"path", findings.input},
+                {"triangles", operand.solid.triangles.size()},
+                {"volume", signed_volume(operand.solid)},
+                {"as_given", operand.as_given},
+                {"certified", is_certified(operand, findings)}};
+  facts.update(sections);
+  facts["stages"] = stages_section(findings.repair.stages);
+  return facts;
 }
 
 TriangleSoup take_operand(const BoolOptions& options, const std::string& name, Run& run,
@@ -94,11 +97,23 @@ TriangleSoup take_operand(const BoolOptions& options, const std::string& name, R
     operand = read_operand(options, run, findings);
     return ExitCode::done;
   });
+  warn_of_findings(findings);
   if (!is_certified(operand, findings)) {
     spdlog::warn("{}: could not be certified as a solid", findings.input_name());
   }
-  facts.push_back(facts_of_operand(operand, findings));
+  facts.push_back(facts_of_operand(operand, findings, run.report.take_sections()));
   return std::move(operand.solid);
+}
+
+// What repair says of its own grid, of the one of all operands.
+void warn_of_common_grid(const BoolOptions& options, const BooleanReport& report) {
+  for (std::size_t i = 0; i < report.operands.size(); ++i) {
+    const CleanReport& clean = report.operands[i].clean;
+    if (clean.dropped_below_grid == 0) continue;
+    spdlog::warn(
+        "{}: {} narrower than the steps of the grid over all solids, {:.3g} each, and left out",
+        options.inputs[i], number_of(clean.dropped_below_grid, "triangle"), clean.grid_unit);
+  }
 }
 
 Json merge_section(const BooleanReport& report, SetOperation operation) {
@@ -130,6 +145,8 @@ void print_result(const BoolOptions& options, const std::string& written, Run& r
 void write_nothing(const WriteOptions& format, Run& run, const Findings& findings) {
   write_soup({}, findings.output, format);
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
+  run.report.set_section("result",
+                         {{"triangles", 0}, {"points", 0}, {"parts", 0}, {"volume", 0.0}});
 }
 
 std::string all_names(const std::vector<std::string>& inputs) {
@@ -153,11 +170,7 @@ ExitCode write_mesh_result(const Surface& surface, const WriteOptions& format,
     write_mesh_stage(surface, format, options.step, run, findings);
   }
   if (!findings.withheld) print_result(options, what_was_written(surface), run);
-  if (findings.missing_guarantees.empty()) return ExitCode::done;
-  spdlog::error("{}: {} {}", findings.output_name(),
-                findings.withheld ? "not written, it would be" : "written, but",
-                findings.missing_guarantees);
-  return ExitCode::not_certified;
+  return verdict(findings);
 }
 
 ExitCode combine_files(const BoolOptions& options, Run& run) {
@@ -182,6 +195,7 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
     BooleanReport report;
     const Tree tree = boolean_tree(solids, options.operation, boolean_options, report);
     run.report.set_section("boolean", merge_section(report, options.operation));
+    warn_of_common_grid(options, report);
     if (to_tree) return write_tree_result(tree, options, run, findings);
     const Surface surface = boolean_surface(tree, boolean_options, report);
     findings.repair = report.result;

@@ -54,6 +54,8 @@ void JsonReport::set_section(const std::string& key, Json section) {
   sections_[key] = std::move(section);
 }
 
+Json JsonReport::take_sections() { return std::exchange(sections_, Json::object()); }
+
 std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failure,
                              const ProgressBar& progress) const {
   Json report = head_;

@@ -40,6 +40,9 @@ class JsonReport {
   // Adds a section, or replaces it. Pre: not one of the keys above.
   void set_section(const std::string& key, Json section);
 
+  // Hands over all sections; the report is without them then.
+  [[nodiscard]] Json take_sections();
+
   // The stages with what the program measured of each; without it they are those of the progress.
   void set_stages(Json stages);
 

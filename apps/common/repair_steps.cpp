@@ -117,14 +117,6 @@ std::string missing_guarantees(const Findings& findings, SoupFormat format) {
   return missing.empty() ? missing : missing.substr(2);
 }
 
-ExitCode verdict(const Findings& findings) {
-  if (findings.missing_guarantees.empty()) return ExitCode::done;
-  spdlog::error("{}: {} {}", findings.output_name(),
-                findings.withheld ? "not written, it would be" : "written, but",
-                findings.missing_guarantees);
-  return ExitCode::not_certified;
-}
-
 ReadOptions read_options(Run& run) {
   ReadOptions options;
   if (run.options.max_triangles > 0) options.max_triangles = run.options.max_triangles;
@@ -139,12 +131,24 @@ ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
     return ExitCode::done;
   });
   if (!findings.withheld) print_summary(run, findings);
-  warn_of_coarse_grid(findings);
-  warn_of_made_up_surface(findings);
+  warn_of_findings(findings);
   return verdict(findings);
 }
 
 }  // namespace
+
+ExitCode verdict(const Findings& findings) {
+  if (findings.missing_guarantees.empty()) return ExitCode::done;
+  spdlog::error("{}: {} {}", findings.output_name(),
+                findings.withheld ? "not written, it would be" : "written, but",
+                findings.missing_guarantees);
+  return ExitCode::not_certified;
+}
+
+void warn_of_findings(const Findings& findings) {
+  warn_of_coarse_grid(findings);
+  warn_of_made_up_surface(findings);
+}
 
 bool is_same_file(const std::string& a, const std::string& b) {
   if (a == "-" || b == "-") return a == b;

@@ -82,6 +82,12 @@ void check_files(const std::string& input, const std::string& output, Run& run);
 // that do not name it are given its name.
 ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
 
+// What users should know of an input and of what became of it, though it is no error.
+void warn_of_findings(const Findings& findings);
+
+// Not certified, and an error logged, where the output is without a guarantee.
+[[nodiscard]] ExitCode verdict(const Findings& findings);
+
 // Throws UsageError where no format can be told, or it cannot hold the sources that are asked for.
 [[nodiscard]] WriteOptions mesh_format(const StepOptions& options);
 
