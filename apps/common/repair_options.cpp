@@ -20,8 +20,10 @@ constexpr std::array<Choice<InsideRule>, 4> kRules = {{{"auto", InsideRule::auto
                                                        {"parity", InsideRule::parity},
                                                        {"winding", InsideRule::winding}}};
 
-constexpr std::array<Choice<HoleMode>, 3> kHoleModes = {
-    {{"patch", HoleMode::patch}, {"extend", HoleMode::extend}, {"none", HoleMode::none}}};
+constexpr std::array<Choice<HoleMode>, 4> kHoleModes = {{{"patch", HoleMode::patch},
+                                                         {"flat", HoleMode::flat},
+                                                         {"extend", HoleMode::extend},
+                                                         {"none", HoleMode::none}}};
 
 constexpr std::array<Choice<Cavities>, 2> kCavities = {
     {{"keep", Cavities::keep}, {"fill", Cavities::fill}}};
@@ -91,7 +93,9 @@ void add_holes_option(CLI::App& app, HoleOptions& holes) {
   add_choice(
       app, "--holes", kHoleModes, [&holes](HoleMode value) { holes.mode = value; },
       "How to close holes and gaps:\n"
-      "  patch   with triangles over each hole; what is left, as with extend\n"
+      "  patch   with triangles over each hole, bent where the surface around it\n"
+      "          is; what is left, as with extend\n"
+      "  flat    the same without new points\n"
       "  extend  along planes that the mesh already has\n"
       "  none    not at all: a part with a hole encloses nothing\n")
       ->default_str(std::string(hole_mode_name(holes.mode)))

@@ -60,6 +60,7 @@ Json defects_of(const RepairReport& repair) {
 Json section_of(const HoleReport& holes) {
   return {{"loops", holes.loops},
           {"closed", holes.closed},
+          {"curved", holes.curved},
           {"rings", holes.rings},
           {"slits", holes.slits},
           {"too_large", holes.too_large},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,11 @@
 #include <repair/orient_parts.h>
 
 #include "boundary_loops.h"
+#include "collars.h"
+#include "curve_patch.h"
 #include "facing_rims.h"
 #include "loop_triangulation.h"
+#include "new_points.h"
 #include "rim.h"
 #include "strip_triangulation.h"
 
@@ -68,6 +72,7 @@ class HolePatcher {
         report_(report),
         progress_(progress),
         triangles_(index_triangles(soup)),
+        new_points_(soup),
         sheets_{DisjointSets(triangles_.size()), {}} {}
 
   void run() {
@@ -82,6 +87,7 @@ class HolePatcher {
     find_rims();
     triangulate();
     close_rings();
+    curve();
     for (std::size_t l = 0; l < patches_.size(); ++l) close_hole(l);
     drop_copies();
     report_.area *= soup_.grid.unit * soup_.grid.unit;
@@ -198,8 +204,23 @@ class HolePatcher {
     return patches_[loop].area * options_.largest_share > kLargeOpening * allowed;
   }
 
+  void curve() {
+    curved_.resize(rims_.size());
+    if (options_.mode == HoleMode::flat) return;
+    const std::vector<internal::Collar> collars = internal::find_collars(soup_, triangles_, loops_);
+    SharedProgress shared(progress_, rims_.size());
+    tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
+      if (closed_[l] == 0 && !patches_[l].too_large) {
+        curved_[l] =
+            internal::curve_patch(rims_[l], patches_[l], collars[l], [&] { shared.poll(); });
+      }
+      shared.done();
+    });
+  }
+
   void close_hole(std::size_t loop) {
     if (closed_[loop] != 0) return;
+    if (curved_[loop]) return close_curved(loop);
     const LoopTriangulation& patch = patches_[loop];
     if (patch.too_large) {
       ++report_.too_large;
@@ -216,6 +237,23 @@ class HolePatcher {
     } else {
       note_patch(1, patch.area, rims_[loop].size());
     }
+  }
+
+  void close_curved(std::size_t loop) {
+    const internal::PatchMesh& patch = *curved_[loop];
+    std::vector<PointId> ids;
+    for (const std::uint32_t p : loops_.points_of(loop)) ids.emplace_back(p);
+    for (std::size_t i = ids.size(); i < patch.points.size(); ++i) {
+      ids.push_back(new_points_.add(patch.points[i]));
+    }
+    const bool turn = runs_along_surface(loop);
+    double area = 0;
+    for (const auto& t : patch.triangles) {
+      add({ids[t[0]], ids[t[1]], ids[t[2]]}, turn);
+      area += internal::triangle_area(patch.points[t[0]], patch.points[t[1]], patch.points[t[2]]);
+    }
+    ++report_.curved;
+    note_patch(1, area, rims_[loop].size());
   }
 
   void note_patch(std::size_t loops, double area, std::size_t longest) {
@@ -284,12 +322,14 @@ class HolePatcher {
   HoleReport& report_;
   ProgressObserver* progress_;
   std::vector<IndexTriangle> triangles_;
+  internal::NewPoints new_points_;
   Sheets sheets_;
   BoundaryLoops loops_;
-  std::vector<Rim> rims_;                   // of each loop
-  std::vector<LoopTriangulation> patches_;  // of each loop
-  std::vector<char> closed_;                // of each loop: by a ring
-  std::vector<std::uint32_t> roots_;        // scratch
+  std::vector<Rim> rims_;                                   // of each loop
+  std::vector<LoopTriangulation> patches_;                  // of each loop
+  std::vector<char> closed_;                                // of each loop: by a ring
+  std::vector<std::optional<internal::PatchMesh>> curved_;  // of each loop
+  std::vector<std::uint32_t> roots_;                        // scratch
 };
 
 }  // namespace
@@ -298,6 +338,8 @@ std::string_view hole_mode_name(HoleMode mode) {
   switch (mode) {
     case HoleMode::patch:
       return "patch";
+    case HoleMode::flat:
+      return "flat";
     case HoleMode::extend:
       return "extend";
     case HoleMode::none:
@@ -310,7 +352,7 @@ void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report
                  ProgressObserver* progress) {
   report = {};
   if (!(options.largest_share >= 0)) throw UsageError("the largest hole is to be 0 or more");
-  if (options.mode != HoleMode::patch) return;
+  if (options.mode != HoleMode::patch && options.mode != HoleMode::flat) return;
   HolePatcher(soup, options, report, progress).run();
 }
 

@@ -11,6 +11,7 @@ namespace meshrepair {
 
 enum class HoleMode {
   patch,   // triangles close the holes; what stays open is as with `extend`
+  flat,    // the same, between the points of each rim alone
   extend,  // the optimisation closes gaps along planes that are there (WM)
   none,    // what is not sealed off by the triangles alone is outside
 };
@@ -30,6 +31,7 @@ struct HoleOptions {
 struct HoleReport {
   std::size_t loops = 0;         // closed walks of edges at which an odd number of triangles meet
   std::size_t closed = 0;        // of these
+  std::size_t curved = 0;        // of the closed ones: by patches with points of their own
   std::size_t rings = 0;         // between two of these
   std::size_t slits = 0;         // all points in a line: nothing to be closed
   std::size_t too_large = 0;     // left open, as the options say, or because
@@ -42,11 +44,13 @@ struct HoleReport {
 };
 
 // Adds triangles with Triangle::source kNoSource that close the holes: over each loop a
-// triangulation of its own points, of little area and with few folds (Liepa 2003). A loop is found
+// triangulation of its own points, of little area and with few folds, and where the surface around
+// it is curved, with HoleMode::patch, one with new points that goes on as the surface does (Liepa
+// 2003). A loop is found
 // whatever the orientation of the triangles around it, and also where three or more meet at an
 // edge. Two loops that face each other across a gap, as the rims of a missing ring or of
 // two halves do, are joined by a ring where that has less area than two patches. Patches may cross
-// anything. Does nothing unless options.mode is `patch`. Throws UsageError where the
+// anything. Does nothing unless options.mode is `patch` or `flat`. Throws UsageError where the
 // share is not a number from 0 on, Cancelled.
 void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report,
                  ProgressObserver* progress = nullptr);
