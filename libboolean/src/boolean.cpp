@@ -46,6 +46,8 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   Tree tree = build_tree(std::move(clean), tree_options, operand.tree);
   RepairReport labels;
   RepairOptions label_options = with_winding(options.repair);
+  // The merge relies on the labels being those of closed surfaces.
+  label_options.predicates = Predicates::exact;
   CancelOnly quiet(options.repair.progress);
   label_options.progress = &quiet;
   try {
