@@ -133,12 +133,14 @@ std::string what_was_written(const Surface& surface) {
                      signed_volume(surface.mesh));
 }
 
-void print_result(const BoolOptions& options, const std::string& written, Run& run) {
+void print_result(const BoolOptions& options, const RepairReport& repair,
+                  const std::string& written, Run& run) {
   const double seconds = run.progress.seconds();
   run.progress.finish();
-  print_summary(fmt::format(
-      "operands  {} of {}\nwritten   {}: {}, in {:.2f} s\n", operation_name(options.operation),
-      number_of(options.inputs.size(), "solid"), options.step.output, written, seconds));
+  print_summary(fmt::format("operands  {} of {}\n{}written   {}: {}, in {:.2f} s\n",
+                            operation_name(options.operation),
+                            number_of(options.inputs.size(), "solid"), predicates_summary(repair),
+                            options.step.output, written, seconds));
 }
 
 // Nothing is a solid, too, though no surface.
@@ -158,7 +160,7 @@ std::string all_names(const std::vector<std::string>& inputs) {
 ExitCode write_tree_result(const Tree& tree, const BoolOptions& options, Run& run,
                            Findings& findings) {
   write_tree_stage(tree, run, findings);
-  print_result(options, number_of(tree.nodes.size(), "node"), run);
+  print_result(options, findings.repair, number_of(tree.nodes.size(), "node"), run);
   return ExitCode::done;
 }
 
@@ -169,7 +171,7 @@ ExitCode write_mesh_result(const Surface& surface, const WriteOptions& format,
   } else {
     write_mesh_stage(surface, format, options.step, run, findings);
   }
-  if (!findings.withheld) print_result(options, what_was_written(surface), run);
+  if (!findings.withheld) print_result(options, findings.repair, what_was_written(surface), run);
   return verdict(findings);
 }
 
@@ -259,6 +261,7 @@ int main(int argc, char** argv) {
   add_max_hole_option(app, options.step.repair.holes);
   add_touching_option(app, options.step.repair.extract.touching);
   add_regions_option(app, options.test);
+  add_predicates_options(app, options.step.repair);
   add_format_option(app, options.step.format);
   add_certify_options(app, options.step.repair.certify, options.step.strict);
   return program.run(argc, argv, [&](Run& run) {

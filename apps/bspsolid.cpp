@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
                     "Labelled tree to write (.bsp), may be TREE; - is standard output");
   add_inside_options(app, options.repair.inside);
   add_holes_option(app, options.repair.holes);
+  add_predicates_options(app, options.repair);
   add_check_cells_option(app, options.repair.check_cells);
   return run_steps(program, argc, argv, options, label);
 }

@@ -332,12 +332,13 @@ def clip_seeds():
         (1, 2, 3), (2 ** 26 - 1, 7, 2 ** 25), (2 ** 25, 2 ** 26 - 3, 11)))
     cuts = [halves, quarters, oblique, corner, along_axis, again, beside, fine]
     seeds = {}
-    for answers, name in enumerate(("exact", "any_plane", "lies")):
-        seeds[f"{name}_cube"] = bytes([answers]) + cube + b"".join(cuts)
+    for answers, name in enumerate(("exact", "any_plane", "lies", "float")):
+        tolerance = bytes([29] * (answers == 3))  # 2^-5 grid steps
+        seeds[f"{name}_cube"] = bytes([answers]) + cube + tolerance + b"".join(cuts)
         chance = random.Random(answers)
         mixed = b"".join(chance.choice(cuts) + bytes([chance.randrange(256)] * (4 * (answers == 2)))
                          for _ in range(12))
-        seeds[f"{name}_mixed"] = bytes([answers]) + bytes(range(3, 9)) + mixed
+        seeds[f"{name}_mixed"] = bytes([answers]) + bytes(range(3, 9)) + tolerance + mixed
         seeds[f"{name}_chance"] = bytes([answers]) + chance.randbytes(200)
     return seeds
 
@@ -391,6 +392,7 @@ def repair_seeds():
     seeds = {}
     for index, (name, soup) in enumerate(soups.items()):
         seeds[name] = request() + soup
+        seeds[name + "_float"] = request(flags=128, change=index % 4, chosen=index) + soup
         seeds[name + "_changed"] = request(rule=1 + index % 3, holes=index % 3, flags=index * 7 % 32,
                                            change=1 + index % 3) + soup
     return seeds

@@ -9,6 +9,8 @@
 
 #include <CLI/Validators.hpp>
 
+#include <bsp/error.h>
+
 namespace meshrepair {
 namespace {
 
@@ -38,6 +40,9 @@ constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl
 constexpr std::array<Choice<Precision>, 2> kPrecisions = {
     {{"float64", Precision::float64}, {"float32", Precision::float32}}};
 
+constexpr std::array<Choice<Predicates>, 2> kPredicates = {
+    {{"exact", Predicates::exact}, {"float", Predicates::floating}}};
+
 constexpr std::array<Choice<Touching>, 2> kTouchings = {
     {{"separate", Touching::separate}, {"join", Touching::join}}};
 
@@ -66,6 +71,15 @@ std::string why_no_share(const std::string& word) {
   double value = 0;
   const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
   return is_number && value >= 0 ? std::string() : word + " is not a share: a number from 0 on";
+}
+
+// For CLI11: an empty text where the word is a tolerance.
+std::string why_no_epsilon(const std::string& word) {
+  double value = 0;
+  const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
+  return is_number && value >= 0 && value <= 1
+             ? std::string()
+             : word + " is not a share of the largest side: a number from 0 to 1";
 }
 
 }  // namespace
@@ -151,6 +165,29 @@ void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
       ->group("Output");
   app.add_flag("--strict", strict, "Write nothing when the result cannot be certified")
       ->group("Output");
+}
+
+void add_predicates_options(CLI::App& app, RepairOptions& repair) {
+  add_choice(
+      app, "--predicates", kPredicates, [&repair](Predicates value) { repair.predicates = value; },
+      "Who says on which side of a plane a point lies, while the cells are cut:\n"
+      "  exact  integers that are long enough\n"
+      "  float  rounded distances with a tolerance; not repaired again, for comparison\n")
+      ->default_str(std::string(predicates_name(repair.predicates)))
+      ->group("Repair");
+  const CLI::Option* epsilon =
+      app.add_option("--eps", repair.epsilon,
+                     "With --predicates float: points as near to a plane are on it, as a share of\n"
+                     "the largest side of the mesh")
+          ->check(why_no_epsilon)
+          ->type_name("SHARE")
+          ->capture_default_str()
+          ->group("Repair");
+  app.parse_complete_callback([&repair, epsilon] {
+    if (epsilon->count() > 0 && repair.predicates == Predicates::exact) {
+      throw UsageError("--eps: needs --predicates float");
+    }
+  });
 }
 
 void add_check_cells_option(CLI::App& app, bool& check_cells) {

@@ -11,6 +11,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/repair.h>
 
 namespace meshrepair {
 
@@ -36,6 +37,9 @@ void add_sources_option(CLI::App& app, bool& sources);
 
 // --precision and --strict: what is to be certified, and what happens when it cannot be.
 void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict);
+
+// --predicates and --eps: who says on which side of a plane a point of the cells lies.
+void add_predicates_options(CLI::App& app, RepairOptions& repair);
 
 // --check-cells: the debugging aid RepairOptions::check_cells.
 void add_check_cells_option(CLI::App& app, bool& check_cells);

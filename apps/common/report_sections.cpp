@@ -86,7 +86,10 @@ Json section_of(const OrientReport& orient) {
 
 Json cells_of(const RepairReport& repair) {
   const ClipReport& clip = repair.clip;
-  return {{"cells", repair.cells},
+  const bool exact = repair.predicates == Predicates::exact;
+  return {{"predicates", predicates_name(repair.predicates)},
+          {"eps", exact ? Json() : Json(repair.epsilon)},
+          {"cells", repair.cells},
           {"facets", repair.facets},
           {"links", repair.links},
           {"clips", clip.clips},
@@ -97,7 +100,8 @@ Json cells_of(const RepairReport& repair) {
             {"several_regions", clip.several_regions},
             {"forced_cuts", clip.forced_cuts}}},
           {"opaque_facets", repair.cover.opaque_facets},
-          {"split_facets", repair.cover.split_facets}};
+          {"split_facets", repair.cover.split_facets},
+          {"guessed_facets", repair.cover.guessed_facets}};
 }
 
 Json section_of(const InsideReport& inside) {
@@ -126,7 +130,8 @@ Json section_of(const ExtractReport& extract) {
           {"regions", extract.regions},
           {"singular_edges", extract.singular_edges},
           {"singular_vertices", extract.singular_vertices},
-          {"middle_vertices", extract.middle_vertices}};
+          {"middle_vertices", extract.middle_vertices},
+          {"polygons_apart", extract.polygons_apart}};
 }
 
 Json section_of(const PartsAndArea& parts) {

@@ -119,6 +119,26 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
   lines.add("closed", texts);
 }
 
+// Loose points are the rule with floating predicates, not worth telling.
+void describe_predicates(const RepairReport& repair, Lines& lines) {
+  if (repair.predicates == Predicates::exact) return;
+  const ClipReport& clip = repair.clip;
+  std::vector<std::string> cuts;
+  add_count(cuts, clip.region_floods, "cut", "by flooding");
+  add_count(cuts, clip.several_regions, "cut", "with several regions");
+  add_count(cuts, clip.forced_cuts, "cut", "forced");
+  std::vector<std::string> facets;
+  add_count(facets, clip.several_groups, "facet", "clipped as stars");
+  add_count(facets, repair.cover.guessed_facets, "facet", "covered by guess");
+  add_count(facets, repair.extract.polygons_apart, "facet", "set apart");
+  std::vector<std::string> texts = {fmt::format("in floating point, eps {:g}, over {}",
+                                                repair.epsilon, number_of(clip.clips, "cut"))};
+  texts.push_back(joined(cuts));
+  texts.push_back(joined(facets));
+  std::erase(texts, "");
+  lines.add("sides", texts);
+}
+
 std::string kept_triangles(const RepairReport& repair) {
   std::string text = fmt::format("{} of {} untouched", grouped(repair.triangles.untouched),
                                  number_of(repair.clean.triangles_in, "triangle"));
@@ -189,10 +209,17 @@ std::string number_of(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
+std::string predicates_summary(const RepairReport& repair) {
+  Lines lines;
+  describe_predicates(repair, lines);
+  return lines.text();
+}
+
 std::string summary_of(const Findings& findings, double seconds) {
   Lines lines;
   describe_input(findings, lines);
   describe_holes(findings.repair, lines);
+  describe_predicates(findings.repair, lines);
   if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair, lines);
   if (findings.tree_written) {
     describe_tree(findings, seconds, lines);

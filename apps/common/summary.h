@@ -15,9 +15,12 @@ namespace meshrepair {
 // "1 triangle", "1,200 triangles".
 [[nodiscard]] std::string number_of(std::size_t count, std::string_view noun);
 
-// At most a dozen aligned lines: what was read, what was wrong with it, how it was decided what is
+// A dozen aligned lines or so: what was read, what was wrong with it, how it was decided what is
 // solid, and what came out, each as far as it is known. `seconds` is the time that it all took.
 [[nodiscard]] std::string summary_of(const Findings& findings, double seconds);
+
+// Of these the lines that say what floating predicates did; nothing of exact ones.
+[[nodiscard]] std::string predicates_summary(const RepairReport& repair);
 
 // Clears the progress bar and prints the summary to stderr, unless the run is to be quiet.
 void print_summary(Run& run, const Findings& findings);

@@ -50,6 +50,8 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   if (is_solid && label_beside_triangles(tree)) return tree;
   RepairReport labels;
   RepairOptions label_options = with_winding(options.repair);
+  // The merge relies on the labels being those of closed surfaces.
+  label_options.predicates = Predicates::exact;
   label_options.progress = &quiet;
   try {
     label_tree(tree, label_options, labels);

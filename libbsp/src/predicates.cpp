@@ -136,8 +136,8 @@ Point lattice_point(const GridPoint& at) {
   return {{static_cast<double>(at.x), static_cast<double>(at.y), static_cast<double>(at.z)}, 0, {}};
 }
 
-Point loose_point(const std::array<double, 3>& at) {
-  return {at, std::numeric_limits<float>::min(), {}};
+Point loose_point(const std::array<double, 3>& at, double tolerance) {
+  return {at, std::max(static_cast<float>(tolerance), std::numeric_limits<float>::min()), {}};
 }
 
 Point meet(const PlaneTable& planes, PlaneId a, PlaneId b, PlaneId c,
@@ -173,16 +173,17 @@ int side_of_meet(const Point& point, const Plane& plane, const PlaneTable& plane
   return internal::side_exactly(exact, plane);
 }
 
-int sign_of_distance(const Point& point, const Plane& plane) {
+int side_of_loose_point(const Point& point, const Plane& plane) {
   const double distance = signed_distance(point.position, plane);
-  return (distance > 0) - (distance < 0);
+  const auto tolerance = static_cast<double>(point.error);
+  return (distance > tolerance) - (distance < -tolerance);
 }
 
 }  // namespace
 
 int side_without_filter(const Point& point, PlaneId plane_id, const PlaneTable& planes) {
   if (point.is_lattice()) return side(point.lattice(), planes[plane_id]);
-  if (point.is_loose()) return sign_of_distance(point, planes[plane_id]);
+  if (point.is_loose()) return side_of_loose_point(point, planes[plane_id]);
   if (std::find(point.planes.begin(), point.planes.end(), plane_id) != point.planes.end()) return 0;
   return side_of_meet(point, planes[plane_id], planes);
 }
@@ -193,7 +194,7 @@ int side(const Point& point, const Plane& plane, const PlaneTable& planes) {
   if (distance > bound) return 1;
   if (distance < -bound) return -1;
   if (point.is_lattice()) return side(point.lattice(), plane);
-  if (point.is_loose()) return sign_of_distance(point, plane);
+  if (point.is_loose()) return side_of_loose_point(point, plane);
   return side_of_meet(point, plane, planes);
 }
 

@@ -42,6 +42,17 @@ int turn_by_doubles(const Point& a, const Point& b, const Point& c, const Projec
   return (area > bound) - (area < -bound);
 }
 
+// In a line when one of them is within the tolerance of the line through the two others.
+int turn_of_loose_points(const Point& a, const Point& b, const Point& c, const Projection& to,
+                         double area) {
+  const auto distance = [&](const Point& p, const Point& q) {
+    return std::hypot(p.position[to.x] - q.position[to.x], p.position[to.y] - q.position[to.y]);
+  };
+  const auto tolerance = static_cast<double>(std::max({a.error, b.error, c.error}));
+  const double least = tolerance * std::max({distance(a, b), distance(b, c), distance(c, a)});
+  return (area > least) - (area < -least);
+}
+
 int turn_on_lattice(const GridPoint& a, const GridPoint& b, const GridPoint& c,
                     const Projection& to) {
   const auto difference = [](const GridPoint& p, const GridPoint& q, std::size_t axis) {
@@ -94,7 +105,7 @@ int turn(const Point& a, const Point& b, const Point& c, PlaneId plane, const Pl
     return to.sign * turn_on_lattice(a.lattice(), b.lattice(), c.lattice(), to);
   }
   if (a.is_loose() || b.is_loose() || c.is_loose()) {
-    return to.sign * ((area > 0) - (area < 0));
+    return to.sign * turn_of_loose_points(a, b, c, to, area);
   }
   if (share_a_line(a, b, c, plane)) return 0;
   return to.sign *

@@ -22,7 +22,10 @@ class CellBuilder {
       : tree_(tree),
         options_(options),
         complex_(tree.input, outer_box(tree.input)),
-        clipper_(complex_, options.engine != nullptr ? *options.engine : exact_) {}
+        engine_(options.engine != nullptr ? *options.engine : exact_),
+        clipper_(complex_, engine_) {
+    complex_.loose = !engine_.exact();
+  }
 
   CellComplex run(ClipReport& report) {
     // Depth first: a cell is cut while its neighbourhood is still in the caches.
@@ -48,7 +51,7 @@ class CellBuilder {
   CellId cut(CellId cell, const TreeNode& node) {
     const std::size_t fallbacks = clipper_.report().fallbacks();
     const CellId below = clipper_.clip(cell, node.plane);
-    if (options_.engine == nullptr && clipper_.report().fallbacks() != fallbacks) {
+    if (engine_.exact() && clipper_.report().fallbacks() != fallbacks) {
       throw InputError("the tree is not valid: the plane of node " +
                        std::to_string(&node - tree_.nodes.raw().data()) +
                        " does not cut its region");
@@ -84,6 +87,7 @@ class CellBuilder {
   const BuildCellsOptions& options_;
   ExactEngine exact_;
   CellComplex complex_;
+  PredicateEngine& engine_;
   Clipper clipper_;
   std::size_t ticks_ = 0;
 };

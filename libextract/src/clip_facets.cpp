@@ -2,6 +2,7 @@
 // the plane.
 #include <algorithm>
 
+#include <bsp/predicates.h>
 #include <extract/clip_cell.h>
 
 #include "complex_edit.h"
@@ -69,7 +70,8 @@ void Clipper::split_into_star(FacetId facet, const std::vector<UseId>& loop, Pla
   const auto centre = facet_centre(complex_, facet);
   FacetId rest = split_and_share(facet, spokes[0], spokes[1], plane);
   const EdgeId link = complex_.uses[complex_.uses[spokes[1]].previous].edge();
-  const VertexId hub = internal::split_edge(complex_, link, loose_point(centre));
+  const VertexId hub =
+      internal::split_edge(complex_, link, loose_point(centre, engine_.tolerance()));
   ++report_.loose_points;
   vertex_marks_.push_back({stamp_, 0, {}, 0});
   for (std::size_t k = 2; k < spokes.size(); ++k) {
@@ -87,7 +89,8 @@ FacetId Clipper::split_and_share(FacetId facet, UseId from, UseId to, PlaneId pl
   return added;
 }
 
-// Gives the triangles that may cover a split facet to the parts that they can reach.
+// Gives the triangles that may cover a split facet to the parts that they can reach. Exactly,
+// whatever the engine: one that takes a thin triangle to be on the plane would give it to neither.
 void Clipper::share_triangles(FacetId a, FacetId b, PlaneId plane) {
   const auto side_of_facet = [&](FacetId f) {
     int sum = 0;
@@ -107,7 +110,7 @@ void Clipper::share_triangles(FacetId a, FacetId b, PlaneId plane) {
   const auto reaches = [&](TriangleId t, int wanted) {
     const auto& corners = soup.triangles[t].corners;
     return std::any_of(corners.begin(), corners.end(), [&](PointId p) {
-      return engine_.side(lattice_point(soup.grid_points[p]), plane, complex_.planes) == wanted;
+      return side(lattice_point(soup.grid_points[p]), plane, complex_.planes) == wanted;
     });
   };
   // In place: those for a alone, for both, for b alone; then the two ranges overlap and nothing is

@@ -8,9 +8,14 @@
 // partition of the plane, made on demand.
 //
 // Invariant: an edge chosen for a cut crosses the facet and never crosses its parts, so it ends.
+// In a loose complex it may seem to cross them all the same, as the new vertices need not lie on
+// it. So a triangle remembers which of its edges a facet was cut along, and these are not asked
+// again; and a facet gets no more cuts than lines through it could make parts, after which the
+// centre of a part decides. A facet that is not convex falls into more than two parts.
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +23,7 @@
 #include <bsp/error.h>
 #include <bsp/predicates.h>
 #include <extract/cover_facets.h>
+#include <extract/float_engine.h>
 
 #include "complex_edit.h"
 #include "prepared_triangle.h"
@@ -83,13 +89,30 @@ class FacetCoverer {
     std::uint32_t below;
   };
 
-  struct Piece {
-    FacetId facet;
-    std::vector<TriangleId> undecided;
+  struct Undecided {
+    TriangleId triangle;
+    std::uint32_t inside = 0;  // bit k: the facet was cut off along edge k, and is inside of it
   };
 
-  void cover(FacetId facet, std::vector<TriangleId> triangles) {
-    pieces_.push_back({facet, std::move(triangles)});
+  struct Piece {
+    FacetId facet;
+    std::vector<Undecided> undecided;
+  };
+
+  struct Cut {
+    Plane plane;
+    TriangleId triangle;
+    std::size_t edge = 0;
+  };
+
+  void cover(FacetId facet, std::span<const TriangleId> triangles) {
+    Piece whole{facet, {}};
+    whole.undecided.reserve(triangles.size());
+    for (const TriangleId t : triangles) whole.undecided.push_back({t, 0});
+    pieces_.push_back(std::move(whole));
+    // What the lines through 3 n edges divide a plane into.
+    const std::size_t lines = 3 * triangles.size();
+    cuts_left_ = 1 + lines + lines * (lines - 1) / 2;
     while (!pieces_.empty()) {
       Piece piece = std::move(pieces_.back());
       pieces_.pop_back();
@@ -99,42 +122,59 @@ class FacetCoverer {
       }
       // With many triangles the facet is cut first and asked about later: most of them will be
       // elsewhere.
-      std::optional<Plane> cut;
+      std::optional<Cut> cut;
       if (piece.undecided.size() > kFew) cut = choose_cut(piece);
       if (!cut) {
         decide(piece);
         if (piece.undecided.empty()) continue;
         cut = choose_cut(piece);
-        MESHREPAIR_ASSERT(cut.has_value());
       }
+      if (complex_.loose && (!cut || cuts_left_ == 0)) {
+        guess(piece);
+        continue;
+      }
+      MESHREPAIR_ASSERT(cut.has_value());
       divide(piece, *cut);
     }
   }
 
   // Cuts a piece and gives each half the triangles that reach to its side.
-  void divide(const Piece& piece, const Plane& cut) {
-    const Halves halves = split(piece.facet, cut);
+  void divide(const Piece& piece, const Cut& cut) {
+    const Halves halves = split(piece.facet, cut.plane);
     ++report_.split_facets;
+    --cuts_left_;
     Piece positive{halves.positive, {}};
     Piece negative{halves.negative, {}};
-    for (const TriangleId t : piece.undecided) {
-      const Reach reach = reach_of(t, cut);
-      if (reach.positive) positive.undecided.push_back(t);
-      if (reach.negative) negative.undecided.push_back(t);
+    for (Undecided u : piece.undecided) {
+      const Reach reach = reach_of(u.triangle, cut.plane);
+      if (reach.negative) negative.undecided.push_back(u);
+      if (u.triangle == cut.triangle) u.inside |= std::uint32_t{1} << cut.edge;
+      if (reach.positive) positive.undecided.push_back(u);
     }
-    if (!negative.undecided.empty()) pieces_.push_back(std::move(negative));
+    if (!negative.undecided.empty()) {
+      for (const FacetId f : more_negative_) pieces_.push_back({f, negative.undecided});
+      pieces_.push_back(std::move(negative));
+    }
     if (!positive.undecided.empty()) pieces_.push_back(std::move(positive));
+  }
+
+  // The last resort.
+  void guess(const Piece& piece) {
+    ++report_.guessed_facets;
+    for (const Undecided& u : piece.undecided) {
+      if (internal::covers_centre(complex_, piece.facet, prepared(u.triangle))) {
+        add_cover(piece.facet, u.triangle);
+      }
+    }
   }
 
   // Applies the triangles that cover all of the facet and drops those that miss it.
   void decide(Piece& piece) {
     std::size_t kept = 0;
-    for (const TriangleId t : piece.undecided) {
-      const Coverage coverage = coverage_of(complex_, piece.facet, prepared(t));
-      if (coverage == Coverage::part) piece.undecided[kept++] = t;
-      if (coverage == Coverage::full) {
-        add_cover(piece.facet, t);
-      }
+    for (const Undecided& u : piece.undecided) {
+      const Coverage coverage = coverage_of(complex_, piece.facet, prepared(u.triangle), u.inside);
+      if (coverage == Coverage::part) piece.undecided[kept++] = u;
+      if (coverage == Coverage::full) add_cover(piece.facet, u.triangle);
     }
     piece.undecided.resize(kept);
   }
@@ -153,30 +193,33 @@ class FacetCoverer {
   // An edge that crosses the facet, cuts few of the undecided triangles and leaves both sides
   // alike; nothing when none of the edges looked at crosses it. With few triangles all are looked
   // at.
-  std::optional<Plane> choose_cut(const Piece& piece) {
+  std::optional<Cut> choose_cut(const Piece& piece) {
     const auto& list = piece.undecided;
     const std::size_t offers = list.size() > kFew ? kOffers : list.size();
     std::size_t best_cost = std::numeric_limits<std::size_t>::max();
-    std::optional<Plane> best;
+    std::optional<Cut> best;
     for (std::size_t k = 0; k < offers; ++k) {
-      const PreparedTriangle offered = prepared(list[k * list.size() / offers]);
-      for (const Plane& edge : offered.edges) {
+      const Undecided& from = list[k * list.size() / offers];
+      const PreparedTriangle offered = prepared(from.triangle);
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Plane& edge = offered.edges[e];
+        if ((from.inside >> e & 1) != 0) continue;
         const std::size_t cost = list.size() > 1 ? cost_of(edge, list) : 0;
-        const bool tie_won = best && cost == best_cost && comes_before(edge, *best);
+        const bool tie_won = best && cost == best_cost && comes_before(edge, best->plane);
         if ((cost < best_cost || tie_won) && internal::crosses(complex_, piece.facet, edge)) {
           best_cost = cost;
-          best = edge;
+          best = Cut{edge, from.triangle, e};
         }
       }
     }
     return best;
   }
 
-  std::size_t cost_of(const Plane& edge, const std::vector<TriangleId>& list) const {
+  std::size_t cost_of(const Plane& edge, const std::vector<Undecided>& list) const {
     const std::size_t judged = std::min(kJudged, list.size());
     std::size_t cut = 0, positive = 0, negative = 0;
     for (std::size_t j = 0; j < judged; ++j) {
-      const Reach reach = reach_of(list[j * list.size() / judged], edge);
+      const Reach reach = reach_of(list[j * list.size() / judged].triangle, edge);
       (reach.positive && reach.negative ? cut : reach.positive ? positive : negative) += 1;
     }
     return 8 * cut + std::max(positive, negative) - std::min(positive, negative);
@@ -200,42 +243,88 @@ class FacetCoverer {
     FacetId positive, negative;
   };
 
-  // Cuts the facet, which is convex, along a plane that crosses it.
+  // Cuts the facet along a plane that crosses it. One that is not convex may have several runs of
+  // vertices on the negative side: all but one of the parts there are left in more_negative_.
   Halves split(FacetId facet, const Plane& along) {
     const PlaneId plane = complex_.planes.append(along);
-    crossed_.clear();
-    complex_.for_each_use(facet, [&](UseId u) {
-      const Use& use = complex_.uses[u];
-      if (side_of(complex_.origin(use), plane) * side_of(complex_.target(use), plane) < 0) {
-        crossed_.push_back(u);
-      }
-    });
-    for (const UseId u : crossed_) {
-      const Edge& edge = complex_.edges[complex_.uses[u].edge()];
-      const auto& a = complex_.vertices[edge.ends[0]].position;
-      const auto& b = complex_.vertices[edge.ends[1]].position;
-      const Point at = meet(complex_.planes, edge.planes[0], edge.planes[1], plane,
-                            {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
-      internal::split_edge(complex_, complex_.uses[u].edge(), at);
-    }
+    put_vertices_on(facet, plane);
     ends_.clear();
     complex_.for_each_use(facet, [&](UseId u) {
-      if (side_of(complex_.origin(complex_.uses[u]), plane) == 0) ends_.push_back(u);
+      if (side_of(complex_.origin(complex_.uses[u])) == 0) ends_.push_back(u);
     });
-    MESHREPAIR_ASSERT(ends_.size() == 2);
-    const int kept_side = side_of(complex_.target(complex_.uses[ends_[0]]), plane);
-    const FacetId added = internal::split_facet(complex_, facet, ends_[0], ends_[1], plane);
+    more_negative_.clear();
+    if (ends_.size() == 2) {
+      const int kept_side = side_of(complex_.target(complex_.uses[ends_[0]]));
+      const FacetId added = split_off(facet, ends_[0], ends_[1], plane);
+      return kept_side > 0 ? Halves{facet, added} : Halves{added, facet};
+    }
+    MESHREPAIR_ASSERT(complex_.loose && ends_.size() > 2);
+    FacetId negative;
+    while (const auto run = negative_run(facet)) {
+      if (negative.valid()) more_negative_.push_back(negative);
+      negative = split_off(facet, run->second, run->first, plane);
+    }
+    return {facet, negative};
+  }
+
+  // Finds the sides of the facet's vertices, and splits the edges from one side to the other. The
+  // new vertices are on the plane, whatever a predicate would say of a loose one.
+  void put_vertices_on(FacetId facet, PlaneId plane) {
+    sides_.resize(complex_.vertices.size());
+    crossed_.clear();
+    complex_.for_each_use(facet, [&](UseId u) {
+      const VertexId v = complex_.origin(complex_.uses[u]);
+      sides_[v] = static_cast<std::int8_t>(side(complex_.vertices[v], plane, complex_.planes));
+    });
+    complex_.for_each_use(facet, [&](UseId u) {
+      const Use& use = complex_.uses[u];
+      if (side_of(complex_.origin(use)) * side_of(complex_.target(use)) < 0) crossed_.push_back(u);
+    });
+    for (const UseId u : crossed_) {
+      const EdgeId edge = complex_.uses[u].edge();
+      internal::split_edge(complex_, edge, crossing(complex_.edges[edge], plane));
+      sides_.push_back(0);
+    }
+  }
+
+  [[nodiscard]] Point crossing(const Edge& edge, PlaneId plane) const {
+    const Point& a = complex_.vertices[edge.ends[0]];
+    const Point& b = complex_.vertices[edge.ends[1]];
+    if (complex_.loose) return interpolate(a, b, complex_.planes[plane]);
+    const auto& p = a.position;
+    const auto& q = b.position;
+    return meet(complex_.planes, edge.planes[0], edge.planes[1], plane,
+                {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])});
+  }
+
+  // The uses that start at the vertices on the plane before and behind some run of vertices on the
+  // negative side; there is none when no vertex is left there. Between two runs of different sides
+  // there always is a vertex on the plane, and other runs of the positive side stay, so the two are
+  // no neighbours either way round.
+  [[nodiscard]] std::optional<std::pair<UseId, UseId>> negative_run(FacetId facet) const {
+    UseId enter;
+    complex_.for_each_use(facet, [&](UseId u) {
+      const Use& use = complex_.uses[u];
+      if (side_of(complex_.origin(use)) == 0 && side_of(complex_.target(use)) < 0) enter = u;
+    });
+    if (!enter.valid()) return std::nullopt;
+    UseId leave = complex_.uses[enter].next;
+    while (side_of(complex_.origin(complex_.uses[leave])) < 0) leave = complex_.uses[leave].next;
+    return std::pair(enter, leave);
+  }
+
+  // What is covered already is so on both parts.
+  FacetId split_off(FacetId facet, UseId from, UseId to, PlaneId plane) {
+    const FacetId added = internal::split_facet(complex_, facet, from, to, plane);
     cover_.push_back(cover_[facet]);
     if (facet.index() < top_layer_.size() && top_layer_[facet.index()] != kNoLayer) {
       top_layer_.resize(cover_.size(), kNoLayer);
       top_layer_.back() = top_layer_[facet.index()];
     }
-    return kept_side > 0 ? Halves{facet, added} : Halves{added, facet};
+    return added;
   }
 
-  int side_of(VertexId v, PlaneId plane) const {
-    return side(complex_.vertices[v], plane, complex_.planes);
-  }
+  [[nodiscard]] int side_of(VertexId v) const { return sides_[v]; }
 
   // Facets of one node follow each other and mostly ask for the same triangle.
   const PreparedTriangle& prepared(TriangleId t) {
@@ -261,7 +350,11 @@ class FacetCoverer {
   std::vector<std::uint32_t> top_layer_;  // of each facet, as far as there are any
   std::vector<Layer> layers_;
   std::vector<Piece> pieces_;
-  std::vector<UseId> crossed_, ends_;  // scratch
+  // Scratch of one cut.
+  IdVector<VertexId, std::int8_t> sides_;
+  std::vector<UseId> crossed_, ends_;
+  std::vector<FacetId> more_negative_;
+  std::size_t cuts_left_ = 0;  // of the facet in hand
   PreparedTriangle prepared_;
   TriangleId prepared_id_;
   std::size_t ticks_ = 0;

@@ -17,6 +17,8 @@
 #include <bsp/predicates.h>
 #include <extract/merge_facets.h>
 
+#include "loose_regions.h"
+
 namespace meshrepair {
 namespace {
 
@@ -24,8 +26,13 @@ class FacetMerger {
  public:
   FacetMerger(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
               const std::vector<char>& solid, const Boundary& boundary,
-              const ManifoldCorners& corners)
-      : complex_(complex), cover_(cover), solid_(solid), boundary_(boundary), corners_(corners) {}
+              const ManifoldCorners& corners, std::span<const char> alone)
+      : complex_(complex),
+        cover_(cover),
+        solid_(solid),
+        boundary_(boundary),
+        corners_(corners),
+        alone_(alone) {}
 
   MergedFacets run() {
     find_regions();
@@ -33,6 +40,7 @@ class FacetMerger {
     count_sectors();
     find_kept_vertices();
     if (corners_.singular_edges > 0) release_middles_of_touching_edges();
+    keep_vertices_of_polygons_alone();
     count_kept_corners();
     return std::move(result_);
   }
@@ -57,7 +65,7 @@ class FacetMerger {
         if (corners_.singular_side[s] != 0 || result_.dissolved[s] != 0) continue;
         const std::uint32_t p = boundary_.polygon[s];
         const std::uint32_t q = boundary_.polygon[corners_.mate[s]];
-        if (!belong_together(p, q)) continue;
+        if (is_alone(p) || is_alone(q) || !belong_together(p, q)) continue;
         result_.dissolved[s] = 1;
         joined.join(p, q);
       }
@@ -68,6 +76,17 @@ class FacetMerger {
       return cut[p] != 0 && cut[q] != 0 && plane_of(p) == plane_of(q);
     });
     number_regions(joined);
+  }
+
+  [[nodiscard]] bool is_alone(std::uint32_t polygon) const {
+    return !alone_.empty() && alone_[polygon] != 0;
+  }
+
+  void keep_vertices_of_polygons_alone() {
+    if (alone_.empty()) return;
+    for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
+      if (is_alone(boundary_.polygon[s])) result_.kept[corners_.vertex[s]] = 1;
+    }
   }
 
   // Polygons covered by a triangle of which not all is one region.
@@ -138,8 +157,14 @@ class FacetMerger {
 
   // Whether the edge between regions that leads to the start of `side` is in line with it.
   [[nodiscard]] bool goes_straight_on(std::uint32_t side_out) const {
-    const Edge& edge = complex_.edges[edge_of(previous_on_outline(side_out))];
+    const std::uint32_t side_in = previous_on_outline(side_out);
     const VertexId beyond = place_of(boundary_.next(side_out));
+    if (complex_.loose) {
+      return internal::lies_between(complex_.vertices[place_of(side_out)],
+                                    complex_.vertices[place_of(side_in)],
+                                    complex_.vertices[beyond]);
+    }
+    const Edge& edge = complex_.edges[edge_of(side_in)];
     return side(complex_.vertices[beyond], edge.planes[0], complex_.planes) == 0 &&
            side(complex_.vertices[beyond], edge.planes[1], complex_.planes) == 0;
   }
@@ -257,6 +282,7 @@ class FacetMerger {
   const std::vector<char>& solid_;
   const Boundary& boundary_;
   const ManifoldCorners& corners_;
+  std::span<const char> alone_;
   // Of each vertex: how many regions meet there, up to 3, and a side between regions that starts
   // there.
   std::vector<char> sectors_;
@@ -268,8 +294,8 @@ class FacetMerger {
 
 MergedFacets merge_facets(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
                           const std::vector<char>& solid, const Boundary& boundary,
-                          const ManifoldCorners& corners) {
-  return FacetMerger(complex, cover, solid, boundary, corners).run();
+                          const ManifoldCorners& corners, std::span<const char> alone) {
+  return FacetMerger(complex, cover, solid, boundary, corners, alone).run();
 }
 
 }  // namespace meshrepair

@@ -8,6 +8,7 @@
 // triangulation of P has two ears at least, and at most one triangle of it has v inside.
 #include "planar_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <bsp/assert.h>
@@ -65,10 +66,11 @@ void PlanarMesh::join(std::uint32_t slot, std::uint32_t other) {
   across_[other] = slot;
 }
 
-void PlanarMesh::remove_vertex(std::uint32_t vertex) {
+bool PlanarMesh::remove_vertex(std::uint32_t vertex) {
   gather_star(vertex);
-  fill_star(vertex);
+  if ((loose_ && !star_is_disk()) || !fill_star(vertex)) return false;
   slot_at_[vertex] = kNone;
+  return true;
 }
 
 // Lists the polygon around the vertex in link_ and its triangles in free_.
@@ -104,15 +106,27 @@ void PlanarMesh::gather_star(std::uint32_t vertex) {
   }
 }
 
-void PlanarMesh::fill_star(std::uint32_t vertex) {
+// Whether the triangles around the vertex are different ones and have no edges in common but those
+// that lead to it.
+bool PlanarMesh::star_is_disk() const {
+  std::vector<std::uint32_t> sorted = free_;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return false;
+  return std::none_of(link_.begin(), link_.end(), [&](const LinkVertex& v) {
+    return v.beyond.slot != kNone &&
+           std::binary_search(sorted.begin(), sorted.end(), v.beyond.slot / 3);
+  });
+}
+
+bool PlanarMesh::fill_star(std::uint32_t vertex) {
   for (const std::uint32_t t : free_) corners_[3 * t] = kNone;
   auto left = static_cast<std::uint32_t>(link_.size());
-  MESHREPAIR_ASSERT(left >= 3);
+  if (left < 3) return false;
   std::uint32_t at = 0;
   std::uint32_t refused = 0;
   while (left > 3) {
     if (!is_ear(vertex, at)) {
-      MESHREPAIR_ASSERT(++refused <= left);
+      if (++refused > left) return false;
       at = link_[at].next;
       continue;
     }
@@ -131,6 +145,7 @@ void PlanarMesh::fill_star(std::uint32_t vertex) {
   const LinkVertex& b = link_[a.next];
   const LinkVertex& c = link_[b.next];
   place_triangle({a.vertex, b.vertex, c.vertex}, {a.beyond, b.beyond, c.beyond});
+  return true;
 }
 
 bool PlanarMesh::is_ear(std::uint32_t vertex, std::uint32_t at) const {
@@ -171,7 +186,7 @@ void PlanarMesh::improve() {
   while (!queue_.empty() && flips_left > 0) {
     const std::uint32_t slot = queue_.back();
     queue_.pop_back();
-    if (across_[slot] == kNone || !wants_flip(slot)) continue;
+    if (across_[slot] == kNone || !wants_flip(slot) || (loose_ && !can_flip(slot))) continue;
     flip(slot);
     --flips_left;
     const std::uint32_t other = across_[slot];
@@ -197,6 +212,17 @@ bool PlanarMesh::wants_flip(std::uint32_t slot) const {
   const double sine_of_sum =
       length_of_cross(ca, cb) * dot(da, db) + dot(ca, cb) * length_of_cross(da, db);
   return sine_of_sum < -kGain * scale && turn_of(a, d, c) > 0 && turn_of(d, b, c) > 0;
+}
+
+// Whether the two triangles at an edge are different ones that have no other edge in common.
+bool PlanarMesh::can_flip(std::uint32_t slot) const {
+  const std::uint32_t other = across_[slot];
+  const auto is_beside = [&](std::uint32_t side) {
+    const std::uint32_t beyond = across_[side];
+    return beyond != kNone && (beyond / 3 == slot / 3 || beyond / 3 == other / 3);
+  };
+  return slot / 3 != other / 3 && !is_beside(next_slot(slot)) && !is_beside(previous_slot(slot)) &&
+         !is_beside(next_slot(other)) && !is_beside(previous_slot(other));
 }
 
 // From a b c and b a d to d c a and c d b: the slots of the edge stay the edge's.

@@ -18,7 +18,9 @@ class PlanarMesh {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  explicit PlanarMesh(const PlaneTable& planes) : planes_(planes) {}
+  // `loose`: the triangles are those of a loose complex, where two of them may have two edges in
+  // common, or one with itself.
+  PlanarMesh(const PlaneTable& planes, bool loose) : planes_(planes), loose_(loose) {}
 
   // Starts anew. `orientation` is +1 when counter-clockwise is as seen from where the plane's
   // normal points, -1 when from behind.
@@ -32,8 +34,9 @@ class PlanarMesh {
   void mark(std::uint32_t slot, std::uint32_t mark) { mark_[slot] = mark; }
 
   // Takes away a vertex that is inside the region, or inside a straight part of its outline, and
-  // fills the star around it again. The new side of the outline, if any, carries no mark.
-  void remove_vertex(std::uint32_t vertex);
+  // fills the star around it again. The new side of the outline, if any, carries no mark. False
+  // where that cannot be, which leaves the mesh of no use; never so with exact points.
+  [[nodiscard]] bool remove_vertex(std::uint32_t vertex);
 
   // Flips edges until the triangulation is constrained Delaunay as far as rounded angles tell.
   // Every triangle stays proper.
@@ -62,16 +65,19 @@ class PlanarMesh {
   };
 
   void gather_star(std::uint32_t vertex);
-  void fill_star(std::uint32_t vertex);
+  [[nodiscard]] bool star_is_disk() const;
+  [[nodiscard]] bool fill_star(std::uint32_t vertex);
   [[nodiscard]] bool is_ear(std::uint32_t vertex, std::uint32_t at) const;
   std::uint32_t place_triangle(const std::array<std::uint32_t, 3>& vertices,
                                const std::array<Beyond, 3>& beyond);
   [[nodiscard]] int turn_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   [[nodiscard]] bool wants_flip(std::uint32_t slot) const;
+  [[nodiscard]] bool can_flip(std::uint32_t slot) const;
   void flip(std::uint32_t slot);
   [[nodiscard]] Beyond beyond(std::uint32_t slot) const { return {across_[slot], mark_[slot]}; }
 
   const PlaneTable& planes_;
+  bool loose_;
   PlaneId plane_;
   int orientation_ = 1;
   std::vector<const Point*> points_;

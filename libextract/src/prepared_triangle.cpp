@@ -46,22 +46,31 @@ PreparedTriangle prepare_triangle(const CleanSoup& soup, TriangleId id) {
   return prepared;
 }
 
-Coverage coverage_of(const CellComplex& complex, FacetId facet, const PreparedTriangle& triangle) {
+Coverage coverage_of(const CellComplex& complex, FacetId facet, const PreparedTriangle& triangle,
+                     std::uint32_t inside) {
   bool any_outside = false;
-  for (const Plane& edge : triangle.edges) {
-    bool inside = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if ((inside >> k & 1) != 0) continue;
+    const Plane& edge = triangle.edges[k];
+    bool within = false;
     bool outside = false;
     complex.for_each_use(facet, [&](UseId u) {
-      if (inside && outside) return;
+      if (within && outside) return;
       const int s = side(complex.vertices[complex.origin(complex.uses[u])], edge, complex.planes);
-      inside |= s > 0;
+      within |= s > 0;
       outside |= s < 0;
     });
-    if (!inside) return Coverage::none;
+    if (!within) return Coverage::none;
     any_outside |= outside;
   }
   if (!any_outside) return Coverage::full;
   return separated_by_facet(complex, facet, triangle) ? Coverage::none : Coverage::part;
+}
+
+bool covers_centre(const CellComplex& complex, FacetId facet, const PreparedTriangle& triangle) {
+  const std::array<double, 3> centre = facet_centre(complex, facet);
+  return std::all_of(triangle.edges.begin(), triangle.edges.end(),
+                     [&](const Plane& edge) { return signed_distance(centre, edge) > 0; });
 }
 
 bool crosses(const CellComplex& complex, FacetId facet, const Plane& plane) {

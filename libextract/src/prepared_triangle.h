@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include <extract/cell_complex.h>
 
@@ -19,8 +20,13 @@ struct PreparedTriangle {
 enum class Coverage { none, part, full };
 
 // How much of the facet, which lies in the triangle's plane, the triangle covers. Touching is none.
+// Bit k of `inside` says that the facet is known to be on the inner side of edge k.
 [[nodiscard]] Coverage coverage_of(const CellComplex& complex, FacetId facet,
-                                   const PreparedTriangle& triangle);
+                                   const PreparedTriangle& triangle, std::uint32_t inside = 0);
+
+// Whether the triangle covers the facet's centre, by rounded numbers: a guess.
+[[nodiscard]] bool covers_centre(const CellComplex& complex, FacetId facet,
+                                 const PreparedTriangle& triangle);
 
 // Whether the facet has vertices strictly on both sides.
 [[nodiscard]] bool crosses(const CellComplex& complex, FacetId facet, const Plane& plane);

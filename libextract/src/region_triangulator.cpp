@@ -8,6 +8,8 @@
 #include <bsp/assert.h>
 #include <bsp/predicates.h>
 
+#include "loose_regions.h"
+
 namespace meshrepair::internal {
 
 RegionTriangulator::RegionTriangulator(const CellComplex& complex, const std::vector<char>& solid,
@@ -21,31 +23,31 @@ RegionTriangulator::RegionTriangulator(const CellComplex& complex, const std::ve
       sectors_(boundary.sides()),
       local_(boundary.sides(), kNone),
       slot_of_side_(boundary.sides(), kNone),
-      mesh_(complex.planes) {
+      mesh_(complex.planes, complex.loose) {
   for (std::uint32_t s = 0; s < boundary.sides(); ++s) {
     if (merged.dissolved[s] != 0) sectors_.join(s, boundary.next(corners.mate[s]));
   }
 }
 
-void RegionTriangulator::run(std::size_t region, std::vector<RegionTriangle>& triangles) {
+bool RegionTriangulator::run(std::size_t region, std::vector<RegionTriangle>& triangles) {
   triangles.clear();
-  for (const std::uint32_t p : merged_.polygons_of(region)) {
-    unmerged_triangles_ += boundary_.first[p + 1] - boundary_.first[p] - 2;
-  }
-  if (merged_.kept_corners[region] == 3) {
-    trace_triangle(region, triangles);
-    return;
-  }
-  fill_mesh(region);
-  remove_vertices();
+  const bool done = try_region(region, triangles);
+  MESHREPAIR_ASSERT(done || complex_.loose);
+  return done;
+}
+
+bool RegionTriangulator::try_region(std::size_t region, std::vector<RegionTriangle>& triangles) {
+  if (merged_.kept_corners[region] == 3) return trace_triangle(region, triangles);
+  if (!fill_mesh(region) || !remove_vertices()) return false;
   mesh_.improve();
   mesh_.for_each_triangle([&](const auto& corners, const auto& marks) {
     triangles.push_back({{vertex_[corners[0]], vertex_[corners[1]], vertex_[corners[2]]}, marks});
   });
+  return true;
 }
 
 // A region whose outline has three corners is a triangle.
-void RegionTriangulator::trace_triangle(std::size_t region,
+bool RegionTriangulator::trace_triangle(std::size_t region,
                                         std::vector<RegionTriangle>& triangles) {
   std::uint32_t start = kNone;
   for (const std::uint32_t p : merged_.polygons_of(region)) {
@@ -54,18 +56,20 @@ void RegionTriangulator::trace_triangle(std::size_t region,
     }
     if (start != kNone) break;
   }
+  if (start == kNone) return false;
   RegionTriangle triangle{};
   std::uint32_t s = start;
   for (std::size_t k = 0; k < 3; ++k) {
-    MESHREPAIR_ASSERT(k == 0 || s != start);
+    if (k > 0 && s == start) return false;
     triangle.vertices[k] = corners_.vertex[s];
     triangle.sides[k] = s;
     s = next_on_outline(s);
     if (merged_.kept[corners_.vertex[s]] == 0) triangle.sides[k] = kNone;
     while (merged_.kept[corners_.vertex[s]] == 0) s = next_on_outline(s);
   }
-  MESHREPAIR_ASSERT(s == start);
+  if (s != start) return false;
   triangles.push_back(triangle);
+  return true;
 }
 
 std::uint32_t RegionTriangulator::next_on_outline(std::uint32_t side) const {
@@ -74,26 +78,37 @@ std::uint32_t RegionTriangulator::next_on_outline(std::uint32_t side) const {
   return s;
 }
 
-void RegionTriangulator::fill_mesh(std::size_t region) {
+bool RegionTriangulator::fill_mesh(std::size_t region) {
   const auto polygons = merged_.polygons_of(region);
   const Facet& facet = complex_.facets[boundary_.facet[polygons[0]]];
   const bool solid_below = facet.below.valid() && solid_[facet.below.index()] != 0;
   mesh_.reset(facet.plane, solid_below ? 1 : -1);
   vertex_.clear();
-  for (const std::uint32_t p : polygons) add_polygon(p);
+  bool filled = true;
+  for (const std::uint32_t p : polygons) filled = filled && add_polygon(p);
+  if (filled) join_polygons(region);
+  // Clean for the next region, whatever became of this one.
   for (const std::uint32_t p : polygons) {
+    for (std::uint32_t s = boundary_.first[p]; s < boundary_.first[p + 1]; ++s) {
+      local_[sectors_.root(s)] = kNone;
+    }
+  }
+  return filled;
+}
+
+void RegionTriangulator::join_polygons(std::size_t region) {
+  for (const std::uint32_t p : merged_.polygons_of(region)) {
     for (std::uint32_t s = boundary_.first[p]; s < boundary_.first[p + 1]; ++s) {
       if (merged_.dissolved[s] != 0) {
         mesh_.join(slot_of_side_[s], slot_of_side_[corners_.mate[s]]);
       } else {
         mesh_.mark(slot_of_side_[s], s);
       }
-      local_[sectors_.root(s)] = kNone;
     }
   }
 }
 
-void RegionTriangulator::add_polygon(std::uint32_t polygon) {
+bool RegionTriangulator::add_polygon(std::uint32_t polygon) {
   const std::uint32_t first = boundary_.first[polygon];
   const std::uint32_t n = boundary_.first[polygon + 1] - first;
   polygon_corners_.clear();
@@ -104,6 +119,13 @@ void RegionTriangulator::add_polygon(std::uint32_t polygon) {
       vertex_.push_back(corners_.vertex[s]);
     }
     polygon_corners_.push_back({point_of(s).position, is_straight(s)});
+  }
+  const auto bent = std::count_if(polygon_corners_.begin(), polygon_corners_.end(),
+                                  [](const PolygonCorner& c) { return !c.straight; });
+  // In a loose complex a facet may be thinner than the tolerance. Then any triangles will do.
+  if (bent < 3) {
+    if (polygon_corners_.size() < 3) return false;
+    for (PolygonCorner& corner : polygon_corners_) corner.straight = false;
   }
   pieces_.clear();
   triangulate_convex(polygon_corners_, pieces_);
@@ -128,12 +150,14 @@ void RegionTriangulator::add_polygon(std::uint32_t polygon) {
   for (std::size_t i = 0; i + 1 < diagonals_.size(); i += 2) {
     mesh_.join(diagonals_[i].slot, diagonals_[i + 1].slot);
   }
+  return true;
 }
 
-void RegionTriangulator::remove_vertices() {
+bool RegionTriangulator::remove_vertices() {
   for (std::uint32_t v = 0; v < vertex_.size(); ++v) {
-    if (merged_.kept[vertex_[v]] == 0) mesh_.remove_vertex(v);
+    if (merged_.kept[vertex_[v]] == 0 && !mesh_.remove_vertex(v)) return false;
   }
+  return true;
 }
 
 const Point& RegionTriangulator::point_of(std::uint32_t side) const {
@@ -142,6 +166,9 @@ const Point& RegionTriangulator::point_of(std::uint32_t side) const {
 
 // Whether the corner at the start of a side lies on the straight line from its neighbours.
 bool RegionTriangulator::is_straight(std::uint32_t s) const {
+  if (complex_.loose) {
+    return lies_between(point_of(s), point_of(boundary_.previous(s)), point_of(boundary_.next(s)));
+  }
   const PlaneId line = complex_.side_plane(complex_.uses[boundary_.use[boundary_.previous(s)]]);
   return side(point_of(boundary_.next(s)), line, complex_.planes) == 0;
 }

@@ -28,17 +28,17 @@ class RegionTriangulator {
                      const Boundary& boundary, const ManifoldCorners& corners,
                      const MergedFacets& merged);
 
-  // Fills `triangles` with the triangles of a region, whose corners are its kept vertices.
-  void run(std::size_t region, std::vector<RegionTriangle>& triangles);
-
-  // How many triangles the facets of the regions so far would have had.
-  [[nodiscard]] std::size_t unmerged_triangles() const { return unmerged_triangles_; }
+  // Fills `triangles` with the triangles of a region, whose corners are its kept vertices. False
+  // where they cannot be found, which may be so in a loose complex only.
+  [[nodiscard]] bool run(std::size_t region, std::vector<RegionTriangle>& triangles);
 
  private:
-  void trace_triangle(std::size_t region, std::vector<RegionTriangle>& triangles);
-  void fill_mesh(std::size_t region);
-  void add_polygon(std::uint32_t polygon);
-  void remove_vertices();
+  [[nodiscard]] bool try_region(std::size_t region, std::vector<RegionTriangle>& triangles);
+  [[nodiscard]] bool trace_triangle(std::size_t region, std::vector<RegionTriangle>& triangles);
+  [[nodiscard]] bool fill_mesh(std::size_t region);
+  [[nodiscard]] bool add_polygon(std::uint32_t polygon);
+  void join_polygons(std::size_t region);
+  [[nodiscard]] bool remove_vertices();
   [[nodiscard]] std::uint32_t next_on_outline(std::uint32_t side) const;
   [[nodiscard]] const Point& point_of(std::uint32_t side) const;
   [[nodiscard]] bool is_straight(std::uint32_t side) const;
@@ -57,7 +57,6 @@ class RegionTriangulator {
   std::vector<std::uint32_t> local_;  // of a sector's root: the vertex of the mesh
   std::vector<std::uint32_t> slot_of_side_;
   PlanarMesh mesh_;
-  std::size_t unmerged_triangles_ = 0;
   // Scratch of one region.
   std::vector<std::uint32_t> vertex_;  // of each vertex of the mesh its output vertex
   std::vector<PolygonCorner> polygon_corners_;

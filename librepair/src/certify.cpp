@@ -65,9 +65,13 @@ class Certifier {
     report_.pairs_at_first = current_.found.count;
     if (current_.faults() > 0) {
       best_ = current_;
-      improve();
-      if (best_.misplaced() > 0 && options_.precision == Precision::float64) move_to_grid();
-      mend();
+      if (options_.most_rounds > 0) {
+        improve();
+        if (best_.misplaced() > 0 && options_.precision == Precision::float64) move_to_grid();
+        mend();
+      } else if (best_.joined > 0) {
+        separate(best_);
+      }
       std::swap(current_, best_);
     }
     report_.pairs = current_.found.count;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,6 +25,12 @@ CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_
   BuildCellsOptions cell_options;
   cell_options.check_every_clip = options.check_cells;
   cell_options.progress = options.progress;
+  std::optional<FloatEngine> engine;
+  report.predicates = options.predicates;
+  if (options.predicates == Predicates::floating) {
+    report.epsilon = options.epsilon;
+    cell_options.engine = &engine.emplace(tree.input, options.epsilon);
+  }
   CoveredCells covered{build_cells(tree, cell_options, report.clip), {}, {}};
   report.cells = covered.complex.cells.size();
   meter.begin("cover");
@@ -146,6 +153,10 @@ void require_labels(const Tree& tree) {
 
 }  // namespace
 
+std::string_view predicates_name(Predicates predicates) {
+  return predicates == Predicates::exact ? "exact" : "float";
+}
+
 Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
   return make_tree(soup, options, report, meter);
@@ -216,6 +227,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
     meter.begin("certify");
     CertifyOptions certify_options = options.certify;
     certify_options.touching = options.extract.touching;
+    if (options.predicates != Predicates::exact) certify_options.most_rounds = 0;
     surface = certify(
         std::move(surface), input.grid, certify_options,
         [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,

@@ -43,6 +43,24 @@ TEST(Summary, HasADozenAlignedLinesAtMost) {
   EXPECT_LE(count, 12);
 }
 
+TEST(Summary, CountsTheFallbacksOfFloatingPredicatesInLinesOfTheSameWidth) {
+  Findings findings = findings_with_every_defect();
+  EXPECT_EQ(summary_of(findings, 1).find("floating point"), std::string::npos);
+  RepairReport& repair = findings.repair;
+  repair.predicates = Predicates::floating;
+  repair.epsilon = 5e-10;
+  repair.clip = {12345678, 12345678, 123456, 1234567, 123456, 1234567};
+  repair.cover.guessed_facets = repair.extract.polygons_apart = 123456;
+  const std::string summary = summary_of(findings, 1);
+  EXPECT_NE(summary.find("\nsides     in floating point, eps 5e-10, over 12,345,678 cuts\n"),
+            std::string::npos);
+  EXPECT_NE(summary.find("123,456 cuts with several regions, 1,234,567 cuts forced"),
+            std::string::npos);
+  EXPECT_NE(summary.find("123,456 facets clipped as stars"), std::string::npos);
+  std::istringstream lines(summary);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100) << line;
+}
+
 TEST(Summary, SaysWhatDoesNotHold) {
   const std::string summary = summary_of(findings_with_every_defect(), 1);
   EXPECT_NE(summary.find("NOT CLOSED"), std::string::npos);  // an output without triangles

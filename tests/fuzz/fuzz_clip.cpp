@@ -1,15 +1,18 @@
 // The clipper: a box, planes of the input's choice, cells of its choice. The first byte says who
 // answers the clipper's questions: exact predicates, which are asked for cuts that are some, exact
-// ones for planes that may miss the cell, or the input, whose answers contradict each other. The
-// topology has to hold in each case, the geometry in the first.
+// ones for planes that may miss the cell, the input, whose answers contradict each other, or
+// floating predicates with a tolerance of the input's choice. The topology has to hold in each
+// case, the geometry in the first.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include <extract/check_complex.h>
 #include <extract/clip_cell.h>
+#include <extract/float_engine.h>
 
 #include "fuzz_input.h"
 
@@ -21,7 +24,8 @@ constexpr std::size_t kMostClips = 24;
 constexpr std::size_t kSteps = 16;
 constexpr std::int32_t kStep = kGridRadius / kSteps;
 
-enum class Answers { exact, exact_for_any_plane, from_input };
+enum class Answers { exact, exact_for_any_plane, from_input, floating };
+constexpr std::size_t kAnswers = 4;
 
 // Whatever the input says, as long as it lasts.
 class LyingEngine final : public PredicateEngine {
@@ -46,7 +50,7 @@ class ClipRun {
  public:
   explicit ClipRun(FuzzInput& input)
       : input_(input),
-        answers_(static_cast<Answers>(input.below(3))),
+        answers_(static_cast<Answers>(input.below(kAnswers))),
         box_(choose_box()),
         complex_(soup_, box_),
         clipper_(complex_, engine()) {}
@@ -76,6 +80,11 @@ class ClipRun {
 
   PredicateEngine& engine() {
     if (answers_ == Answers::from_input) return lying_;
+    if (answers_ == Answers::floating) {
+      // From far below rounding to a quarter of the grid.
+      const int exponent = kGridBits - 2 - static_cast<int>(input_.below(60));
+      return floating_.emplace(std::ldexp(1.0, exponent));
+    }
     return exact_;
   }
 
@@ -209,7 +218,8 @@ class ClipRun {
   GridBox box_;
   CellComplex complex_;
   ExactEngine exact_;
-  LyingEngine lying_{input_};  // both stand before the clipper, which holds on to one of them
+  std::optional<FloatEngine> floating_;
+  LyingEngine lying_{input_};  // they stand before the clipper, which holds on to one of them
   Clipper clipper_;
   std::vector<GridPoint> points_;
   std::vector<PlaneId> planes_;

@@ -1,6 +1,7 @@
 // What fuzz_repair does with its bytes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <repair/repair.h>
@@ -32,8 +33,11 @@ inline RepairRequest decode_request(FuzzInput& input) {
   o.certify.precision = (flags & 4) != 0 ? Precision::float32 : Precision::float64;
   o.certify.welded = (flags & 8) != 0;
   o.check_cells = (flags & 112) == 112;  // slow, so seldom
+  constexpr std::array kEpsilons = {kDefaultEpsilon, 0.0, 1e-15, 1e-4, 1e-2};
+  if ((flags & 128) != 0) o.predicates = Predicates::floating;
   request.change = static_cast<Change>(input.below(4));
   request.chosen = input.number<std::uint16_t>() * std::uint64_t{0x0001000100010001};
+  o.epsilon = kEpsilons[request.chosen % kEpsilons.size()];
   request.soup = SoupDecoder(input, kMostTriangles).run();
   return request;
 }

@@ -8,6 +8,7 @@
 #include <extract/check_complex.h>
 
 #include "shapes.h"
+#include "unreliable_engine.h"
 
 namespace meshrepair {
 namespace {
@@ -104,27 +105,6 @@ TEST(BuildCells, PlaneOfTheRegionsOwnFacetIsRefused) {
     EXPECT_THROW((void)build_cells(tree, {}, report), InputError);
   }
 }
-
-// Answers at random near the plane: the topology has to stay valid whatever the numbers say.
-class UnreliableEngine final : public PredicateEngine {
- public:
-  UnreliableEngine(std::uint64_t seed, double wrong) : random_(seed), wrong_(wrong) {}
-  int side(const Point& point, PlaneId plane, const PlaneTable& planes) override {
-    if (random_.chance(wrong_)) return random_.integer(-1, 1);
-    return meshrepair::side(point, plane, planes);
-  }
-  Point cross(const Point& a, const Point& b, PlaneId, PlaneId, PlaneId,
-              const PlaneTable&) override {
-    const double t = random_.real(0, 1);
-    std::array<double, 3> at{};
-    for (std::size_t i = 0; i < 3; ++i) at[i] = (1 - t) * a.position[i] + t * b.position[i];
-    return loose_point(at);
-  }
-
- private:
-  Random random_;
-  double wrong_;
-};
 
 TEST(Clipper, TopologySurvivesWrongPredicates) {
   ClipReport total;

@@ -54,6 +54,20 @@ TEST(Certify, SaysWhatItCannotMend) {
   EXPECT_EQ(report.pairs, self_intersections(result.mesh).count);
 }
 
+TEST(Certify, MovesNothingWhenNoRoundsAreAllowed) {
+  TriangleSoup soup = box({-1, -1, -1}, {1, 1, 1.0 / 3});
+  append(soup, moved(cube(), {0.5, 0.25, 1.0 / 3}));
+  CertifyOptions options;
+  options.most_rounds = 0;
+  CertifyReport report;
+  const Surface result = certified(surface_of(soup), options, report);
+  EXPECT_FALSE(report.passed());
+  EXPECT_GT(report.pairs, 0u);
+  EXPECT_EQ(report.pairs, report.pairs_at_first);
+  EXPECT_EQ(result.mesh.points, soup.points);
+  EXPECT_EQ(result.mesh.triangles, soup.triangles);
+}
+
 // A corner just above a face, rounded onto it.
 TEST(Certify, NudgesPointsOffTheFacesThatTheyFellOn) {
   TriangleSoup soup = box({-1, -1, -1}, {1, 1, 1.0 / 3});

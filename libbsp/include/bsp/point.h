@@ -12,9 +12,11 @@ namespace meshrepair {
 
 // A lattice point (integer coordinates, stored exactly, error 0), or the one common point of three
 // planes, or a loose point: just coordinates, which is what an engine without exact arithmetic has.
+// A loose point lies on every plane that is within its tolerance.
 struct Point {
   std::array<double, 3> position{};  // grid units
-  float error = 0;                   // bound on the error of each coordinate of `position`
+  // Bound on the error of each coordinate of `position`; of a loose point its tolerance, not 0.
+  float error = 0;
   std::array<PlaneId, 3>
       planes{};  // all valid: their common point. Else lattice (error 0) or loose
 
@@ -28,7 +30,7 @@ struct Point {
 };
 
 [[nodiscard]] Point lattice_point(const GridPoint& at);
-[[nodiscard]] Point loose_point(const std::array<double, 3>& at);
+[[nodiscard]] Point loose_point(const std::array<double, 3>& at, double tolerance = 0);
 
 // The common point of three planes; a lattice point whenever its coordinates are integers, whatever
 // the planes. The order of the planes does not matter. When the planes have no single common point,

@@ -3,7 +3,8 @@
 // Properties: side(p, P) is the sign of normal(P) . p + offset(P), without error, for lattice
 // points and points given by three planes. side(meet(A, B, C), A) == 0. Turning a plane round turns
 // the sign. The answer does not depend on which three planes stand for a point, nor on the
-// approximation stored in it. Loose points get the sign of their rounded distance.
+// approximation stored in it. Loose points get the sign of their rounded distance, or 0 within
+// their tolerance.
 #pragma once
 
 #include <cmath>

@@ -3,7 +3,7 @@
 // Properties: turn(a, b, c) is the sign of the triangle's area seen from where the plane's normal
 // points, without error, for lattice points and points given by three planes. It stays when the
 // points are rotated and changes sign when two of them change places. Loose points get the sign of
-// their rounded area.
+// their rounded area, or 0 where one is within its tolerance of the line through the others.
 #pragma once
 
 #include <bsp/plane_table.h>

@@ -114,6 +114,9 @@ class CellComplex {
   IdVector<FacetId, Facet> facets;
   IdVector<CellId, Cell> cells;
   TrivialVector<TriangleId> facet_triangles;
+  // Made by predicates that may be wrong: cells and facets need not be convex, nor facets flat, and
+  // two edges may have the same ends. The topology is sound all the same.
+  bool loose = false;
 
  private:
   const CleanSoup* soup_;

@@ -27,11 +27,14 @@ struct CoverLayer {
 struct CoverReport {
   std::size_t opaque_facets = 0;
   std::size_t split_facets = 0;  // how many cuts it took until no facet was covered in part
+  // In a loose complex: facets whose cover was guessed, as cutting them did not come to an end.
+  std::size_t guessed_facets = 0;
 };
 
 // Decides by predicates on the edges of triangles and facets, never by areas. A facet that a
 // triangle covers in part (coplanar triangles, open borders) is split along the triangle's edges;
-// its new vertices go into the neighbouring facets too, so the complex stays conforming. Frees the
+// its new vertices go into the neighbouring facets too, so the complex stays conforming. In a loose
+// complex the predicates hold within the tolerance of its points, and nothing is exact. Frees the
 // facets' lists of triangles. `winding` is how each triangle is turned against the normal of its
 // plane (Triangle::winding, or that of another orientation of the soup). `layers`, unless null,
 // gets what lies on a facet beyond Cover::triangle, in the order of the facets.

@@ -23,11 +23,13 @@ struct ExtractReport {
   std::size_t singular_edges = 0;
   std::size_t singular_vertices = 0;
   std::size_t middle_vertices = 0;  // put into edges at which solids touch, see MiddleVertices
+  std::size_t polygons_apart = 0;   // in a loose complex: facets that could not be merged
 };
 
 // `solid` has one entry for each cell. Points of the input keep their original coordinates bit for
 // bit; new points are rounded from their exact place. The surface has no triangle when nothing is
-// solid.
+// solid. It is closed and manifold, of a loose complex too; a loose point that is nearest to a
+// point of the input is taken for it.
 [[nodiscard]] Surface extract_surface(const CellComplex& complex,
                                       const IdVector<FacetId, Cover>& cover,
                                       const std::vector<char>& solid, ExtractReport& report,

@@ -34,10 +34,12 @@ struct MergedFacets {
 // line; but edges and vertices at which solids touch stay, except for vertices in the middle of
 // such an edge. Regions are in the order of the input
 // triangles that cover them; those that are not covered come last. Combinatorial: no tolerance is
-// involved.
+// involved, but in a loose complex that of its points says what a straight line is. `alone` marks
+// polygons that are regions of their own and keep all their vertices; empty is none.
 [[nodiscard]] MergedFacets merge_facets(const CellComplex& complex,
                                         const IdVector<FacetId, Cover>& cover,
                                         const std::vector<char>& solid, const Boundary& boundary,
-                                        const ManifoldCorners& corners);
+                                        const ManifoldCorners& corners,
+                                        std::span<const char> alone = {});
 
 }  // namespace meshrepair

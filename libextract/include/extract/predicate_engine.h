@@ -15,6 +15,10 @@ class PredicateEngine {
   PredicateEngine& operator=(const PredicateEngine&) = delete;
   virtual ~PredicateEngine() = default;
 
+  // Whether it is never wrong: then a plane that does not cut a cell is not a cut of a valid tree.
+  [[nodiscard]] virtual bool exact() const { return false; }
+  // Of the loose points that are made of what it says, in grid steps.
+  [[nodiscard]] virtual double tolerance() const { return 0; }
   // -1 below, 0 on, +1 above the plane.
   virtual int side(const Point& point, PlaneId plane, const PlaneTable& planes) = 0;
   // The point where the edge from `a` to `b`, on the common line of planes p and q, passes through
@@ -26,6 +30,7 @@ class PredicateEngine {
 // Never wrong.
 class ExactEngine final : public PredicateEngine {
  public:
+  [[nodiscard]] bool exact() const override { return true; }
   int side(const Point& point, PlaneId plane, const PlaneTable& planes) override {
     return meshrepair::side(point, plane, planes);
   }

@@ -23,7 +23,8 @@ struct CertifyOptions {
   // a few units in the last place.
   bool welded = false;
   Touching touching = Touching::separate;  // of the surface; repair() sets it to that of `extract`
-  // How often the places that fail may be brought onto a coarser grid and repaired again.
+  // How often the places that fail may be brought onto a coarser grid and repaired again. 0: they
+  // are left as they are, but for solids that a format without indices would join.
   std::size_t most_rounds = 6;
 };
 

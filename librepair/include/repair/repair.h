@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include <bsp/build_tree.h>
@@ -14,6 +15,7 @@
 #include <extract/clip_cell.h>
 #include <extract/cover_facets.h>
 #include <extract/extract_surface.h>
+#include <extract/float_engine.h>
 #include <extract/surface.h>
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
@@ -24,7 +26,17 @@
 
 namespace meshrepair {
 
+// Who says on which side of a plane a point of the cells lies. The rest is exact in either case:
+// the working grid, the tree, the certificate.
+enum class Predicates { exact, floating };
+
+[[nodiscard]] std::string_view predicates_name(Predicates predicates);
+
 struct RepairOptions {
+  Predicates predicates = Predicates::exact;
+  // Of floating predicates: points within it are on a plane; relative to the largest side of the
+  // input's bounding box. Their results are certified, but not mended by repairing them again.
+  double epsilon = kDefaultEpsilon;
   HoleOptions holes;
   BuildTreeOptions tree;
   InsideOptions inside;
@@ -42,6 +54,8 @@ struct RepairReport {
   double input_area = 0;  // of the clean soup, in the input's units, squared
   HoleReport holes;
   BuildTreeReport tree;
+  Predicates predicates = Predicates::exact;  // and, if they are not exact, their epsilon
+  double epsilon = 0;
   std::size_t cells = 0;
   std::size_t facets = 0;
   ClipReport clip;
