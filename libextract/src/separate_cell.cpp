@@ -4,6 +4,8 @@
 // and the edges between the sides form one simple closed curve; on a sphere such a curve leaves
 // exactly two disks (Jordan), so tracing it proves that the separation is sound and nothing more is
 // needed. Otherwise the paper's flooding decides.
+#include <chrono>
+
 #include <extract/clip_cell.h>
 
 #include "complex_edit.h"
@@ -19,7 +21,12 @@ CellId Clipper::clip(CellId cell, PlaneId plane) {
 
   sort_by_side();
   collect_curve_from_clips(cell);
-  if (!plain_ || !trace_curve(cell)) flood_regions(cell, plane);
+  if (!plain_ || !trace_curve(cell)) {
+    const auto start = std::chrono::steady_clock::now();
+    flood_regions(cell, plane);
+    report_.flood_seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
   return internal::separate_cell(complex_, cell, plane, curve_, below_, above_);
 }
 

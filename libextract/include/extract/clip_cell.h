@@ -20,6 +20,8 @@ struct ClipReport {
   std::size_t several_regions = 0;  // the flood left more than one region above (WM fig. 7)
   std::size_t forced_cuts = 0;      // it left none, and a facet was forced above
 
+  double flood_seconds = 0;
+
   [[nodiscard]] std::size_t fallbacks() const {
     return loose_points + several_groups + region_floods;
   }
