@@ -25,6 +25,7 @@ build_packages=(
   libeigen3-dev
   libgmock-dev
   libgtest-dev
+  libnanoflann-dev
   libopenmesh-dev
   libspdlog-dev
   libtbb-dev
