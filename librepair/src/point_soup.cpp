@@ -13,6 +13,7 @@
 #include <repair/point_soup.h>
 
 #include "agreed_triangles.h"
+#include "drop_crumbs.h"
 #include "point_stars.h"
 #include "sift_points.h"
 #include "tangent_plane.h"
@@ -93,6 +94,7 @@ PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& optio
     voted = agreed_triangles(sifted.points, planes, voted, &cancel);
     report.disagreed = before - voted.size();
   }
+  report.crumbs = drop_crumbs(voted, options.fewest_triangles);
   for (const VotedTriangle& triangle : voted) {
     result.soup.triangles.push_back(triangle.corners);
     result.votes.push_back(triangle.votes);

@@ -20,6 +20,8 @@ struct PointSoupOptions {
   // Whether of triangles that lie on each other, because points disagree, only those are taken that
   // more points want.
   bool agree = true;
+  // Open pieces of fewer triangles are dropped.
+  std::size_t fewest_triangles = 20;
   // Points around one that its tangent plane is fitted to.
   std::size_t neighbours = 16;
   // The largest radius of a circle around a triangle, without another point on that sheet: holes
@@ -51,6 +53,7 @@ struct PointSoupReport {
   double farthest_move = 0;                  // of a point by projection
   std::array<std::size_t, 3> by_votes = {};  // triangles that 1, 2, 3 corners want
   std::size_t disagreed = 0;                 // of those with votes enough, dropped
+  std::size_t crumbs = 0;                    // in pieces that are too small, dropped
   std::size_t triangles = 0;                 // left
 };
 
