@@ -7,17 +7,12 @@
 namespace meshrepair {
 namespace {
 
-struct PointOptions {
-  bool as_points = false;
-  PointSoupOptions soup;
-};
-
-void repair_any(const StepOptions& options, const PointOptions& points, Run& run,
-                Findings& findings) {
+void repair_input(const StepOptions& options, const PointOptions& points, Run& run,
+                  Findings& findings) {
   const WriteOptions format = mesh_format(options);
-  const TriangleSoup soup = read_any_stage(points.as_points, points.soup, run, findings);
+  const TriangleSoup soup = read_any_stage(points, run, findings);
   const RepairOptions repair_options = certified_for(*format.format, options.repair);
-  const Surface surface = repair(soup, repair_options, findings.repair);
+  const Surface surface = repair_any(soup, repair_options, findings);
   measure_distance_stage(soup, surface, repair_options.certify.precision, run, findings);
   write_mesh_stage(surface, format, options, run, findings);
 }
@@ -50,11 +45,9 @@ int main(int argc, char** argv) {
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
   add_certify_options(app, options.repair.certify, options.strict);
-  app.add_flag("--points", points.as_points, "Take a mesh for its points, as if it had no faces")
-      ->group("Points");
-  add_point_options(app, points.soup);
+  add_point_repair_options(app, points);
   return run_steps(program, argc, argv, options,
                    [&](const StepOptions& steps, Run& run, Findings& findings) {
-                     repair_any(steps, points, run, findings);
+                     repair_input(steps, points, run, findings);
                    });
 }

@@ -1,8 +1,11 @@
 // How well are solids found again from samples of their surface? Markdown, one row for each cloud.
 //
-//   points_table [--sizes 2000,20000] [--only NAME] [--votes N] [--inside RULE] ...
+//   points_table [--sizes 2000,20000] [--only SOLID] [--clouds FOLDER] [--votes N] [--agree 0|1]
+//                [--reach X] [--neighbours N] [--project N] [--inside RULE]
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,7 @@ constexpr std::uint64_t kSeed = 20261122;
 struct Settings {
   std::vector<std::size_t> sizes = {2000, 20000, 200000};
   std::string only;
+  std::string folder;  // for the clouds as XYZ files; empty: they are not kept
   PointSoupOptions soup;
   RepairOptions repair;
 };
@@ -84,6 +88,20 @@ std::string distance_text(const TriangleSoup& result, const Solid& solid, std::s
   return text;
 }
 
+// SOLID_CLOUD_POINTS.xyz, with underscores for what is not a letter or a digit.
+void keep_cloud(const Solid& solid, const Cloud& cloud, const std::string& folder) {
+  std::string name =
+      solid.name + "_" + cloud.name + "_" + std::to_string(cloud.cloud.points.size());
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  std::ofstream file(folder + "/" + name + ".xyz");
+  file.precision(17);
+  for (const Vec3d& p : cloud.cloud.points) {
+    file << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  }
+}
+
 void print_row(const Solid& solid, const Cloud& cloud, const Settings& settings,
                std::size_t points) {
   PointSoupReport soup_report;
@@ -134,6 +152,8 @@ Settings settings_of(int argc, char** argv) {
       }
     } else if (name == "--only") {
       settings.only = value;
+    } else if (name == "--clouds") {
+      settings.folder = value;
     } else if (name == "--votes") {
       settings.soup.votes = std::stoi(value);
     } else if (name == "--agree") {
@@ -167,6 +187,7 @@ void run(const Settings& settings) {
     for (const Solid& solid : solids_of(points)) {
       if (solid.name.find(settings.only) == std::string::npos) continue;
       for (const Cloud& cloud : clouds_of(solid.surface, points)) {
+        if (!settings.folder.empty()) keep_cloud(solid, cloud, settings.folder);
         print_row(solid, cloud, settings, points);
       }
     }

@@ -1,11 +1,45 @@
 #include "common/point_steps.h"
 
+#include <limits>
+#include <string>
 #include <utility>
 
 #include <CLI/Validators.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <bsp/error.h>
 
 namespace meshrepair {
 namespace {
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
+
+// Of the triangles of a scan that is closed but for holes, most are in the result, and most of the
+// result is of them. Scans of one side come to less than a third or more than half.
+constexpr double kFewestKept = 0.5;
+constexpr double kMostMadeUp = 0.4;
+
+constexpr const char* kAdvice =
+    "; --base closes a scan that is open below, --project N smooths noisy points, and meshrepair "
+    "on what pointmesh writes closes whatever it can";
+
+void require_enclosure(const Findings& findings) {
+  const RepairReport& repair = findings.repair;
+  const auto kept = static_cast<double>(repair.triangles.untouched + repair.triangles.cut);
+  const double share = kept / static_cast<double>(repair.clean.triangles_in);
+  if (share < kFewestKept) {
+    throw NoSolidError(
+        "the points enclose little: " + percent(1 - share) +
+        " of the triangles between them are no wall of anything, as in a scan of one "
+        "side" +
+        kAdvice);
+  }
+  const double made_up = repair.closing_area / repair.output_area;
+  if (made_up > kMostMadeUp) {
+    throw NoSolidError("the points leave too much open: " + percent(made_up) +
+                       " of the surface would be made up" + kAdvice);
+  }
+}
 
 PointCloud keep(PointReadResult result, Findings& findings) {
   findings.points_read = std::move(result.report);
@@ -65,23 +99,59 @@ TriangleSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options
   return make_point_soup(cloud, options, findings.point_soup.emplace()).soup;
 }
 
-TriangleSoup read_any_stage(bool as_points, const PointSoupOptions& options, Run& run,
-                            Findings& findings) {
+void add_point_repair_options(CLI::App& app, PointOptions& options) {
+  app.add_flag("--points", options.as_points, "Take a mesh for its points, as if it had no faces")
+      ->group("Points");
+  app.add_flag("--base", options.base,
+               "Close an open scan, of a terrain for one, by walls down to a floor")
+      ->group("Points");
+  app.add_option_function<std::string>(
+         "--up", [&options](const std::string& axis) { options.scan_base.axis = axis[0] - 'x'; },
+         "The axis that points up from the floor: x, y, z")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->type_name("NAME")
+      ->default_str("z")
+      ->group("Points");
+  add_point_options(app, options.soup);
+}
+
+TriangleSoup read_any_stage(const PointOptions& options, Run& run, Findings& findings) {
   PointCloud cloud;
-  if (as_points) {
+  if (options.as_points) {
     cloud = read_points_stage(run, findings);
   } else {
     StageMeter meter(findings.repair.stages, &run.progress);
     meter.begin("read");
     MeshOrPoints input = read_mesh_or_points(findings.input, read_options(run));
     if (input.mesh) {
+      if (options.base) throw UsageError("--base: is for points; --points takes those of a mesh");
       findings.mesh_read = std::move(input.mesh->report);
       log_warnings(findings.input_name(), findings.mesh_read->warnings);
       return std::move(input.mesh->soup);
     }
     cloud = keep(std::move(*input.points), findings);
   }
-  return triangulate_stage(cloud, options, run, findings);
+  TriangleSoup soup = triangulate_stage(cloud, options.soup, run, findings);
+  if (!options.base) return soup;
+  return with_base(soup, options.scan_base, findings.scan_base.emplace());
+}
+
+Surface repair_any(const TriangleSoup& soup, const RepairOptions& options, Findings& findings) {
+  if (!findings.point_soup) return repair(soup, options, findings.repair);
+  RepairOptions point_options = options;
+  if (findings.scan_base) {
+    point_options.holes.largest_share = std::numeric_limits<double>::max();
+    return repair(soup, point_options, findings.repair);
+  }
+  try {
+    Surface surface = repair(soup, point_options, findings.repair);
+    require_enclosure(findings);
+    return surface;
+  } catch (const NoSolidError& error) {
+    const std::string why = error.what();
+    if (why.ends_with(kAdvice)) throw;
+    throw NoSolidError(why + kAdvice);
+  }
 }
 
 }  // namespace meshrepair

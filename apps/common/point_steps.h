@@ -5,6 +5,7 @@
 
 #include <bsp/point_cloud.h>
 #include <bsp/soup.h>
+#include <repair/scan_base.h>
 
 #include "common/repair_steps.h"
 
@@ -20,8 +21,25 @@ void add_point_options(CLI::App& app, PointSoupOptions& options);
 [[nodiscard]] TriangleSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options,
                                              Run& run, Findings& findings);
 
-// Reads a mesh, or a point cloud and triangulates it; `as_points` takes a mesh for its points, too.
-[[nodiscard]] TriangleSoup read_any_stage(bool as_points, const PointSoupOptions& options, Run& run,
+// How a program that repairs takes points.
+struct PointOptions {
+  bool as_points = false;  // a mesh, too
+  bool base = false;       // close an open scan from below
+  PointSoupOptions soup;
+  ScanBaseOptions scan_base;
+};
+
+// --points, --base, --up and the options of the local triangulation.
+void add_point_repair_options(CLI::App& app, PointOptions& options);
+
+// Reads a mesh, or a point cloud, triangulates it and puts it on its base.
+[[nodiscard]] TriangleSoup read_any_stage(const PointOptions& options, Run& run,
                                           Findings& findings);
+
+// repair(), as the input needs it: the floor of a base is a hole of any size. Throws NoSolidError,
+// with advice, also where the points are those of an open scan, of which what can be enclosed would
+// be mostly made up.
+[[nodiscard]] Surface repair_any(const TriangleSoup& soup, const RepairOptions& options,
+                                 Findings& findings);
 
 }  // namespace meshrepair

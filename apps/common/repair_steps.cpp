@@ -52,6 +52,7 @@ void warn_of_coarse_grid(const Findings& findings) {
 // A solid made of an open sheet is mostly made up; the user may have meant something else.
 void warn_of_made_up_surface(const Findings& findings) {
   const RepairReport& repair = findings.repair;
+  if (findings.scan_base) return;  // asked for
   constexpr double kWorthAWarning = 0.3;
   if (!std::isfinite(repair.output_area)) return;
   if (repair.closing_area <= kWorthAWarning * repair.output_area) return;

@@ -15,6 +15,7 @@
 #include <repair/fidelity.h>
 #include <repair/point_soup.h>
 #include <repair/repair.h>
+#include <repair/scan_base.h>
 
 #include "common/program.h"
 
@@ -45,6 +46,7 @@ struct Findings {
   std::optional<ReadReport> mesh_read;
   std::optional<PointReadReport> points_read;
   std::optional<PointSoupReport> point_soup;
+  std::optional<ScanBaseReport> scan_base;
   bool soup_written = false;  // the output is the soup of the points, no solid
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;

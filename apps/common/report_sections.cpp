@@ -50,8 +50,16 @@ Json section_of(const PointSoupReport& points) {
           {"farthest_move", points.farthest_move},
           {"triangles_by_votes", points.by_votes},
           {"disagreed_triangles", points.disagreed},
+          {"loose_triangles", points.loose},
           {"crumb_triangles", points.crumbs},
           {"triangles", points.triangles}};
+}
+
+Json section_of(const ScanBaseReport& base) {
+  return {{"floor", base.floor},
+          {"parts", base.parts},
+          {"dropped_triangles", base.dropped_triangles},
+          {"skirt_triangles", base.skirt_triangles}};
 }
 
 Json section_of(const TreeFacts& tree) {
@@ -223,6 +231,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (findings.mesh_read) report.set_section("read", section_of(*findings.mesh_read));
   if (findings.points_read) report.set_section("read", section_of(*findings.points_read));
   if (findings.point_soup) report.set_section("points", section_of(*findings.point_soup));
+  if (findings.scan_base) report.set_section("base", section_of(*findings.scan_base));
   if (findings.tree_read) report.set_section("read", section_of(*findings.tree_read));
   if (was_begun(repair, "clean")) {
     report.set_section("clean", section_of(repair.clean));

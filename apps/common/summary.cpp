@@ -105,6 +105,11 @@ void describe_points(const Findings& findings, Lines& lines) {
     lines.add("dropped", dropped);
   }
   lines.add("meshed", local_triangles(soup));
+  if (!findings.scan_base) return;
+  lines.add("base",
+            fmt::format("{} on a floor at {:.6g}, walls of {}",
+                        number_of(findings.scan_base->parts, "part"), findings.scan_base->floor,
+                        number_of(findings.scan_base->skirt_triangles, "triangle")));
 }
 
 void describe_input(const Findings& findings, Lines& lines) {

@@ -15,7 +15,9 @@
 #include "agreed_triangles.h"
 #include "drop_crumbs.h"
 #include "point_stars.h"
+#include "project_points.h"
 #include "sift_points.h"
+#include "single_fans.h"
 #include "tangent_plane.h"
 
 namespace meshrepair {
@@ -75,32 +77,56 @@ std::vector<VotedTriangle> count_votes(std::vector<StarTriangle> wanted, const S
   return voted;
 }
 
+// Takes away what would not let itself be closed.
+void tidy(std::vector<VotedTriangle>& voted, const SiftedCloud& cloud,
+          const std::vector<TangentPlane>& planes, const PointSoupOptions& options,
+          PointSoupReport& report) {
+  if (options.agree) {
+    const std::size_t before = voted.size();
+    CancelOnly cancel(options.progress);
+    voted = agreed_triangles(cloud.points, planes, voted, &cancel);
+    report.disagreed = before - voted.size();
+    report.loose = keep_single_fans(voted, cloud.points.size());
+  }
+  report.crumbs = drop_crumbs(voted, options.fewest_triangles);
+}
+
+PointSoup assemble(const PointCloud& cloud, const SiftedCloud& sifted,
+                   const std::vector<VotedTriangle>& triangles, bool moved) {
+  PointSoup result;
+  for (std::size_t p = 0; p < sifted.points.size(); ++p) {
+    result.soup.points.push_back(moved ? sifted.centre + sifted.scale * sifted.points[p]
+                                       : cloud.points[sifted.original[p]]);
+  }
+  for (const VotedTriangle& triangle : triangles) {
+    result.soup.triangles.push_back(triangle.corners);
+    result.votes.push_back(triangle.votes);
+  }
+  return result;
+}
+
 }  // namespace
 
 PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& options,
                           PointSoupReport& report) {
   require_sense(options);
-  const SiftedCloud sifted = sift_points(cloud, options, report);
+  SiftedCloud sifted = sift_points(cloud, options, report);
   require_points(report);
   report.normals_used = !sifted.normals.empty();
+  if (options.project > 0) {
+    report.farthest_move = sifted.scale * project_points(sifted, options.project, options.progress);
+    look_around(sifted, options);
+  }
   const std::vector<TangentPlane> planes = find_tangent_planes(sifted, options);
-  PointSoup result;
-  for (const std::uint32_t p : sifted.original) result.soup.points.push_back(cloud.points[p]);
   std::vector<VotedTriangle> voted =
       count_votes(build_stars(sifted, planes, options), sifted, options, report);
-  if (options.agree) {
-    const std::size_t before = voted.size();
-    CancelOnly cancel(options.progress);
-    voted = agreed_triangles(sifted.points, planes, voted, &cancel);
-    report.disagreed = before - voted.size();
-  }
-  report.crumbs = drop_crumbs(voted, options.fewest_triangles);
-  for (const VotedTriangle& triangle : voted) {
-    result.soup.triangles.push_back(triangle.corners);
-    result.votes.push_back(triangle.votes);
-  }
+  tidy(voted, sifted, planes, options, report);
   report.triangles = voted.size();
-  return result;
+  if (voted.empty()) {
+    throw NoSolidError("the " + std::to_string(report.points) +
+                       " points make no surface: they lie along lines, or too far apart");
+  }
+  return assemble(cloud, sifted, voted, options.project > 0);
 }
 
 }  // namespace meshrepair

@@ -86,14 +86,6 @@ void measure_spacing(SiftedCloud& sifted) {
   });
 }
 
-void look_around(SiftedCloud& sifted, const PointSoupOptions& options) {
-  const PointIndex index(sifted.points);
-  const std::size_t count = std::max(options.neighbours, kDensityNeighbours);
-  CancelOnly cancel(options.progress);
-  sifted.around = find_neighbourhoods(index, sifted.points, count, &cancel);
-  measure_spacing(sifted);
-}
-
 double median_spacing_around(const SiftedCloud& sifted, std::size_t point) {
   std::array<double, kWitnesses> spacings;
   const auto around = sifted.around.of(point);
@@ -144,6 +136,14 @@ void report_spacing(const SiftedCloud& sifted, PointSoupReport& report) {
 }
 
 }  // namespace
+
+void look_around(SiftedCloud& sifted, const PointSoupOptions& options) {
+  const PointIndex index(sifted.points);
+  const std::size_t count = std::max(options.neighbours, kDensityNeighbours);
+  CancelOnly cancel(options.progress);
+  sifted.around = find_neighbourhoods(index, sifted.points, count, &cancel);
+  measure_spacing(sifted);
+}
 
 SiftedCloud sift_points(const PointCloud& cloud, const PointSoupOptions& options,
                         PointSoupReport& report) {

@@ -26,4 +26,7 @@ struct SiftedCloud {
 [[nodiscard]] SiftedCloud sift_points(const PointCloud& cloud, const PointSoupOptions& options,
                                       PointSoupReport& report);
 
+// Finds the neighbours and the spacing of points that were moved. Throws Cancelled.
+void look_around(SiftedCloud& cloud, const PointSoupOptions& options);
+
 }  // namespace meshrepair

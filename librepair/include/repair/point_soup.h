@@ -53,6 +53,7 @@ struct PointSoupReport {
   double farthest_move = 0;                  // of a point by projection
   std::array<std::size_t, 3> by_votes = {};  // triangles that 1, 2, 3 corners want
   std::size_t disagreed = 0;                 // of those with votes enough, dropped
+  std::size_t loose = 0;                     // that only touched others in a point, dropped
   std::size_t crumbs = 0;                    // in pieces that are too small, dropped
   std::size_t triangles = 0;                 // left
 };
@@ -68,7 +69,7 @@ struct PointSoup {
 // tangent_star.h). It has holes where points are missing, and where points are nearly on one
 // sphere, flat tetrahedra. Triangles turn as the normals say where there are any, else any way
 // round. The same for any number of threads. Throws UsageError when the options make no sense,
-// NoSolidError when fewer than four points are left, Cancelled.
+// NoSolidError when fewer than four points or no triangles are left, Cancelled.
 [[nodiscard]] PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& options,
                                         PointSoupReport& report);
 
