@@ -12,7 +12,7 @@ void repair_input(const StepOptions& options, const PointOptions& points, Run& r
   const WriteOptions format = mesh_format(options);
   const TriangleSoup soup = read_any_stage(points, run, findings);
   const RepairOptions repair_options = certified_for(*format.format, options.repair);
-  const Surface surface = repair_any(soup, repair_options, findings);
+  const Surface surface = repair_any(soup, points, repair_options, findings);
   measure_distance_stage(soup, surface, repair_options.certify.precision, run, findings);
   write_mesh_stage(surface, format, options, run, findings);
 }

@@ -11,6 +11,7 @@
 
 #include <bsp/error.h>
 #include <extract/mesh_distance.h>
+#include <repair/drop_small_parts.h>
 #include <repair/point_soup.h>
 #include <repair/repair.h>
 
@@ -115,8 +116,10 @@ void print_row(const Solid& solid, const Cloud& cloud, const Settings& settings,
       measure([&] { soup = make_point_soup(cloud.cloud, settings.soup, soup_report); });
   try {
     Surface surface;
-    repair_seconds =
-        measure([&] { surface = repair(soup.soup, settings.repair, report); }).cpu_seconds;
+    repair_seconds = measure([&] {
+                       surface = repair(soup.soup, settings.repair, report);
+                       drop_small_parts(surface, settings.soup.fewest_triangles, report);
+                     }).cpu_seconds;
     const Topology& output = report.output;
     if (!report.certify.passed() || !output.closed() || !output.manifold() || !output.oriented()) {
       verdict = "FAILS";

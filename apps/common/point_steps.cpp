@@ -8,6 +8,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <bsp/error.h>
+#include <repair/drop_small_parts.h>
 
 namespace meshrepair {
 namespace {
@@ -136,20 +137,20 @@ TriangleSoup read_any_stage(const PointOptions& options, Run& run, Findings& fin
   return with_base(soup, options.scan_base, findings.scan_base.emplace());
 }
 
-Surface repair_any(const TriangleSoup& soup, const RepairOptions& options, Findings& findings) {
+Surface repair_any(const TriangleSoup& soup, const PointOptions& points,
+                   const RepairOptions& options, Findings& findings) {
   if (!findings.point_soup) return repair(soup, options, findings.repair);
   RepairOptions point_options = options;
-  if (findings.scan_base) {
-    point_options.holes.largest_share = std::numeric_limits<double>::max();
-    return repair(soup, point_options, findings.repair);
-  }
+  if (findings.scan_base) point_options.holes.largest_share = std::numeric_limits<double>::max();
   try {
     Surface surface = repair(soup, point_options, findings.repair);
-    require_enclosure(findings);
+    if (!findings.scan_base) require_enclosure(findings);
+    findings.dropped_solids =
+        drop_small_parts(surface, points.soup.fewest_triangles, findings.repair);
     return surface;
   } catch (const NoSolidError& error) {
     const std::string why = error.what();
-    if (why.ends_with(kAdvice)) throw;
+    if (findings.scan_base || why.ends_with(kAdvice)) throw;
     throw NoSolidError(why + kAdvice);
   }
 }

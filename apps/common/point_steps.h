@@ -36,10 +36,10 @@ void add_point_repair_options(CLI::App& app, PointOptions& options);
 [[nodiscard]] TriangleSoup read_any_stage(const PointOptions& options, Run& run,
                                           Findings& findings);
 
-// repair(), as the input needs it: the floor of a base is a hole of any size. Throws NoSolidError,
-// with advice, also where the points are those of an open scan, of which what can be enclosed would
-// be mostly made up.
-[[nodiscard]] Surface repair_any(const TriangleSoup& soup, const RepairOptions& options,
-                                 Findings& findings);
+// repair(), as the input needs it: the floor of a base is a hole of any size, and solids that the
+// points are too few to tell are dropped. Throws NoSolidError, with advice, also where the points
+// are those of an open scan, of which what can be enclosed would be mostly made up.
+[[nodiscard]] Surface repair_any(const TriangleSoup& soup, const PointOptions& points,
+                                 const RepairOptions& options, Findings& findings);
 
 }  // namespace meshrepair

@@ -47,7 +47,8 @@ struct Findings {
   std::optional<PointReadReport> points_read;
   std::optional<PointSoupReport> point_soup;
   std::optional<ScanBaseReport> scan_base;
-  bool soup_written = false;  // the output is the soup of the points, no solid
+  std::size_t dropped_solids = 0;  // too small for the points to tell
+  bool soup_written = false;       // the output is the soup of the points, no solid
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;

@@ -197,7 +197,9 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   if (repair.clean.triangles_in > 0) {
     lines.add("kept", kept_triangles(repair));
   }
-  lines.add("removed", removed_parts(repair));
+  std::vector<std::string> removed = removed_parts(repair);
+  add_count(removed, findings.dropped_solids, "solid", "too small for the points to tell");
+  lines.add("removed", removed);
   lines.add("checked",
             joined({output.closed() ? "closed" : "NOT CLOSED",
                     output.manifold() ? "manifold" : "NOT MANIFOLD",

@@ -114,7 +114,9 @@ PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& optio
   require_points(report);
   report.normals_used = !sifted.normals.empty();
   if (options.project > 0) {
-    report.farthest_move = sifted.scale * project_points(sifted, options.project, options.progress);
+    report.farthest_move = sifted.scale * project_points(sifted, options);
+    report.thinned = report.points - sifted.points.size();
+    report.points = sifted.points.size();
     look_around(sifted, options);
   }
   const std::vector<TangentPlane> planes = find_tangent_planes(sifted, options);

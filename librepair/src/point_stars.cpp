@@ -13,8 +13,9 @@
 namespace meshrepair {
 namespace {
 
-// A star that the usual neighbours do not close, at a rim or beside a hole, asks for this many.
-constexpr std::size_t kMoreNeighbours = 128;
+// A star that the usual neighbours do not close, at a rim or beside a hole, asks for twice as many,
+// and again, up to so many.
+constexpr std::size_t kMostNeighbours = 160;
 
 // Where points lie along a line, as in scans, so many times the neighbours are looked at.
 constexpr std::size_t kLineFactor = 4;
@@ -40,7 +41,7 @@ class StarBuilder {
  public:
   StarBuilder(const SiftedCloud& cloud, const std::vector<TangentPlane>& planes,
               const PointIndex& index, const PointSoupOptions& options)
-      : cloud_(cloud), planes_(planes), index_(index), options_(options), more_(kMoreNeighbours) {}
+      : cloud_(cloud), planes_(planes), index_(index), options_(options) {}
 
   void build(std::uint32_t point, std::vector<StarTriangle>& out) {
     const Vec3d& at = cloud_.points[point];
@@ -50,11 +51,17 @@ class StarBuilder {
       if (is_closed(distance(point, neighbour))) return emit(point, out);
       add(point, neighbour);
     }
-    const std::size_t found = index_.nearest(at, more_);
-    for (std::size_t i = std::min(cloud_.around.per_point, found); i < found; ++i) {
-      const std::uint32_t neighbour = more_[i].point;
-      if (is_closed(more_[i].distance)) break;
-      if (neighbour != point) add(point, neighbour);
+    // A point itself is among its nearest ones.
+    std::size_t known = cloud_.around.per_point + 1;
+    for (std::size_t count = 2 * known; known < kMostNeighbours; count *= 2) {
+      more_.resize(std::min(count, kMostNeighbours));
+      const std::size_t found = index_.nearest(at, more_);
+      for (std::size_t i = known - 1; i < found; ++i) {
+        if (is_closed(more_[i].distance)) return emit(point, out);
+        if (more_[i].point != point) add(point, more_[i].point);
+      }
+      if (found < more_.size()) break;
+      known = found;
     }
     emit(point, out);
   }

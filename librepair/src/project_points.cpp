@@ -15,8 +15,9 @@
 namespace meshrepair {
 namespace {
 
-// A quadratic surface has six numbers; five times as many points even out their noise.
-constexpr std::size_t kNeighbours = 30;
+// A quadratic surface has six numbers: twice the points that a plane is fitted to even out their
+// noise.
+constexpr std::size_t kFactor = 2;
 
 // The quadratic terms are held towards 0, as much as this share of the points would: a plane where
 // the points do not tell.
@@ -53,14 +54,46 @@ double height_at(const std::vector<Vec3d>& points, std::size_t point,
   return std::isfinite(fit[0]) ? reach * fit[0] : 0;
 }
 
+// Points nearer to each other than this share of the spacing tell more of what noise is left than
+// of the surface.
+constexpr double kTooNear = 0.4;
+
+// Of points that are too near, the first stays.
+void thin_out(SiftedCloud& cloud) {
+  const PointIndex index(cloud.points);
+  std::vector<char> dropped(cloud.points.size(), 0);
+  std::vector<Neighbour> found(16);
+  std::size_t kept = 0;
+  for (std::uint32_t p = 0; p < cloud.points.size(); ++p) {
+    const double least = kTooNear * cloud.spacing[p];
+    const std::size_t count = index.nearest(cloud.points[p], found);
+    for (std::size_t i = 0; i < count && found[i].distance < least * least; ++i) {
+      if (found[i].point < p && dropped[found[i].point] == 0) dropped[p] = 1;
+    }
+    kept += dropped[p] == 0;
+  }
+  std::size_t to = 0;
+  for (std::size_t p = 0; p < dropped.size(); ++p) {
+    if (dropped[p] != 0) continue;
+    cloud.points[to] = cloud.points[p];
+    cloud.original[to] = cloud.original[p];
+    if (!cloud.normals.empty()) cloud.normals[to] = cloud.normals[p];
+    ++to;
+  }
+  cloud.points.resize(kept);
+  cloud.original.resize(kept);
+  if (!cloud.normals.empty()) cloud.normals.resize(kept);
+}
+
 }  // namespace
 
-double project_points(SiftedCloud& cloud, int times, ProgressObserver* progress) {
+double project_points(SiftedCloud& cloud, const PointSoupOptions& options) {
   const std::vector<Vec3d> before = cloud.points;
-  CancelOnly cancel(progress);
-  for (int i = 0; i < times; ++i) {
+  CancelOnly cancel(options.progress);
+  for (int i = 0; i < options.project; ++i) {
     const PointIndex index(cloud.points);
-    const Neighbourhoods around = find_neighbourhoods(index, cloud.points, kNeighbours, &cancel);
+    const Neighbourhoods around =
+        find_neighbourhoods(index, cloud.points, kFactor * options.neighbours, &cancel);
     std::vector<Vec3d> moved = cloud.points;
     for_blocks(moved.size(), &cancel, [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t p = first; p < last; ++p) {
@@ -77,6 +110,7 @@ double project_points(SiftedCloud& cloud, int times, ProgressObserver* progress)
   for (std::size_t p = 0; p < before.size(); ++p) {
     farthest = std::max(farthest, (cloud.points[p] - before[p]).norm());
   }
+  thin_out(cloud);
   return farthest;
 }
 

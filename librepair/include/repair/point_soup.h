@@ -31,7 +31,8 @@ struct PointSoupOptions {
   double duplicate = 0.01;
   // Points whose spacing is so many times that of their neighbours are outliers; 0: none are.
   double outlier = 5;
-  // How often each point is moved onto the surface that its neighbours suggest.
+  // How often each point is moved onto the surface that its neighbours suggest, twice as many as
+  // above; points that are too near to others then are dropped.
   int project = 0;
   // Whether normals of the cloud are taken, or planes fitted all the same.
   bool use_normals = true;
@@ -50,6 +51,7 @@ struct PointSoupReport {
   double spacing = 0;          // the median
   double smallest_spacing = 0;
   double largest_spacing = 0;
+  std::size_t thinned = 0;                   // dropped after projection, too near to others
   double farthest_move = 0;                  // of a point by projection
   std::array<std::size_t, 3> by_votes = {};  // triangles that 1, 2, 3 corners want
   std::size_t disagreed = 0;                 // of those with votes enough, dropped
