@@ -126,7 +126,7 @@ PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& optio
   report.triangles = voted.size();
   if (voted.empty()) {
     throw NoSolidError("the " + std::to_string(report.points) +
-                       " points make no surface: they lie along lines, or too far apart");
+                       " points make no surface: they are too few, too far apart, or along lines");
   }
   return assemble(cloud, sifted, voted, options.project > 0);
 }
