@@ -1,5 +1,6 @@
 #include "common/point_steps.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -20,9 +21,27 @@ std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share);
 constexpr double kFewestKept = 0.5;
 constexpr double kMostMadeUp = 0.4;
 
-constexpr const char* kAdvice =
-    "; --base closes a scan that is open below, --project N smooths noisy points, and meshrepair "
-    "on what pointmesh writes closes whatever it can";
+// Of the triangles between points without noise, nearly all are wanted by all three corners; with
+// noise of a quarter of the spacing, half of them.
+constexpr double kNoisy = 0.5;
+
+// Share of the triangles that all three corners want.
+double agreement(const PointSoupReport& soup) {
+  const auto& [one, two, three] = soup.by_votes;
+  return static_cast<double>(three) /
+         static_cast<double>(std::max<std::size_t>(1, one + two + three));
+}
+
+std::string advice(const Findings& findings) {
+  const double share = agreement(*findings.point_soup);
+  if (share < kNoisy) {
+    return "; the points are noisy, all three corners want only " + percent(share) +
+           " of the triangles: --project 3 --neighbours 30 smooths them";
+  }
+  return "; --base closes a scan that is open below, and meshrepair on what pointmesh writes "
+         "closes "
+         "whatever it can";
+}
 
 void require_enclosure(const Findings& findings) {
   const RepairReport& repair = findings.repair;
@@ -31,14 +50,12 @@ void require_enclosure(const Findings& findings) {
   if (share < kFewestKept) {
     throw NoSolidError(
         "the points enclose little: " + percent(1 - share) +
-        " of the triangles between them are no wall of anything, as in a scan of one "
-        "side" +
-        kAdvice);
+        " of the triangles between them are no wall of anything, as in a scan of one side");
   }
   const double made_up = repair.closing_area / repair.output_area;
   if (made_up > kMostMadeUp) {
     throw NoSolidError("the points leave too much open: " + percent(made_up) +
-                       " of the surface would be made up" + kAdvice);
+                       " of the surface would be made up");
   }
 }
 
@@ -149,9 +166,8 @@ Surface repair_any(const TriangleSoup& soup, const PointOptions& points,
         drop_small_parts(surface, points.soup.fewest_triangles, findings.repair);
     return surface;
   } catch (const NoSolidError& error) {
-    const std::string why = error.what();
-    if (findings.scan_base || why.ends_with(kAdvice)) throw;
-    throw NoSolidError(why + kAdvice);
+    if (findings.scan_base) throw;
+    throw NoSolidError(error.what() + advice(findings));
   }
 }
 
