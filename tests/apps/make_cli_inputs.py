@@ -81,6 +81,12 @@ def hill_points(count):
     return [(x, y, 0.1 * math.sin(7 * x) * math.cos(5 * y)) for x, y in places]
 
 
+def noise_points(count):
+    """No surface at all."""
+    chance = random.Random(1)
+    return [(chance.random(), chance.random(), chance.random()) for _ in range(count)]
+
+
 def binary_pcd(points, promised):
     header = ("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH %d\nHEIGHT 1\n"
               "POINTS %d\nDATA binary\n" % (promised, promised))
@@ -126,6 +132,7 @@ def main():
                           + lines_of(sphere_points(1500)[:3]),
         "cut_sphere.pcd": binary_pcd(sphere_points(1500), promised=10 ** 15),
         "hills.xyz": lines_of(hill_points(2000)),
+        "noise.xyz": lines_of(noise_points(2000)),
         "line.xyz": lines_of([(i, 2 * i, 3 * i) for i in range(100)]),
         "plane.xyz": lines_of([(i % 20, i // 20, 0) for i in range(400)]),
         "many.xyz": lines_of(hill_points(300000)),
