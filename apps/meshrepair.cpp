@@ -1,15 +1,18 @@
-// meshrepair IN OUT: any triangle mesh to the boundary of a solid, the whole way in one process.
+// meshrepair IN OUT: any triangle mesh or point cloud to the boundary of a solid, the whole way in
+// one process.
+#include "common/point_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
 
 namespace meshrepair {
 namespace {
 
-void repair_mesh(const StepOptions& options, Run& run, Findings& findings) {
+void repair_input(const StepOptions& options, const PointOptions& points, Run& run,
+                  Findings& findings) {
   const WriteOptions format = mesh_format(options);
-  const TriangleSoup soup = read_mesh_stage(run, findings);
+  const TriangleSoup soup = read_any_stage(points, run, findings);
   const RepairOptions repair_options = certified_for(*format.format, options.repair);
-  const Surface surface = repair(soup, repair_options, findings.repair);
+  const Surface surface = repair_any(soup, points, repair_options, findings);
   measure_distance_stage(soup, surface, repair_options.certify.precision, run, findings);
   write_mesh_stage(surface, format, options, run, findings);
 }
@@ -20,13 +23,17 @@ void repair_mesh(const StepOptions& options, Run& run, Findings& findings) {
 int main(int argc, char** argv) {
   using namespace meshrepair;
   StepOptions options;
+  PointOptions points;
   Program program(
-      "meshrepair", "Turns any triangle mesh into the boundary of a solid.",
+      "meshrepair", "Turns any triangle mesh or point cloud into the boundary of a solid.",
       "  meshrepair broken.stl repaired.stl\n"
       "  meshrepair --inside solidity --report report.json broken.obj repaired.ply\n"
+      "  meshrepair scan.xyz solid.obj\n"
       "  curl https://example.org/mesh.stl | meshrepair --format stl - - > repaired.stl\n");
   CLI::App& app = program.command_line();
-  app.add_option("IN", options.input, "Mesh to repair: STL, OBJ, OFF or PLY; - is standard input")
+  app.add_option("IN", options.input,
+                 "Mesh to repair: STL, OBJ, OFF or PLY; or points: XYZ, PTS, PWN, PCD,\n"
+                 "PLY or OBJ without faces; - is standard input")
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
@@ -39,5 +46,9 @@ int main(int argc, char** argv) {
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
   add_certify_options(app, options.repair.certify, options.strict);
-  return run_steps(program, argc, argv, options, repair_mesh);
+  add_point_repair_options(app, points);
+  return run_steps(program, argc, argv, options,
+                   [&](const StepOptions& steps, Run& run, Findings& findings) {
+                     repair_input(steps, points, run, findings);
+                   });
 }

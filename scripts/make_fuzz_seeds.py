@@ -203,6 +203,42 @@ def om_seeds():
 
 # ---- trees, see libbsp/include/bsp/tree_io.h
 
+def point_seeds():
+    """The first byte chooses the name of the file."""
+    cube = [(x, y, z) for x in range(3) for y in range(3) for z in range(3) if (x, y, z) != (1, 1, 1)]
+    text = "".join("%d %d %d\n" % p for p in cube).encode()
+    with_normals = "".join("%d %d %d 0 0 1 9 8 7\n" % p for p in cube).encode()
+
+    def pcd(data, body, fields="x y z"):
+        count = fields.count(" ") + 1
+        header = (f"# .PCD v0.7\nVERSION 0.7\nFIELDS {fields}\nSIZE {'4 ' * count}\nTYPE {'F ' * count}\n"
+                  f"COUNT {'1 ' * count}\nWIDTH {len(cube)}\nHEIGHT 1\nPOINTS {len(cube)}\nDATA {data}\n")
+        return b"\x02" + header.encode() + body
+
+    columns = b"".join(struct.pack(f"<{len(cube)}f", *(p[axis] for p in cube)) for axis in range(3))
+    pieces = [columns[at:at + 32] for at in range(0, len(columns), 32)]
+    packed = b"".join(bytes([len(piece) - 1]) + piece for piece in pieces)
+    repeated = b"\x03\0\0\0\0" + b"\xE0\xFF\x03" + b"\xE0" + bytes([len(columns) - 4 - 264 - 9]) + b"\x03"
+    sizes = struct.pack("<II", len(packed), len(columns))
+    return {
+        "xyz": b"\0" + text,
+        "xyz_normals": b"\0" + with_normals,
+        "xyz_commas": b"\0x,y,z\n" + text.replace(b" ", b","),
+        "xyz_odd": b"\0# comment\n1 2 3\nnan inf 1e999\nwords\n// more\n1 2\n" + text,
+        "pts": b"\x01%d\n" % len(cube) + text,
+        "pwn": b"\x01%d\n" % len(cube) + text + b"0 0 1\n" * len(cube),
+        "pcd_ascii": pcd("ascii", text),
+        "pcd_binary": pcd("binary", b"".join(struct.pack("<3f", *p) for p in cube)),
+        "pcd_compressed": pcd("binary_compressed", sizes + packed),
+        "pcd_repeated": pcd("binary_compressed", struct.pack("<II", len(repeated), len(columns)) + repeated),
+        "pcd_colours": pcd("ascii", text.replace(b"\n", b" 4.2e-39\n"), "x y z rgb"),
+        "ply": b"\x03ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
+               b"property float z\nend_header\n" % len(cube) + text,
+        "obj": b"\x04" + b"".join(b"v " + line for line in text.splitlines(True)) + b"vn 0 0 1\n" * len(cube),
+        "nameless": b"\x05" + text,
+    }
+
+
 def minus(a, b):
     return tuple(x - y for x, y in zip(a, b))
 
@@ -398,7 +434,7 @@ def repair_seeds():
     return seeds
 
 
-SEEDS = {"stl": stl_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds, "om": om_seeds,
+SEEDS = {"stl": stl_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds, "om": om_seeds, "points": point_seeds,
          "tree": tree_seeds, "clip": clip_seeds, "repair": repair_seeds}
 
 

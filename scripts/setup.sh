@@ -27,6 +27,7 @@ build_packages=(
   libeigen3-dev
   libgmock-dev
   libgtest-dev
+  libnanoflann-dev
   libopenmesh-dev
   libspdlog-dev
   libtbb-dev

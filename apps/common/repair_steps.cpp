@@ -34,14 +34,6 @@ void check_report(Run& run, const std::string& file, const std::string& what) {
   throw UsageError("--report: " + report + " is the " + what + ", too");
 }
 
-void log_warnings(const std::string& name, const std::vector<std::string>& warnings) {
-  const std::size_t shown = std::min(warnings.size(), kMostWarnings);
-  for (std::size_t i = 0; i < shown; ++i) spdlog::warn("{}: {}", name, warnings[i]);
-  if (warnings.size() > shown) {
-    spdlog::warn("{}: {} more warnings, all in the report", name, warnings.size() - shown);
-  }
-}
-
 bool is_stl(SoupFormat format) {
   return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
 }
@@ -60,6 +52,7 @@ void warn_of_coarse_grid(const Findings& findings) {
 // A solid made of an open sheet is mostly made up; the user may have meant something else.
 void warn_of_made_up_surface(const Findings& findings) {
   const RepairReport& repair = findings.repair;
+  if (findings.scan_base) return;  // asked for
   constexpr double kWorthAWarning = 0.3;
   if (!std::isfinite(repair.output_area)) return;
   if (repair.closing_area <= kWorthAWarning * repair.output_area) return;
@@ -117,13 +110,6 @@ std::string missing_guarantees(const Findings& findings, SoupFormat format) {
   return missing.empty() ? missing : missing.substr(2);
 }
 
-ReadOptions read_options(Run& run) {
-  ReadOptions options;
-  if (run.options.max_triangles > 0) options.max_triangles = run.options.max_triangles;
-  options.progress = &run.progress;
-  return options;
-}
-
 ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   Findings findings(options.input, options.output);
   (void)with_findings(run, findings, [&] {
@@ -148,6 +134,21 @@ ExitCode verdict(const Findings& findings) {
 void warn_of_findings(const Findings& findings) {
   warn_of_coarse_grid(findings);
   warn_of_made_up_surface(findings);
+}
+
+void log_warnings(const std::string& name, const std::vector<std::string>& warnings) {
+  const std::size_t shown = std::min(warnings.size(), kMostWarnings);
+  for (std::size_t i = 0; i < shown; ++i) spdlog::warn("{}: {}", name, warnings[i]);
+  if (warnings.size() > shown) {
+    spdlog::warn("{}: {} more warnings, all in the report", name, warnings.size() - shown);
+  }
+}
+
+ReadOptions read_options(Run& run) {
+  ReadOptions options;
+  if (run.options.max_triangles > 0) options.max_triangles = run.options.max_triangles;
+  options.progress = &run.progress;
+  return options;
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -273,6 +274,15 @@ void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOpt
   if (options.sources) format.sources = surface.source;
   format.progress = &run.progress;
   write_soup(surface.mesh, findings.output, format);
+  run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
+}
+
+void write_soup_stage(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("write");
+  format.progress = &run.progress;
+  write_soup(soup, findings.output, format);
+  findings.soup_written = true;
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
 }
 

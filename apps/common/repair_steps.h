@@ -7,11 +7,15 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <bsp/point_io.h>
 #include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
 #include <repair/fidelity.h>
+#include <repair/point_soup.h>
 #include <repair/repair.h>
+#include <repair/scan_base.h>
 
 #include "common/program.h"
 
@@ -40,6 +44,11 @@ struct Findings {
   std::string input;
   std::string output;
   std::optional<ReadReport> mesh_read;
+  std::optional<PointReadReport> points_read;
+  std::optional<PointSoupReport> point_soup;
+  std::optional<ScanBaseReport> scan_base;
+  std::size_t dropped_solids = 0;  // too small for the points to tell
+  bool soup_written = false;       // the output is the soup of the points, no solid
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
@@ -94,6 +103,12 @@ void warn_of_findings(const Findings& findings);
 // The same options, to be certified at the precision of the format.
 [[nodiscard]] RepairOptions certified_for(SoupFormat format, RepairOptions options);
 
+// The first warnings of a reader, and how many more there are.
+void log_warnings(const std::string& name, const std::vector<std::string>& warnings);
+
+// As the command line limits it.
+[[nodiscard]] ReadOptions read_options(Run& run);
+
 // Stage "read". What a reader passed over is logged as warnings.
 [[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
@@ -106,6 +121,8 @@ void measure_distance_stage(const TriangleSoup& input, const Surface& surface, P
 // nothing. `format` is that of mesh_format(options).
 void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOptions& options,
                       Run& run, Findings& findings);
+// Of triangles that need be no surface.
+void write_soup_stage(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings);
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings);
 
 }  // namespace meshrepair

@@ -25,6 +25,44 @@ Json section_of(const ReadReport& read) {
           {"warnings", read.warnings}};
 }
 
+Json section_of(const PointReadReport& read) {
+  return {{"format", format_name(read.format)},
+          {"bytes", read.bytes},
+          {"declared_points", read.declared_points},
+          {"bad_points", read.bad_points},
+          {"missing_points", read.missing_points},
+          {"trailing_bytes", read.trailing_bytes},
+          {"normals", read.normals},
+          {"colours", read.colours},
+          {"warnings", read.warnings}};
+}
+
+Json section_of(const PointSoupReport& points) {
+  return {{"points_in", points.points_in},
+          {"not_finite", points.not_finite},
+          {"duplicates", points.duplicates},
+          {"outliers", points.outliers},
+          {"thinned", points.thinned},
+          {"points", points.points},
+          {"normals_used", points.normals_used},
+          {"spacing", points.spacing},
+          {"smallest_spacing", points.smallest_spacing},
+          {"largest_spacing", points.largest_spacing},
+          {"farthest_move", points.farthest_move},
+          {"triangles_by_votes", points.by_votes},
+          {"disagreed_triangles", points.disagreed},
+          {"loose_triangles", points.loose},
+          {"crumb_triangles", points.crumbs},
+          {"triangles", points.triangles}};
+}
+
+Json section_of(const ScanBaseReport& base) {
+  return {{"floor", base.floor},
+          {"parts", base.parts},
+          {"dropped_triangles", base.dropped_triangles},
+          {"skirt_triangles", base.skirt_triangles}};
+}
+
 Json section_of(const TreeFacts& tree) {
   return {{"format", "BSP tree"},      {"triangles", tree.triangles},
           {"nodes", tree.nodes},       {"leaves", tree.leaves},
@@ -172,6 +210,7 @@ Json result_of(const Findings& findings) {
           {"untouched_triangles", repair.triangles.untouched},
           {"cut_triangles", repair.triangles.cut},
           {"parts", output.parts},
+          {"dropped_solids", findings.dropped_solids},
           {"closed", output.closed()},
           {"manifold", output.manifold()},
           {"oriented", output.oriented()},
@@ -198,6 +237,9 @@ Json stages_section(const std::vector<StageReport>& reports) {
 void add_sections(const Findings& findings, JsonReport& report) {
   const RepairReport& repair = findings.repair;
   if (findings.mesh_read) report.set_section("read", section_of(*findings.mesh_read));
+  if (findings.points_read) report.set_section("read", section_of(*findings.points_read));
+  if (findings.point_soup) report.set_section("points", section_of(*findings.point_soup));
+  if (findings.scan_base) report.set_section("base", section_of(*findings.scan_base));
   if (findings.tree_read) report.set_section("read", section_of(*findings.tree_read));
   if (was_begun(repair, "clean")) {
     report.set_section("clean", section_of(repair.clean));

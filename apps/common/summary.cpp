@@ -60,7 +60,7 @@ std::string dropped_triangles(const CleanReport& clean) {
 std::vector<std::string> troubles_of(const Findings& findings) {
   const Topology& input = findings.repair.input;
   std::vector<std::string> texts;
-  texts.push_back(reading_troubles(*findings.mesh_read));
+  if (findings.mesh_read) texts.push_back(reading_troubles(*findings.mesh_read));
   texts.push_back(dropped_triangles(findings.repair.clean));
   std::erase(texts, "");
   add_count(texts, input.open_edges, "open edge", "(gaps and holes)");
@@ -73,7 +73,50 @@ std::vector<std::string> troubles_of(const Findings& findings) {
   return texts;
 }
 
+std::string dropped_points(const Findings& findings) {
+  const PointSoupReport& soup = *findings.point_soup;
+  std::vector<std::string> texts;
+  add_count(texts, findings.points_read->missing_points, "point", "promised but missing");
+  add_count(texts, findings.points_read->bad_points, "point", "unreadable");
+  add_count(texts, soup.not_finite, "point", "with NaN or infinity");
+  if (soup.duplicates > 0) texts.push_back(number_of(soup.duplicates, "duplicate"));
+  if (soup.outliers > 0) texts.push_back(number_of(soup.outliers, "outlier"));
+  return joined(texts);
+}
+
+std::vector<std::string> local_triangles(const PointSoupReport& soup) {
+  std::vector<std::string> texts = {fmt::format(
+      "{}; {} that three corners want, {} two, {} one", number_of(soup.triangles, "triangle"),
+      grouped(soup.by_votes[2]), grouped(soup.by_votes[1]), grouped(soup.by_votes[0]))};
+  if (soup.farthest_move > 0) {
+    texts.push_back(fmt::format("points moved by at most {:.3g}", soup.farthest_move));
+  }
+  return texts;
+}
+
+void describe_points(const Findings& findings, Lines& lines) {
+  const PointReadReport& read = *findings.points_read;
+  const PointSoupReport& soup = *findings.point_soup;
+  lines.add("read",
+            fmt::format("{}: {}, {}, {} apart{}", findings.input_name(), format_name(read.format),
+                        number_of(soup.points_in, "point"), fmt::format("{:.3g}", soup.spacing),
+                        soup.normals_used ? ", with normals" : ""));
+  if (const std::string dropped = dropped_points(findings); !dropped.empty()) {
+    lines.add("dropped", dropped);
+  }
+  lines.add("meshed", local_triangles(soup));
+  if (!findings.scan_base) return;
+  lines.add("base",
+            fmt::format("{} on a floor at {:.6g}, walls of {}",
+                        number_of(findings.scan_base->parts, "part"), findings.scan_base->floor,
+                        number_of(findings.scan_base->skirt_triangles, "triangle")));
+}
+
 void describe_input(const Findings& findings, Lines& lines) {
+  if (findings.point_soup) {
+    describe_points(findings, lines);
+    if (!findings.soup_written) lines.add("wrong", troubles_of(findings));
+  }
   if (findings.mesh_read) {
     lines.add("read", fmt::format("{}: {}, {} in {}", findings.input_name(),
                                   format_name(findings.mesh_read->format),
@@ -174,7 +217,9 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   if (repair.clean.triangles_in > 0) {
     lines.add("kept", kept_triangles(repair));
   }
-  lines.add("removed", removed_parts(repair));
+  std::vector<std::string> removed = removed_parts(repair);
+  add_count(removed, findings.dropped_solids, "solid", "too small for the points to tell");
+  lines.add("removed", removed);
   lines.add("checked",
             joined({output.closed() ? "closed" : "NOT CLOSED",
                     output.manifold() ? "manifold" : "NOT MANIFOLD",
@@ -186,6 +231,11 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   if (!std::isfinite(repair.output_volume) || !std::isfinite(repair.output_area)) return;
   lines.add("size", fmt::format("volume {:.6g}, area {:.6g}, in the input's units",
                                 repair.output_volume, repair.output_area));
+}
+
+void describe_soup(const Findings& findings, double seconds, Lines& lines) {
+  lines.add("written", fmt::format("{}: {}, in {:.2f} s", findings.output_name(),
+                                   number_of(findings.point_soup->triangles, "triangle"), seconds));
 }
 
 void describe_tree(const Findings& findings, double seconds, Lines& lines) {
@@ -223,6 +273,8 @@ std::string summary_of(const Findings& findings, double seconds) {
   if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair, lines);
   if (findings.tree_written) {
     describe_tree(findings, seconds, lines);
+  } else if (findings.soup_written) {
+    describe_soup(findings, seconds, lines);
   } else {
     describe_mesh(findings, seconds, lines);
   }

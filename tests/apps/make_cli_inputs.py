@@ -4,6 +4,7 @@
 Usage: make_cli_inputs.py BSPBUILD MESH FOLDER   (trees are made of MESH by the program BSPBUILD)
 """
 
+import math
 import pathlib
 import random
 import struct
@@ -60,6 +61,38 @@ def random_triangles(count):
     return "\n".join(lines).encode() + b"\n"
 
 
+def lines_of(points):
+    return "".join("%.9g %.9g %.9g\n" % p for p in points).encode()
+
+
+def sphere_points(count):
+    """Along a spiral from pole to pole, evenly by area."""
+    points = []
+    for i in range(count):
+        z = 1 - (2 * i + 1) / count
+        angle = i * math.pi * (3 - math.sqrt(5))
+        points.append((math.sqrt(1 - z * z) * math.cos(angle), math.sqrt(1 - z * z) * math.sin(angle), z))
+    return points
+
+
+def hill_points(count):
+    chance = random.Random(1)
+    places = [(chance.random(), chance.random()) for _ in range(count)]
+    return [(x, y, 0.1 * math.sin(7 * x) * math.cos(5 * y)) for x, y in places]
+
+
+def noise_points(count):
+    """No surface at all."""
+    chance = random.Random(1)
+    return [(chance.random(), chance.random(), chance.random()) for _ in range(count)]
+
+
+def binary_pcd(points, promised):
+    header = ("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH %d\nHEIGHT 1\n"
+              "POINTS %d\nDATA binary\n" % (promised, promised))
+    return header.encode() + b"".join(struct.pack("<3f", *p) for p in points)
+
+
 def tree_of(bspbuild, mesh):
     return subprocess.run([bspbuild, "--quiet", "-", "-o", "-"], input=mesh, check=True,
                           stdout=subprocess.PIPE).stdout
@@ -93,6 +126,17 @@ def main():
         "far_point.obj": two_tetrahedra(size=10 ** 9),
         "larger_than_a_pipe.obj": row_of_tetrahedra(4000),
         "much_work.off": random_triangles(1000),
+        "sphere.xyz": lines_of(sphere_points(1500)),
+        "sphere.obj": b"".join(b"v " + line for line in lines_of(sphere_points(1500)).splitlines(True)),
+        "odd_sphere.xyz": lines_of(sphere_points(1500)) + b"9 9 9\nnan 0 0\n0 0 0 what\nwhat\n"
+                          + lines_of(sphere_points(1500)[:3]),
+        "cut_sphere.pcd": binary_pcd(sphere_points(1500), promised=10 ** 15),
+        "hills.xyz": lines_of(hill_points(2000)),
+        "noise.xyz": lines_of(noise_points(2000)),
+        "line.xyz": lines_of([(i, 2 * i, 3 * i) for i in range(100)]),
+        "plane.xyz": lines_of([(i % 20, i // 20, 0) for i in range(400)]),
+        "many.xyz": lines_of(hill_points(300000)),
+        "words.pcd": b"VERSION 0.7\nSome words.\n",
         "unlabelled.bsp": tree,
         "flat.bsp": tree_of(bspbuild, SINGLE_TRIANGLE),
         "cut.bsp": tree[:len(tree) // 2],

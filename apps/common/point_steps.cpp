@@ -1,0 +1,174 @@
+#include "common/point_steps.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <CLI/Validators.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <bsp/error.h>
+#include <repair/drop_small_parts.h>
+
+namespace meshrepair {
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
+
+// Of the triangles of a scan that is closed but for holes, most are in the result, and most of the
+// result is of them. Scans of one side come to less than a third or more than half.
+constexpr double kFewestKept = 0.5;
+constexpr double kMostMadeUp = 0.4;
+
+// Of the triangles between points without noise, nearly all are wanted by all three corners; with
+// noise of a quarter of the spacing, half of them.
+constexpr double kNoisy = 0.5;
+
+// Share of the triangles that all three corners want.
+double agreement(const PointSoupReport& soup) {
+  const auto& [one, two, three] = soup.by_votes;
+  return static_cast<double>(three) /
+         static_cast<double>(std::max<std::size_t>(1, one + two + three));
+}
+
+std::string advice(const Findings& findings) {
+  const double share = agreement(*findings.point_soup);
+  if (share < kNoisy) {
+    return "; the points are noisy, all three corners want only " + percent(share) +
+           " of the triangles: --project 3 --neighbours 30 smooths them";
+  }
+  return "; --base closes a scan that is open below, and meshrepair on what pointmesh writes "
+         "closes "
+         "whatever it can";
+}
+
+void require_enclosure(const Findings& findings) {
+  const RepairReport& repair = findings.repair;
+  const auto kept = static_cast<double>(repair.triangles.untouched + repair.triangles.cut);
+  const double share = kept / static_cast<double>(repair.clean.triangles_in);
+  if (share < kFewestKept) {
+    throw NoSolidError(
+        "the points enclose little: " + percent(1 - share) +
+        " of the triangles between them are no wall of anything, as in a scan of one side");
+  }
+  const double made_up = repair.closing_area / repair.output_area;
+  if (made_up > kMostMadeUp) {
+    throw NoSolidError("the points leave too much open: " + percent(made_up) +
+                       " of the surface would be made up");
+  }
+}
+
+PointCloud keep(PointReadResult result, Findings& findings) {
+  findings.points_read = std::move(result.report);
+  log_warnings(findings.input_name(), findings.points_read->warnings);
+  return std::move(result.cloud);
+}
+
+}  // namespace
+
+void add_point_options(CLI::App& app, PointSoupOptions& options) {
+  app.add_option("--votes", options.votes,
+                 "Take triangles that so many of their corners want: 1, 2 or 3")
+      ->check(CLI::Range(1, 3))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group("Points");
+  app.add_option("--reach", options.reach,
+                 "Span gaps up to this radius, in spacings of the points around")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->type_name("X")
+      ->capture_default_str()
+      ->group("Points");
+  app.add_option("--neighbours", options.neighbours, "Points that a tangent plane is fitted to")
+      ->check(CLI::Range(5, 1000))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group("Points");
+  app.add_option("--outliers", options.outlier,
+                 "Drop points whose spacing is so many times that of their neighbours; 0: none")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("X")
+      ->capture_default_str()
+      ->group("Points");
+  app.add_option("--project", options.project,
+                 "Move noisy points so many times onto the surface that their neighbours suggest")
+      ->check(CLI::Range(0, 100))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group("Points");
+  app.add_flag("!--no-normals", options.use_normals, "Do not use the normals of the points")
+      ->group("Points");
+}
+
+PointCloud read_points_stage(Run& run, Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("read");
+  PointReadOptions options;
+  options.progress = &run.progress;
+  return keep(read_points(findings.input, options), findings);
+}
+
+TriangleSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, Run& run,
+                               Findings& findings) {
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("points");
+  options.progress = &run.progress;
+  return make_point_soup(cloud, options, findings.point_soup.emplace()).soup;
+}
+
+void add_point_repair_options(CLI::App& app, PointOptions& options) {
+  app.add_flag("--points", options.as_points, "Take a mesh for its points, as if it had no faces")
+      ->group("Points");
+  app.add_flag("--base", options.base,
+               "Close an open scan, of a terrain for one, by walls down to a floor")
+      ->group("Points");
+  app.add_option_function<std::string>(
+         "--up", [&options](const std::string& axis) { options.scan_base.axis = axis[0] - 'x'; },
+         "The axis that points up from the floor: x, y, z")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->type_name("NAME")
+      ->default_str("z")
+      ->group("Points");
+  add_point_options(app, options.soup);
+}
+
+TriangleSoup read_any_stage(const PointOptions& options, Run& run, Findings& findings) {
+  PointCloud cloud;
+  if (options.as_points) {
+    cloud = read_points_stage(run, findings);
+  } else {
+    StageMeter meter(findings.repair.stages, &run.progress);
+    meter.begin("read");
+    MeshOrPoints input = read_mesh_or_points(findings.input, read_options(run));
+    if (input.mesh) {
+      if (options.base) throw UsageError("--base: is for points; --points takes those of a mesh");
+      findings.mesh_read = std::move(input.mesh->report);
+      log_warnings(findings.input_name(), findings.mesh_read->warnings);
+      return std::move(input.mesh->soup);
+    }
+    cloud = keep(std::move(*input.points), findings);
+  }
+  TriangleSoup soup = triangulate_stage(cloud, options.soup, run, findings);
+  if (!options.base) return soup;
+  return with_base(soup, options.scan_base, findings.scan_base.emplace());
+}
+
+Surface repair_any(const TriangleSoup& soup, const PointOptions& points,
+                   const RepairOptions& options, Findings& findings) {
+  if (!findings.point_soup) return repair(soup, options, findings.repair);
+  RepairOptions point_options = options;
+  if (findings.scan_base) point_options.holes.largest_share = std::numeric_limits<double>::max();
+  try {
+    Surface surface = repair(soup, point_options, findings.repair);
+    if (!findings.scan_base) require_enclosure(findings);
+    findings.dropped_solids =
+        drop_small_parts(surface, points.soup.fewest_triangles, findings.repair);
+    return surface;
+  } catch (const NoSolidError& error) {
+    if (findings.scan_base) throw;
+    throw NoSolidError(error.what() + advice(findings));
+  }
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,34 @@
+// pointmesh POINTS -o SOUP: the local triangulation of a point cloud, for a repair to make a solid
+// of.
+#include "common/point_steps.h"
+#include "common/repair_options.h"
+
+namespace meshrepair {
+namespace {
+
+int run_program(int argc, char** argv) {
+  StepOptions options;
+  PointSoupOptions points;
+  Program program("pointmesh", "Triangulates a point cloud, each point with its neighbours.",
+                  "  pointmesh scan.xyz -o soup.ply\n"
+                  "  pointmesh scan.pcd -o - --format ply | meshrepair - solid.obj\n");
+  CLI::App& app = program.command_line();
+  app.add_option("POINTS", options.input,
+                 "Points to read: XYZ, PTS, PWN, PCD, PLY or OBJ; - is standard input")
+      ->required();
+  add_output_option(app, options.output, "FILE",
+                    "Triangles to write, with holes and any way round; - is standard output");
+  add_point_options(app, points);
+  add_format_option(app, options.format);
+  return run_steps(
+      program, argc, argv, options, [&](const StepOptions& steps, Run& run, Findings& findings) {
+        const WriteOptions format = mesh_format(steps);
+        const PointCloud cloud = read_points_stage(run, findings);
+        write_soup_stage(triangulate_stage(cloud, points, run, findings), format, run, findings);
+      });
+}
+
+}  // namespace
+}  // namespace meshrepair
+
+int main(int argc, char** argv) { return meshrepair::run_program(argc, argv); }

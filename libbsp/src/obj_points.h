@@ -1,0 +1,15 @@
+// The points of an OBJ file.
+#pragma once
+
+#include <bsp/point_io.h>
+
+#include "mesh_source.h"
+
+namespace meshrepair {
+
+// `v` gives a point, and its colour where six numbers or more follow, from 0 to 1; `vn` a normal.
+// Normals belong to the points in order, and are none of theirs where there are not as many.
+[[nodiscard]] PointReadResult read_obj_points(const MeshSource& source,
+                                              const PointReadOptions& options);
+
+}  // namespace meshrepair

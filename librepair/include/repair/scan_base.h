@@ -1,0 +1,34 @@
+// A skirt and a floor under a scan that is open below: a terrain, a facade laid flat, a relief.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <bsp/soup.h>
+#include <repair/point_soup.h>
+
+namespace meshrepair {
+
+struct ScanBaseOptions {
+  int axis = 2;  // that points up: 0, 1, 2 for x, y, z
+  // How far the floor is below the lowest point, as a share of the diagonal of the bounding box.
+  double depth = 0.05;
+  // Parts of a smaller share of the area than this are no ground, and dropped.
+  double smallest_part = 0.01;
+};
+
+struct ScanBaseReport {
+  double floor = 0;                   // its coordinate along the axis
+  std::size_t parts = 0;              // that stand on it
+  std::size_t dropped_triangles = 0;  // of smaller parts
+  std::size_t skirt_triangles = 0;
+};
+
+// From the outer rim of each open part, a wall down to one plane below everything. What is then
+// open are holes within the parts, and the floor: flat loops that patch_holes() closes, if it is
+// allowed patches as large as they are. The outer rim is that with the largest bounding box seen
+// along the axis. Throws NoSolidError when nothing has a rim.
+[[nodiscard]] TriangleSoup with_base(const TriangleSoup& soup, const ScanBaseOptions& options,
+                                     ScanBaseReport& report);
+
+}  // namespace meshrepair
