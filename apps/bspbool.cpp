@@ -78,7 +78,7 @@ bool is_certified(const Operand& operand, const Findings& findings) {
 }
 
 // With the sections that a report of it alone would have.
-Json facts_of_operand(const Operand& operand, const Findings& findings, Json sections) {
+Json facts_of_operand(const Operand& operand, const Findings& findings, const Json& sections) {
   Json facts = {{"path", findings.input},
                 {"triangles", operand.solid.triangles.size()},
                 {"volume", signed_volume(operand.solid)},

@@ -75,7 +75,8 @@ Model spider() {
   append(model.soup, ellipsoid({1.7, 0.02, 0.9}, {0.7, 0.6, 0.5}, 600));
   for (int i = 0; i < 8; ++i) {
     const double side = i % 2 == 0 ? 1 : -1;
-    const double along = 0.5 * (i / 2) + 0.3;
+    const int pair = i / 2;
+    const double along = 0.5 * pair + 0.3;
     const Vec3d hip(along, 0.2 * side, 1);
     append(model.soup, leg(hip, hip + Vec3d(along - 1, 2 * side, 2.5),
                            hip + Vec3d(2 * along - 2, 3 * side, -1.2), 0.09, 21, 10));

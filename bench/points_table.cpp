@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <bsp/error.h>
+#include <bsp/soup_io.h>
 #include <extract/mesh_distance.h>
 #include <repair/drop_small_parts.h>
 #include <repair/point_soup.h>
@@ -29,7 +30,7 @@ constexpr std::uint64_t kSeed = 20261122;
 struct Settings {
   std::vector<std::size_t> sizes = {2000, 20000, 200000};
   std::string only;
-  std::string folder;  // for the clouds as XYZ files; empty: they are not kept
+  std::string folder;  // for the clouds as XYZ files and the solids; empty: they are not kept
   PointSoupOptions soup;
   RepairOptions repair;
 };
@@ -89,13 +90,18 @@ std::string distance_text(const TriangleSoup& result, const Solid& solid, std::s
   return text;
 }
 
-// SOLID_CLOUD_POINTS.xyz, with underscores for what is not a letter or a digit.
-void keep_cloud(const Solid& solid, const Cloud& cloud, const std::string& folder) {
-  std::string name =
-      solid.name + "_" + cloud.name + "_" + std::to_string(cloud.cloud.points.size());
+// With underscores for what is not a letter or a digit.
+std::string file_name(std::string name) {
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   }
+  return name;
+}
+
+// SOLID_CLOUD_POINTS.xyz
+void keep_cloud(const Solid& solid, const Cloud& cloud, const std::string& folder) {
+  const std::string name =
+      file_name(solid.name + "_" + cloud.name + "_" + std::to_string(cloud.cloud.points.size()));
   std::ofstream file(folder + "/" + name + ".xyz");
   file.precision(17);
   for (const Vec3d& p : cloud.cloud.points) {
@@ -189,6 +195,9 @@ void run(const Settings& settings) {
   for (const std::size_t points : settings.sizes) {
     for (const Solid& solid : solids_of(points)) {
       if (solid.name.find(settings.only) == std::string::npos) continue;
+      if (!settings.folder.empty()) {
+        write_soup(solid.surface, settings.folder + "/" + file_name(solid.name) + ".off", {});
+      }
       for (const Cloud& cloud : clouds_of(solid.surface, points)) {
         if (!settings.folder.empty()) keep_cloud(solid, cloud, settings.folder);
         print_row(solid, cloud, settings, points);

@@ -78,7 +78,8 @@ class Lattice {
   }
 
   [[nodiscard]] double coordinate(int i) const {
-    return i / 2 + (i % 2 == 0 ? -0.5 : 0.5) * thickness_;
+    const int joint = i / 2;
+    return joint + (i % 2 == 0 ? -0.5 : 0.5) * thickness_;
   }
 
   int boxes_;

@@ -12,6 +12,7 @@
 #include <extract/box_tree.h>
 #include <extract/self_intersections.h>
 
+#include "crossing_sheets.h"
 #include "spatial_comparison.h"
 #include "triangle_hubs.h"
 #include "triangle_list.h"
@@ -381,6 +382,31 @@ SelfIntersections compare_with(const TriangleSoup& soup, const internal::SoupCor
   return gather(findings, options.most_pairs);
 }
 
+// Of those in which one of `among` is, unless that is empty. Pairs that meet elsewhere, too, are
+// there already.
+void add_crossing_sheets(const internal::SoupCorners& corners, std::span<const std::uint32_t> among,
+                         const SelfIntersectionOptions& options, SelfIntersections& result) {
+  std::vector<Pair> pairs = internal::find_crossing_sheets(corners);
+  if (!among.empty()) {
+    std::vector<char> is_listed(corners.soup().triangles.size(), 0);
+    for (const std::uint32_t id : among) is_listed[id] = 1;
+    std::erase_if(pairs, [&](const Pair& pair) {
+      return is_listed[pair[0]] == 0 && is_listed[pair[1]] == 0;
+    });
+  }
+  std::erase_if(pairs, [&](const Pair& pair) {
+    return std::binary_search(result.pairs.begin(), result.pairs.end(), pair);
+  });
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  if (pairs.empty()) return;
+  result.count += pairs.size();
+  result.crossing += pairs.size();
+  const auto middle = static_cast<std::ptrdiff_t>(result.pairs.size());
+  result.pairs.insert(result.pairs.end(), pairs.begin(), pairs.end());
+  std::inplace_merge(result.pairs.begin(), result.pairs.begin() + middle, result.pairs.end());
+  result.pairs.resize(std::min(result.pairs.size(), options.most_pairs));
+}
+
 }  // namespace
 
 SelfIntersections self_intersections(const TriangleSoup& soup,
@@ -388,6 +414,7 @@ SelfIntersections self_intersections(const TriangleSoup& soup,
   const internal::SoupCorners corners(soup, options.weld);
   const TriangleList list(corners);
   SelfIntersections result = compare_all(list, options);
+  if (options.weld) add_crossing_sheets(corners, {}, options, result);
   result.degenerate = list.degenerate();
   result.not_finite = list.not_finite();
   return result;
@@ -398,6 +425,7 @@ SelfIntersections self_intersections(const TriangleSoup& soup, std::span<const s
   const internal::SoupCorners corners(soup, options.weld);
   const TriangleList list(corners, among);
   SelfIntersections result = compare_with(soup, corners, list, options);
+  if (options.weld && list.size() > 0) add_crossing_sheets(corners, list.ids(), options, result);
   result.degenerate = list.degenerate();
   result.not_finite = list.not_finite();
   return result;

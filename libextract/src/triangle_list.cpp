@@ -24,7 +24,7 @@ Fetched SoupCorners::fetch(std::uint32_t triangle, CornerTriangle& fetched) cons
   for (std::size_t k = 0; k < 3; ++k) {
     fetched.at[k] = soup_.points[corners[k]];
     if (!fetched.at[k].allFinite()) return Fetched::not_finite;
-    fetched.corner[k] = welded_.empty() ? corners[k] : welded_[corners[k]];
+    fetched.corner[k] = corner(corners[k]);
   }
   fetched.axis = projection_axis(fetched.at[0], fetched.at[1], fetched.at[2]);
   return fetched.axis < 0 ? Fetched::degenerate : Fetched::usable;

@@ -23,6 +23,9 @@ class SoupCorners {
   SoupCorners(const TriangleSoup& soup, bool weld);
 
   [[nodiscard]] const TriangleSoup& soup() const { return soup_; }
+  [[nodiscard]] std::uint32_t corner(std::uint32_t point) const {
+    return welded_.empty() ? point : welded_[point];
+  }
   // Only if it is usable, `fetched` is one.
   [[nodiscard]] Fetched fetch(std::uint32_t triangle, CornerTriangle& fetched) const;
 

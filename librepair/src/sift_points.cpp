@@ -87,12 +87,16 @@ void measure_spacing(SiftedCloud& sifted) {
 }
 
 double median_spacing_around(const SiftedCloud& sifted, std::size_t point) {
-  std::array<double, kWitnesses> spacings;
+  std::array<double, kWitnesses> sorted{};
   const auto around = sifted.around.of(point);
   const std::size_t count = std::min(kWitnesses, around.size());
-  for (std::size_t i = 0; i < count; ++i) spacings[i] = sifted.spacing[around[i]];
-  std::sort(spacings.begin(), spacings.begin() + static_cast<std::ptrdiff_t>(count));
-  return spacings[count / 2];
+  for (std::size_t i = 0; i < count; ++i) {
+    const double spacing = sifted.spacing[around[i]];
+    std::size_t at = i;
+    for (; at > 0 && sorted[at - 1] > spacing; --at) sorted[at] = sorted[at - 1];
+    sorted[at] = spacing;
+  }
+  return sorted[count / 2];
 }
 
 // Of points too near to each other, the first stays. False if nothing was dropped.

@@ -14,6 +14,8 @@
 namespace meshrepair {
 namespace {
 
+using namespace testing;
+
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 SelfIntersections by_index(const TriangleSoup& soup) {
@@ -186,6 +188,46 @@ TEST(SelfIntersections, AgreeWithAllPairsOneByOne) {
     EXPECT_GT(found.crossing, 0u);
     EXPECT_GT(found.touching, 0u);
   }
+}
+
+// Over and under the triangle (0 0 0) (6 0 0) (0 6 0), with points of its own.
+TriangleSoup bipyramid(const Vec3d& top, const Vec3d& bottom) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, top, bottom};
+  soup.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
+  return soup;
+}
+
+// Each of the two goes further out on one side, so that they cross along the rim, where no triangle
+// meets another.
+TEST(SelfIntersections, OfSheetsThatCrossAlongACommonEdge) {
+  TriangleSoup crossing = bipyramid({1, 1, 2}, {1, 1, -1});
+  append(crossing, bipyramid({1, 1, 1}, {1, 1, -2}));
+  const SelfIntersections found = self_intersections(crossing);
+  EXPECT_EQ(found.count, 3u);
+  EXPECT_EQ(found.crossing, 3u);
+  ASSERT_EQ(found.pairs.size(), 3u);
+  for (const auto& [a, b] : found.pairs) {
+    EXPECT_LT(a, 6u);
+    EXPECT_GE(b, 6u);
+  }
+  Random random(3);
+  EXPECT_EQ(self_intersections(transformed(crossing, random_rotation(random))).count, 3u);
+  EXPECT_EQ(self_intersections(flipped(crossing)).count, 3u);
+  const std::vector<std::uint32_t> some = {0, 3};
+  EXPECT_EQ(self_intersections(crossing, some).count, 1u);
+  EXPECT_EQ(self_intersections(crossing, std::vector<std::uint32_t>{}).count, 0u);
+}
+
+TEST(SelfIntersections, SheetsThatTouchAlongAnEdgeHaveNone) {
+  TriangleSoup nested = bipyramid({1, 1, 2}, {1, 1, -2});
+  append(nested, bipyramid({1, 1, 1}, {1, 1, -1}));
+  EXPECT_EQ(self_intersections(nested).count, 0u);
+  append(nested, bipyramid({1, 1, 4}, {1, 1, 3}));
+  EXPECT_EQ(self_intersections(nested).count, 0u);
+  TriangleSoup beside = cube();
+  append(beside, moved(cube(), {1, 1, 0}));
+  EXPECT_EQ(self_intersections(beside).count, 0u);
 }
 
 TEST(SelfIntersections, KeepTheLowestPairsAndCountAll) {
