@@ -134,10 +134,10 @@ std::vector<std::array<std::uint32_t, 2>> find_crossing_sheets(const SoupCorners
     const std::vector<Span> sheets = open_brackets(wings);
     for (std::size_t a = 0; a < sheets.size(); ++a) {
       for (std::size_t b = a + 1; b < sheets.size(); ++b) {
-        const auto& [from, to] = sheets[a];
-        const auto inside = [&](std::size_t at) { return from < at && at < to; };
+        const Span span = sheets[a];
+        const auto inside = [&](std::size_t at) { return span.first < at && at < span.second; };
         if (inside(sheets[b].first) == inside(sheets[b].second)) continue;
-        const std::uint32_t s = wings[from].triangle, t = wings[sheets[b].first].triangle;
+        const std::uint32_t s = wings[span.first].triangle, t = wings[sheets[b].first].triangle;
         pairs.push_back({std::min(s, t), std::max(s, t)});
       }
     }
