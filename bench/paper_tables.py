@@ -38,7 +38,7 @@ class Programs:
     def file(self, name):
         return os.path.join(self.work, name)
 
-    def run(self, name, *arguments):
+    def run(self, name, *arguments, timeout=None):
         """Seconds, peak bytes, exit code (None: out of time) and standard output."""
         out = self.file("stdout")
         with open(out, "w", encoding="utf-8") as file:
@@ -51,7 +51,7 @@ class Programs:
                 if pid:
                     child.returncode = os.waitstatus_to_exitcode(status)
                     break
-                if seconds > self.timeout:
+                if seconds > (timeout or self.timeout):
                     child.kill()
                     _, _, usage = os.wait4(child.pid, 0)
                     child.returncode = None
@@ -279,7 +279,7 @@ def point_clouds(programs):
           "are from and to\nthe true surface, in spacings of the points.\n")
     folder = programs.file("clouds")
     os.makedirs(folder, exist_ok=True)
-    print(programs.run("points_table", "--sizes", 25000, "--clouds", folder)[3])
+    print(programs.run("points_table", "--sizes", 25000, "--clouds", folder, timeout=10 * programs.timeout)[3])
     print("Beside CGAL, on the random clouds with noise: advancing front, and Poisson with normals estimated and oriented by CGAL. "
           "Distance:\ntwo-sided, relative to the diagonal of the true surface. Valid: closed, manifold and without self-intersections, by "
           "`meshcheck`.\n")
