@@ -131,4 +131,21 @@ class PlyTextCursor {
   bool garbage_ = false;
 };
 
+// False where the data end, or the length cannot be one.
+template <class Cursor>
+bool read_length(Cursor& cursor, const PlyProperty& list, std::size_t& length) {
+  double value = 0;
+  if (!cursor.read(list.count_type, value)) return false;
+  if (!(value >= 0 && value <= static_cast<double>(cursor.room(list.type)))) return false;
+  length = static_cast<std::size_t>(value);
+  return true;
+}
+
+template <class Cursor>
+bool pass_over_property(Cursor& cursor, const PlyProperty& property) {
+  std::size_t count = 1;
+  return (!property.is_list || read_length(cursor, property, count)) &&
+         cursor.skip(property.type, count);
+}
+
 }  // namespace meshrepair

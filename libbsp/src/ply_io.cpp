@@ -97,23 +97,10 @@ class PlyBody {
     return items;
   }
 
-  bool read_length(const PlyProperty& property, std::size_t& length) {
-    double value = 0;
-    if (!cursor_.read(property.count_type, value)) return false;
-    if (!(value >= 0 && value <= static_cast<double>(cursor_.room(property.type)))) return false;
-    length = static_cast<std::size_t>(value);
-    return true;
-  }
-
-  bool pass_over(const PlyProperty& property) {
-    std::size_t count = 1;
-    return (!property.is_list || read_length(property, count)) &&
-           cursor_.skip(property.type, count);
-  }
-
   bool pass_over(const PlyElement& element) {
-    return std::all_of(element.properties.begin(), element.properties.end(),
-                       [&](const PlyProperty& property) { return pass_over(property); });
+    return std::all_of(
+        element.properties.begin(), element.properties.end(),
+        [&](const PlyProperty& property) { return pass_over_property(cursor_, property); });
   }
 
   void read_points(const PlyElement& element) {
@@ -135,7 +122,8 @@ class PlyBody {
     bool whole = true;
     for (std::size_t i = 0; i < axes.size() && whole; ++i) {
       const PlyProperty& property = element.properties[i];
-      whole = axes[i] < 0 ? pass_over(property) : cursor_.read(property.type, point[axes[i]]);
+      whole = axes[i] < 0 ? pass_over_property(cursor_, property)
+                          : cursor_.read(property.type, point[axes[i]]);
     }
     if (!whole && !Cursor::kCanResume) return false;
     if ((!whole || cursor_.garbage()) && !point.allFinite()) ++result_.report.bad_points;
@@ -150,11 +138,11 @@ class PlyBody {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (i != wanted) {
-        if (!pass_over(property)) return false;
+        if (!pass_over_property(cursor_, property)) return false;
         continue;
       }
       std::size_t length = 0;
-      if (!read_length(property, length)) return false;
+      if (!read_length(cursor_, property, length)) return false;
       for (double value = 0; length > 0; --length) {
         if (!cursor_.read(property.type, value)) return false;
         take(value);

@@ -47,26 +47,12 @@ class PlyPoints {
   }
 
  private:
-  bool read_length(const PlyProperty& property, std::size_t& length) {
-    double value = 0;
-    if (!cursor_.read(property.count_type, value)) return false;
-    if (!(value >= 0 && value <= static_cast<double>(cursor_.room(property.type)))) return false;
-    length = static_cast<std::size_t>(value);
-    return true;
-  }
-
-  bool pass_over(const PlyProperty& property) {
-    std::size_t count = 1;
-    return (!property.is_list || read_length(property, count)) &&
-           cursor_.skip(property.type, count);
-  }
-
   bool pass_over(const PlyElement& element) {
     for (std::size_t item = 0; item < element.count && cursor_.more(); ++item) {
       guard_.step(0, source_.bytes.size() - cursor_.remaining());
-      const bool whole =
-          std::all_of(element.properties.begin(), element.properties.end(),
-                      [&](const PlyProperty& property) { return pass_over(property); });
+      const bool whole = std::all_of(
+          element.properties.begin(), element.properties.end(),
+          [&](const PlyProperty& property) { return pass_over_property(cursor_, property); });
       if (!whole && !Cursor::kCanResume) return false;
       cursor_.end_item();
     }
@@ -113,8 +99,8 @@ class PlyPoints {
   bool read_item(const PlyElement& element, Values& values) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const PlyProperty& property = element.properties[i];
-      const bool read =
-          property.is_list ? pass_over(property) : cursor_.read(property.type, values[places_[i]]);
+      const bool read = property.is_list ? pass_over_property(cursor_, property)
+                                         : cursor_.read(property.type, values[places_[i]]);
       if (!read) return false;
     }
     return true;
