@@ -1,5 +1,4 @@
 // bspbool A B ... --op OPERATION -o OUT: Boolean operations on solids.
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
@@ -8,13 +7,13 @@
 #include <vector>
 
 #include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <spdlog/spdlog.h>
 
 #include <boolean/boolean.h>
 #include <bsp/error.h>
-#include <extract/check_surface.h>
+#include <repair/repair.h>
 
+#include "common/choice_option.h"
 #include "common/logging.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
@@ -32,7 +31,7 @@ struct BoolOptions {
 };
 
 bool is_tree_name(const std::string& name) {
-  return std::filesystem::path(name).extension() == ".bsp";
+  return CLI::detail::to_lower(std::filesystem::path(name).extension().string()) == ".bsp";
 }
 
 struct Operand {
@@ -40,30 +39,23 @@ struct Operand {
   bool as_given = false;  // was the boundary of a solid already
 };
 
-// Repair leaves a solid as it is, but for the rules that fill what is hollow.
-bool is_solid_already(const TriangleSoup& soup, const RepairOptions& options, Findings& findings) {
-  const bool may_fill =
-      options.inside.rule == InsideRule::solidity || options.inside.cavities == Cavities::fill;
-  if (may_fill) return false;
-  StageMeter meter(findings.repair.stages, options.progress);
-  meter.begin("validate");
-  CancelOnly quiet(options.progress);
-  CheckOptions check;
-  check.most_places = 0;
-  check.progress = &quiet;
-  return check_surface(soup, check).valid_solid();
+Operand read_mesh_operand(const RepairOptions& repair_options, Run& run, Findings& findings) {
+  TriangleSoup soup = read_mesh_stage(run, findings, true);
+  if (soup.triangles.empty()) return {{}, true};
+  {
+    StageMeter meter(findings.repair.stages, &run.progress);
+    meter.begin("validate");
+    if (needs_no_repair(soup, repair_options)) return {std::move(soup), true};
+  }
+  return {repair(soup, repair_options, findings.repair).mesh};
 }
 
 // A mesh that is no solid is repaired, a tree without labels gets some. One in which nothing is
-// solid is the empty solid.
+// solid is the empty solid, and so is a mesh of nothing.
 Operand read_operand(const BoolOptions& options, Run& run, Findings& findings) {
   RepairOptions repair_options = options.step.repair;
   repair_options.progress = &run.progress;
-  if (!is_tree_name(findings.input)) {
-    TriangleSoup soup = read_mesh_stage(run, findings);
-    if (is_solid_already(soup, repair_options, findings)) return {std::move(soup), true};
-    return {repair(soup, repair_options, findings.repair).mesh};
-  }
+  if (!is_tree_name(findings.input)) return read_mesh_operand(repair_options, run, findings);
   Tree tree = read_tree_stage(run, findings);
   if (!findings.tree_read->labelled) {
     label_tree(tree, repair_options, findings.repair);
@@ -100,6 +92,9 @@ TriangleSoup take_operand(const BoolOptions& options, const std::string& name, R
   warn_of_findings(findings);
   if (!is_certified(operand, findings)) {
     spdlog::warn("{}: could not be certified as a solid", findings.input_name());
+  } else if (findings.mesh_read && !operand.as_given) {
+    spdlog::warn("{}: is no valid solid by these rules, and is repaired first",
+                 findings.input_name());
   }
   facts.push_back(facts_of_operand(operand, findings, run.report.take_sections()));
   return std::move(operand.solid);
@@ -143,8 +138,9 @@ void print_result(const BoolOptions& options, const RepairReport& repair,
                             options.step.output, written, seconds));
 }
 
-// Nothing is a solid, too, though no surface.
-void write_nothing(const WriteOptions& format, Run& run, const Findings& findings) {
+// Nothing is a solid, too, though no surface. The comment keeps an OBJ file from being empty.
+void write_nothing(WriteOptions format, Run& run, const Findings& findings) {
+  format.comments.emplace_back("nothing is solid");
   write_soup({}, findings.output, format);
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
   run.report.set_section("result",
@@ -172,7 +168,7 @@ ExitCode write_mesh_result(const Surface& surface, const WriteOptions& format,
     write_mesh_stage(surface, format, options.step, run, findings);
   }
   if (!findings.withheld) print_result(options, findings.repair, what_was_written(surface), run);
-  return verdict(findings);
+  return verdict(run, findings);
 }
 
 ExitCode combine_files(const BoolOptions& options, Run& run) {
@@ -205,37 +201,34 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
   });
 }
 
-constexpr std::array kOperations = {SetOperation::unite, SetOperation::intersect,
-                                    SetOperation::subtract, SetOperation::exclude};
+constexpr std::array<Choice<SetOperation>, 4> kOperations = {
+    {{"union", SetOperation::unite},
+     {"intersection", SetOperation::intersect},
+     {"difference", SetOperation::subtract},
+     {"xor", SetOperation::exclude}}};
 
-void add_operation_option(CLI::App& app, SetOperation& operation) {
-  std::vector<std::string> names;
-  names.reserve(kOperations.size());
-  for (const SetOperation known : kOperations) names.emplace_back(operation_name(known));
-  app.add_option_function<std::string>(
-         "--op",
-         [&operation](const std::string& name) {
-           operation =
-               *std::find_if(kOperations.begin(), kOperations.end(),
-                             [&](SetOperation known) { return operation_name(known) == name; });
-         },
-         "union; intersection; difference: the first without all others; xor: what is in one of "
-         "two")
-      ->check(CLI::IsMember(names))
-      ->type_name("NAME")
+constexpr std::array<Choice<RegionTest>, 2> kRegionTests = {
+    {{"cells", RegionTest::cells}, {"programs", RegionTest::linear_programs}}};
+
+void add_bool_options(CLI::App& app, BoolOptions& options) {
+  add_choice(
+      app, "--op", kOperations, [&options](SetOperation value) { options.operation = value; },
+      "union; intersection; difference: the first without all others; xor: what is in one of "
+      "two")
       ->required();
+  add_choice(
+      app, "--regions", kRegionTests, [&options](RegionTest value) { options.test = value; },
+      "How regions are found to be cut by a plane: by carrying their cells along, or by linear "
+      "programs; the results are the same")
+      ->default_str("cells");
 }
 
-void add_regions_option(CLI::App& app, RegionTest& test) {
-  app.add_option_function<std::string>(
-         "--regions",
-         [&test](const std::string& name) {
-           test = name == "cells" ? RegionTest::cells : RegionTest::linear_programs;
-         },
-         "How regions are found to be cut by a plane: by carrying their cells along, or by linear "
-         "programs; the results are the same [cells]")
-      ->check(CLI::IsMember({"cells", "programs"}))
-      ->type_name("NAME");
+// What is asked of a mesh to write says nothing about a tree.
+void refuse_mesh_options(const CLI::App& app) {
+  for (const char* name : {"--format", "--precision", "--strict"}) {
+    if (app.get_option(name)->count() == 0) continue;
+    throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
+  }
 }
 
 }  // namespace
@@ -253,20 +246,20 @@ int main(int argc, char** argv) {
                  "Two or more solids: meshes, repaired first where they are none, and trees (.bsp)")
       ->required()
       ->expected(-1);
-  add_operation_option(app, options.operation);
   add_output_option(app, options.step.output, "OUT",
                     "Mesh or, if it ends in .bsp, tree to write; - is standard output");
   add_inside_options(app, options.step.repair.inside);
   add_holes_option(app, options.step.repair.holes);
   add_max_hole_option(app, options.step.repair.holes);
   add_touching_option(app, options.step.repair.extract.touching);
-  add_regions_option(app, options.test);
+  add_bool_options(app, options);
   add_predicates_options(app, options.step.repair);
   add_format_option(app, options.step.format);
   add_certify_options(app, options.step.repair.certify, options.step.strict);
   return program.run(argc, argv, [&](Run& run) {
     if (options.step.output.empty()) throw UsageError("the name of the output is empty");
     if (options.inputs.size() < 2) throw UsageError("IN: two solids are needed, or more");
+    if (is_tree_name(options.step.output)) refuse_mesh_options(app);
     for (const std::string& input : options.inputs) check_files(input, options.step.output, run);
     return combine_files(options, run);
   });

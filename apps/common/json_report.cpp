@@ -64,7 +64,7 @@ std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failur
   report["seconds"] = progress.seconds();
   report["peak_memory_bytes"] = peak_memory_bytes(report["stages"]);
   report["exit_code"] = static_cast<int>(code);
-  report["error"] = failure ? Json(failure->message) : Json(nullptr);
+  report["error"] = failure ? Json(failure->message) : error_ ? Json(*error_) : Json(nullptr);
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -46,6 +47,9 @@ class JsonReport {
   // The stages with what the program measured of each; without it they are those of the progress.
   void set_stages(Json stages);
 
+  // What ended with an exit code other than 0, though nothing was thrown.
+  void set_error(std::string message) { error_ = std::move(message); }
+
   // The report is not to be written: its file is not one that may be replaced.
   void withhold() { withheld_ = true; }
   [[nodiscard]] bool withheld() const { return withheld_; }
@@ -58,6 +62,7 @@ class JsonReport {
   Json head_;      // program to output
   Json sections_;  // the program's own
   Json stages_;    // null: those of the progress
+  std::optional<std::string> error_;
   bool withheld_ = false;
 };
 

@@ -1,21 +1,14 @@
 #include "common/repair_options.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <CLI/Validators.hpp>
 
 #include <bsp/error.h>
 
+#include "common/choice_option.h"
+
 namespace meshrepair {
 namespace {
-
-template <class Value>
-using Choice = std::pair<std::string_view, Value>;
 
 constexpr std::array<Choice<InsideRule>, 4> kRules = {{{"auto", InsideRule::automatic},
                                                        {"solidity", InsideRule::solidity},
@@ -45,26 +38,6 @@ constexpr std::array<Choice<Predicates>, 2> kPredicates = {
 
 constexpr std::array<Choice<Touching>, 2> kTouchings = {
     {{"separate", Touching::separate}, {"join", Touching::join}}};
-
-// An option whose value is one of the names. `set` gets the value of the name.
-template <class Choices, class Set>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& choices, Set set,
-                        const std::string& description) {
-  std::vector<std::string> names;
-  names.reserve(choices.size());
-  for (const auto& choice : choices) names.emplace_back(choice.first);
-  return app
-      .add_option_function<std::string>(
-          name,
-          [&choices, set](const std::string& word) {
-            set(std::find_if(choices.begin(), choices.end(), [&](const auto& choice) {
-                  return choice.first == word;
-                })->second);
-          },
-          description)
-      ->check(CLI::IsMember(names))
-      ->type_name("NAME");
-}
 
 // For CLI11: an empty text where the word is a number from 0 on.
 std::string why_no_share(const std::string& word) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <string_view>
 #include <system_error>
 
@@ -118,16 +119,18 @@ ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   });
   if (!findings.withheld) print_summary(run, findings);
   warn_of_findings(findings);
-  return verdict(findings);
+  return verdict(run, findings);
 }
 
 }  // namespace
 
-ExitCode verdict(const Findings& findings) {
+ExitCode verdict(Run& run, const Findings& findings) {
   if (findings.missing_guarantees.empty()) return ExitCode::done;
-  spdlog::error("{}: {} {}", findings.output_name(),
-                findings.withheld ? "not written, it would be" : "written, but",
-                findings.missing_guarantees);
+  const std::string message = fmt::format(
+      "{}: {} {}", findings.output_name(),
+      findings.withheld ? "not written, it would be" : "written, but", findings.missing_guarantees);
+  run.report.set_error("error: " + message);
+  spdlog::error("{}", message);
   return ExitCode::not_certified;
 }
 
@@ -238,10 +241,12 @@ int run_steps(Program& program, int argc, const char* const* argv, StepOptions& 
   });
 }
 
-TriangleSoup read_mesh_stage(Run& run, Findings& findings) {
+TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("read");
-  ReadResult result = read_soup(findings.input, read_options(run));
+  ReadOptions options = read_options(run);
+  options.may_be_empty = may_be_empty;
+  ReadResult result = read_soup(findings.input, options);
   findings.mesh_read = std::move(result.report);
   log_warnings(findings.input_name(), findings.mesh_read->warnings);
   return std::move(result.soup);

@@ -94,8 +94,9 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
 // What users should know of an input and of what became of it, though it is no error.
 void warn_of_findings(const Findings& findings);
 
-// Not certified, and an error logged, where the output is without a guarantee.
-[[nodiscard]] ExitCode verdict(const Findings& findings);
+// Not certified, and an error logged and put into the report, where the output is without a
+// guarantee.
+[[nodiscard]] ExitCode verdict(Run& run, const Findings& findings);
 
 // Throws UsageError where no format can be told, or it cannot hold the sources that are asked for.
 [[nodiscard]] WriteOptions mesh_format(const StepOptions& options);
@@ -110,7 +111,7 @@ void log_warnings(const std::string& name, const std::vector<std::string>& warni
 [[nodiscard]] ReadOptions read_options(Run& run);
 
 // Stage "read". What a reader passed over is logged as warnings.
-[[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings);
+[[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty = false);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
 // Stage "distance", where there will be a report to say it in. It comes before the writing, so that
 // it cannot fail once there is an output. The surface is as repair() leaves it, at this precision.

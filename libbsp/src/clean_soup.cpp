@@ -85,9 +85,9 @@ std::uint64_t hash_of_corners(const Corners& sorted_corners) {
 
 class TriangleCollector {
  public:
-  TriangleCollector(CleanSoup& clean, CleanReport& report, std::size_t expected)
-      : clean_(clean), report_(report), index_(expected) {
-    clean_.triangles.reserve(expected);
+  TriangleCollector(const TriangleSoup& soup, CleanSoup& clean, CleanReport& report)
+      : soup_(soup), clean_(clean), report_(report), index_(soup.triangles.size()) {
+    clean_.triangles.reserve(soup.triangles.size());
   }
 
   // False where there is no triangle: the corners are equal or in a line, on the grid.
@@ -105,25 +105,77 @@ class TriangleCollector {
       const auto interned = clean_.planes.intern(plane);
       clean_.triangles.push_back({corners, interned.id, interned.turned ? -1 : 1, source});
     } else {
-      add_copy(clean_.triangles[id], corners);
+      const bool same = same_orientation(clean_.triangles[id].corners, corners);
+      ++(same ? report_.duplicates : report_.opposite_duplicates);
+      copies_.push_back({id, source, same ? 1 : -1});
     }
     return true;
   }
 
- private:
-  // Only which orientations occur matters, not how often: a face that is there twice is one face.
-  void add_copy(Triangle& triangle, const Corners& corners) {
-    if (same_orientation(triangle.corners, corners)) {
-      ++report_.duplicates;
-    } else {
-      ++report_.opposite_duplicates;
-      triangle.winding = 0;
+  // Says how those with copies are turned.
+  void finish() {
+    std::stable_sort(copies_.begin(), copies_.end(),
+                     [](const Copy& a, const Copy& b) { return a.of < b.of; });
+    for (auto copy = copies_.begin(); copy != copies_.end();) {
+      const TriangleId t = copy->of;
+      Triangle& triangle = clean_.triangles[t];
+      layers_.assign(1, layer_of({t, triangle.source, 1}));
+      for (; copy != copies_.end() && copy->of == t; ++copy) layers_.push_back(layer_of(*copy));
+      const int sum = sum_of_layers();
+      triangle.winding *= sum > 0 ? 1 : sum < 0 ? -1 : 0;
     }
   }
 
+ private:
+  struct Copy {
+    TriangleId of;
+    std::uint32_t source;
+    int facing;  // 1 as the first of them, -1 the other way
+  };
+
+  // A copy where it was before it came onto the grid: the coordinates of its corners, in an order
+  // that all copies have in common.
+  struct Layer {
+    std::array<double, 9> at;
+    int facing;
+    friend bool operator<(const Layer& a, const Layer& b) {
+      return a.at != b.at ? a.at < b.at : a.facing < b.facing;
+    }
+    friend bool operator==(const Layer& a, const Layer& b) {
+      return a.at == b.at && a.facing == b.facing;
+    }
+  };
+
+  [[nodiscard]] Layer layer_of(const Copy& copy) const {
+    std::array<Vec3d, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = soup_.points[soup_.triangles[copy.source][k]];
+    }
+    std::sort(corners.begin(), corners.end(), [&](const Vec3d& a, const Vec3d& b) {
+      return clean_.grid.to_grid(a) < clean_.grid.to_grid(b);
+    });
+    Layer layer{{}, copy.facing};
+    for (std::size_t i = 0; i < 9; ++i) layer.at[i] = corners[i / 3][static_cast<int>(i % 3)];
+    return layer;
+  }
+
+  // A face that is there twice is one face, and with its reverse none; but layers nearer to each
+  // other than the steps of the grid add up: of a thin wall and what it encloses, the one outside
+  // is left.
+  [[nodiscard]] int sum_of_layers() {
+    std::sort(layers_.begin(), layers_.end());
+    layers_.erase(std::unique(layers_.begin(), layers_.end()), layers_.end());
+    int sum = 0;
+    for (const Layer& layer : layers_) sum += layer.facing;
+    return sum;
+  }
+
+  const TriangleSoup& soup_;
   CleanSoup& clean_;
   CleanReport& report_;
   HashIndex index_;
+  std::vector<Copy> copies_;
+  std::vector<Layer> layers_;
 };
 
 // Corners are in a line where their triangle is lower than this over its longest side, the largest
@@ -174,7 +226,7 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Grid& grid, CleanReport& re
   clean.grid = grid;
   report.grid_unit = clean.grid.unit;
   const std::vector<PointId> id_of = join_points(soup, used, clean, report, check);
-  TriangleCollector collector(clean, report, soup.triangles.size());
+  TriangleCollector collector(soup, clean, report);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     check.tick();
     if (!finite[t]) {
@@ -188,6 +240,7 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Grid& grid, CleanReport& re
     const bool flat = in_a_line(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
     ++(flat ? report.dropped_degenerate : report.dropped_below_grid);
   }
+  collector.finish();
   return clean;
 }
 

@@ -20,6 +20,9 @@ namespace {
 void require_triangles(const MeshSource& source, const ReadResult& result) {
   if (!result.soup.triangles.empty()) return;
   const ReadReport& report = result.report;
+  const bool is_empty = result.soup.points.empty() && report.bad_faces == 0 &&
+                        report.missing_faces == 0 && report.warnings.empty();
+  if (is_empty && source.options.may_be_empty) return;
   const bool is_stl =
       report.format == SoupFormat::stl_binary || report.format == SoupFormat::stl_ascii;
   std::string what = "holds no triangles";

@@ -17,7 +17,8 @@ namespace meshrepair {
 // What the file holds, which may be nothing.
 [[nodiscard]] ReadResult read_mesh_as(SoupFormat format, const MeshSource& source);
 
-// Throws InputError when there are no triangles, LimitError when there are too many.
+// Throws InputError when there are no triangles but there should be, LimitError when there are too
+// many.
 void require_mesh(const MeshSource& source, const ReadResult& result);
 
 }  // namespace meshrepair

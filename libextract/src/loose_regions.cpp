@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::uint32_t kNone = ManifoldCorners::kNone;
 
-std::uint32_t next_on_outline(const Boundary& boundary, const ManifoldCorners& corners,
-                              const MergedFacets& merged, std::uint32_t s) {
-  s = boundary.next(s);
-  while (merged.dissolved[s] != 0) s = boundary.next(corners.mate[s]);
-  return s;
-}
-
 // Of each region whether it has an outline of three corners and more, and no outline of less.
 std::vector<char> sound_regions(const Boundary& boundary, const ManifoldCorners& corners,
                                 const MergedFacets& merged) {
@@ -25,7 +18,7 @@ std::vector<char> sound_regions(const Boundary& boundary, const ManifoldCorners&
   for (std::uint32_t start = 0; start < boundary.sides(); ++start) {
     if (merged.dissolved[start] != 0 || seen[start] != 0) continue;
     std::uint32_t count = 0;
-    for (std::uint32_t s = start; seen[s] == 0; s = next_on_outline(boundary, corners, merged, s)) {
+    for (std::uint32_t s = start; seen[s] == 0; s = merged.next_on_outline(boundary, corners, s)) {
       seen[s] = 1;
       count += merged.kept[corners.vertex[s]] != 0;
     }

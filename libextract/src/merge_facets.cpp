@@ -176,9 +176,7 @@ class FacetMerger {
   }
 
   [[nodiscard]] std::uint32_t next_on_outline(std::uint32_t s) const {
-    s = boundary_.next(s);
-    while (result_.dissolved[s] != 0) s = boundary_.next(corners_.mate[s]);
-    return s;
+    return result_.next_on_outline(boundary_, corners_, s);
   }
 
   [[nodiscard]] EdgeId edge_of(std::uint32_t s) const {

@@ -57,25 +57,22 @@ bool RegionTriangulator::trace_triangle(std::size_t region,
     if (start != kNone) break;
   }
   if (start == kNone) return false;
+  const auto next = [this](std::uint32_t s) {
+    return merged_.next_on_outline(boundary_, corners_, s);
+  };
   RegionTriangle triangle{};
   std::uint32_t s = start;
   for (std::size_t k = 0; k < 3; ++k) {
     if (k > 0 && s == start) return false;
     triangle.vertices[k] = corners_.vertex[s];
     triangle.sides[k] = s;
-    s = next_on_outline(s);
+    s = next(s);
     if (merged_.kept[corners_.vertex[s]] == 0) triangle.sides[k] = kNone;
-    while (merged_.kept[corners_.vertex[s]] == 0) s = next_on_outline(s);
+    while (merged_.kept[corners_.vertex[s]] == 0) s = next(s);
   }
   if (s != start) return false;
   triangles.push_back(triangle);
   return true;
-}
-
-std::uint32_t RegionTriangulator::next_on_outline(std::uint32_t side) const {
-  std::uint32_t s = boundary_.next(side);
-  while (merged_.dissolved[s] != 0) s = boundary_.next(corners_.mate[s]);
-  return s;
 }
 
 bool RegionTriangulator::fill_mesh(std::size_t region) {

@@ -39,7 +39,6 @@ class RegionTriangulator {
   [[nodiscard]] bool add_polygon(std::uint32_t polygon);
   void join_polygons(std::size_t region);
   [[nodiscard]] bool remove_vertices();
-  [[nodiscard]] std::uint32_t next_on_outline(std::uint32_t side) const;
   [[nodiscard]] const Point& point_of(std::uint32_t side) const;
   [[nodiscard]] bool is_straight(std::uint32_t side) const;
 

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <bsp/error.h>
-#include <bsp/float32.h>
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
 
@@ -35,8 +34,14 @@ constexpr std::size_t kMostRoundsInVain = 2;
 using GridCell = std::array<double, 3>;
 
 void round_points(TriangleSoup& mesh, Precision precision) {
-  if (precision == Precision::float64) return;
-  for (Vec3d& p : mesh.points) p = rounded_to_float32(p);
+  for (Vec3d& p : mesh.points) p = internal::rounded_to(p, precision);
+}
+
+// They are no points of the input any more.
+void forget_moved_points(Surface& surface, const std::vector<Vec3d>& before) {
+  for (std::size_t p = 0; p < before.size(); ++p) {
+    if (surface.mesh.points[p] != before[p]) surface.input_point[p] = 0;
+  }
 }
 
 double snapped(double x, double step) { return std::nearbyint(x / step) * step; }
@@ -115,7 +120,7 @@ class Certifier {
 
   // How far points may have been moved by now, with what nudge_points() and separate_copies() add.
   [[nodiscard]] double reach() const {
-    return 64 * spacing_ + std::ldexp(step_, 2 * static_cast<int>(report_.rounds));
+    return 256 * spacing_ + std::ldexp(step_, 2 * static_cast<int>(report_.rounds));
   }
 
   // Often all that is wrong is that input points closer than a step of the grid were joined.
@@ -128,24 +133,28 @@ class Certifier {
 
   // What needs no new repair. Further rounds start from what was before, on the grid.
   void improve() {
-    Attempt improved = current_;
-    if (improved.joined > 0) separate(improved);
-    if (improved.found.count + improved.found.degenerate > 0) {
-      internal::nudge_points(improved.surface, improved.found, options_.precision, progress_);
-      test(improved);
+    Attempt moved = current_;
+    for (std::size_t faults = moved.faults() + 1; moved.faults() < faults;) {
+      faults = moved.faults();
+      if (faults < best_.faults()) best_ = moved;
+      if (faults > 0) move_points(moved);
     }
-    if (improved.faults() < best_.faults()) best_ = std::move(improved);
+  }
+
+  void move_points(Attempt& attempt) const {
+    if (attempt.joined > 0) separate(attempt);
+    if (attempt.found.count + attempt.found.degenerate == 0) return;
+    internal::nudge_points(attempt.surface, attempt.found, options_.precision, progress_);
+    test(attempt);
   }
 
   void separate(Attempt& attempt) const {
-    const Attempt before = attempt;
-    for (const double distance : {2 * spacing_, 8 * spacing_, 32 * spacing_}) {
-      Attempt apart = before;
-      internal::separate_copies(apart.surface.mesh, distance, options_.touching);
-      test(apart, before.surface.mesh.points);
-      if (apart.faults() < attempt.faults()) attempt = std::move(apart);
-      if (attempt.faults() == 0) return;
-    }
+    Attempt apart = attempt;
+    internal::separate_copies(apart.surface.mesh, spacing_, options_.precision, options_.touching,
+                              progress_);
+    forget_moved_points(apart.surface, attempt.surface.mesh.points);
+    test(apart, attempt.surface.mesh.points);
+    if (apart.faults() < attempt.faults()) attempt = std::move(apart);
   }
 
   void mend() {

@@ -1,15 +1,15 @@
 #include "nudge_points.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <bsp/double_predicates.h>
-#include <bsp/float32.h>
 #include <bsp/hash_index.h>
 
 #include "number_spacing.h"
+#include "point_mover.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -18,112 +18,36 @@ constexpr std::uint32_t kTries = 24;
 // Beyond this there are too many faults for chance to be a remedy.
 constexpr std::size_t kMostTriangles = 20'000;
 
-class PointNudger {
- public:
-  PointNudger(Surface& surface, Precision precision, ProgressObserver* progress)
-      : surface_(surface), mesh_(surface.mesh), precision_(precision), progress_(progress) {}
-
-  void run(const std::vector<std::uint32_t>& at_fault) {
-    if (at_fault.size() > kMostTriangles) return;
-    find_movable(at_fault);
-    if (movable_.empty()) return;
-    count_faults(faults_);
-    for (std::uint32_t k = 0; k < kTries && total(faults_) > 0; ++k) try_once(k);
+// By a few of the smallest steps that can be written, more in later tries.
+Vec3d moved_by_chance(const Vec3d& from, std::size_t i, std::uint32_t attempt,
+                      Precision precision) {
+  Vec3d to = from;
+  const std::int64_t reach = std::int64_t{1} << (attempt / 4);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint64_t chance =
+        hash_mix(hash_mix(i + 1, attempt), static_cast<std::uint64_t>(axis));
+    const std::int64_t steps =
+        static_cast<std::int64_t>((chance >> 20) % static_cast<std::uint64_t>(2 * reach + 1)) -
+        reach;
+    to[axis] += static_cast<double>(steps) * number_spacing(from.cwiseAbs().maxCoeff(), precision);
   }
+  return rounded_to(to, precision);
+}
 
- private:
-  void find_movable(const std::vector<std::uint32_t>& at_fault) {
-    place_.assign(mesh_.points.size(), kNone);
-    for (const std::uint32_t t : at_fault) {
-      for (const std::uint32_t p : mesh_.triangles[t]) {
-        if (surface_.input_point[p] != 0 || place_[p] != kNone) continue;
-        place_[p] = static_cast<std::uint32_t>(movable_.size());
-        movable_.push_back(p);
-      }
-    }
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& corners = mesh_.triangles[t];
-      if (std::any_of(corners.begin(), corners.end(),
-                      [&](std::uint32_t p) { return place_[p] != kNone; })) {
-        near_.push_back(t);
-      }
+// Corners of the triangles that are no points of the input.
+std::vector<std::uint32_t> find_movable(const Surface& surface,
+                                        const std::vector<std::uint32_t>& triangles) {
+  std::vector<char> known(surface.mesh.points.size(), 0);
+  std::vector<std::uint32_t> movable;
+  for (const std::uint32_t t : triangles) {
+    for (const std::uint32_t p : surface.mesh.triangles[t]) {
+      if (surface.input_point[p] != 0 || known[p] != 0) continue;
+      known[p] = 1;
+      movable.push_back(p);
     }
   }
-
-  // For each movable point how often a triangle of its is at fault.
-  void count_faults(std::vector<std::uint32_t>& faults) const {
-    faults.assign(movable_.size(), 0);
-    const auto blame = [&](std::uint32_t triangle) {
-      for (const std::uint32_t p : mesh_.triangles[triangle]) {
-        if (place_[p] != kNone) ++faults[place_[p]];
-      }
-    };
-    SelfIntersectionOptions options;
-    options.most_pairs = 10 * kMostTriangles;
-    options.progress = progress_;
-    for (const auto& pair : self_intersections(mesh_, near_, options).pairs) {
-      blame(pair[0]);
-      blame(pair[1]);
-    }
-    for (const std::uint32_t t : near_) {
-      const auto& c = mesh_.triangles[t];
-      if (projection_axis(mesh_.points[c[0]], mesh_.points[c[1]], mesh_.points[c[2]]) < 0) blame(t);
-    }
-  }
-
-  [[nodiscard]] static std::size_t total(const std::vector<std::uint32_t>& faults) {
-    std::size_t sum = 0;
-    for (const std::uint32_t f : faults) sum += f;
-    return sum;
-  }
-
-  // Moves every point at fault; takes back what did not help there, and all if the whole got worse.
-  void try_once(std::uint32_t k) {
-    std::vector<Vec3d> before(movable_.size());
-    for (std::size_t i = 0; i < movable_.size(); ++i) {
-      before[i] = mesh_.points[movable_[i]];
-      if (faults_[i] > 0) mesh_.points[movable_[i]] = moved(before[i], i, k);
-    }
-    std::vector<std::uint32_t> after;
-    count_faults(after);
-    if (total(after) >= total(faults_)) {
-      for (std::size_t i = 0; i < movable_.size(); ++i) {
-        if (after[i] >= faults_[i]) mesh_.points[movable_[i]] = before[i];
-      }
-      count_faults(after);
-    }
-    if (total(after) < total(faults_)) {
-      faults_ = std::move(after);
-      return;
-    }
-    for (std::size_t i = 0; i < movable_.size(); ++i) mesh_.points[movable_[i]] = before[i];
-  }
-
-  [[nodiscard]] Vec3d moved(const Vec3d& from, std::size_t i, std::uint32_t k) const {
-    Vec3d to = from;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::uint64_t chance = hash_mix(hash_mix(i + 1, k), static_cast<std::uint64_t>(axis));
-      const auto reach = static_cast<std::int64_t>(1) << (k / 4);
-      const std::int64_t steps =
-          static_cast<std::int64_t>((chance >> 20) % static_cast<std::uint64_t>(2 * reach + 1)) -
-          reach;
-      to[axis] +=
-          static_cast<double>(steps) * number_spacing(from.cwiseAbs().maxCoeff(), precision_);
-      if (precision_ == Precision::float32) to[axis] = rounded_to_float32(to[axis]);
-    }
-    return to;
-  }
-
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  Surface& surface_;
-  TriangleSoup& mesh_;
-  Precision precision_;
-  ProgressObserver* progress_;
-  std::vector<std::uint32_t> movable_;  // points
-  std::vector<std::uint32_t> place_;    // of each point in movable_, or kNone
-  std::vector<std::uint32_t> near_;     // triangles with a movable corner
-  std::vector<std::uint32_t> faults_;   // of each movable point
-};
+  return movable;
+}
 
 std::vector<std::uint32_t> triangles_at_fault(const TriangleSoup& mesh,
                                               const SelfIntersections& found) {
@@ -148,7 +72,18 @@ std::vector<std::uint32_t> triangles_at_fault(const TriangleSoup& mesh,
 
 void nudge_points(Surface& surface, const SelfIntersections& found, Precision precision,
                   ProgressObserver* progress) {
-  PointNudger(surface, precision, progress).run(triangles_at_fault(surface.mesh, found));
+  TriangleSoup& mesh = surface.mesh;
+  const std::vector<std::uint32_t> at_fault = triangles_at_fault(mesh, found);
+  if (at_fault.size() > kMostTriangles) return;
+  const std::vector<std::uint32_t> movable = find_movable(surface, at_fault);
+  if (movable.empty()) return;
+  std::vector<std::uint32_t> each(movable.size());
+  std::iota(each.begin(), each.end(), 0u);
+  PointMover mover(mesh, movable, std::move(each), progress);
+  for (std::uint32_t k = 0; k < kTries && mover.faults() > 0; ++k) {
+    mover.try_moves(
+        [&](std::size_t i) { return moved_by_chance(mesh.points[movable[i]], i, k, precision); });
+  }
 }
 
 }  // namespace meshrepair::internal

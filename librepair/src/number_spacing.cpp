@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <bsp/float32.h>
+
 namespace meshrepair::internal {
 
 double number_spacing(double x, Precision precision) {
@@ -18,6 +20,10 @@ double number_spacing(const TriangleSoup& mesh, Precision precision) {
   double largest = 0;
   for (const Vec3d& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   return number_spacing(largest, precision);
+}
+
+Vec3d rounded_to(const Vec3d& p, Precision precision) {
+  return precision == Precision::float32 ? rounded_to_float32(p) : p;
 }
 
 }  // namespace meshrepair::internal

@@ -12,4 +12,7 @@ namespace meshrepair::internal {
 // The same at the mesh's largest coordinate.
 [[nodiscard]] double number_spacing(const TriangleSoup& mesh, Precision precision);
 
+// The nearest point that can be written.
+[[nodiscard]] Vec3d rounded_to(const Vec3d& p, Precision precision);
+
 }  // namespace meshrepair::internal

@@ -6,6 +6,7 @@
 
 #include <bsp/error.h>
 #include <extract/build_cells.h>
+#include <extract/check_surface.h>
 #include <repair/cell_graph.h>
 #include <repair/flood.h>
 #include <repair/repair.h>
@@ -254,6 +255,17 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
     surface = extract(covered, solid_cells(tree, covered.complex), options, report);
   }
   return finish(tree.input, std::move(surface), options, report, meter);
+}
+
+bool needs_no_repair(const TriangleSoup& soup, const RepairOptions& options) {
+  const bool may_fill =
+      options.inside.rule == InsideRule::solidity || options.inside.cavities == Cavities::fill;
+  if (may_fill) return false;
+  CancelOnly quiet(options.progress);
+  CheckOptions check;
+  check.most_places = 0;
+  check.progress = &quiet;
+  return check_surface(soup, check).valid_solid();
 }
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {

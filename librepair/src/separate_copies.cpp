@@ -8,7 +8,11 @@
 
 #include <Eigen/Geometry>
 
+#include <bsp/hash_index.h>
 #include <bsp/weld_points.h>
+
+#include "number_spacing.h"
+#include "point_mover.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -66,6 +70,61 @@ Vec3d weighted_normal(const TriangleSoup& mesh, const std::array<std::uint32_t, 
   return std::atan2(sine, a.dot(b)) / sine * normal;
 }
 
+// Unit vectors out of the solid around each copy, or where copies were joined along an edge, into
+// it; 0 for all other points.
+std::vector<Vec3d> find_ways_out(const TriangleSoup& mesh, const Places& places,
+                                 Touching touching) {
+  std::vector<char> joined(mesh.points.size(), 0);
+  if (touching == Touching::join) joined = find_common_edges(mesh, places);
+  std::vector<Vec3d> out(mesh.points.size(), Vec3d::Zero());
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (places.is_copy[t[k]] != 0) out[t[k]] += weighted_normal(mesh, t, k);
+    }
+  }
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    const double length = out[p].norm();
+    if (length > 0) out[p] *= (joined[p] != 0 ? -1 : 1) / length;
+  }
+  return out;
+}
+
+// In steps of the spacing.
+constexpr std::array kDistances = {2.0, 8.0, 32.0};
+// All as they should go, then all the other way, then each copy by chance: either way or not at
+// all, then in any direction.
+constexpr std::uint32_t kOrderlyTries = 6;
+constexpr std::uint32_t kEitherWayTries = 18;
+constexpr std::uint32_t kTries = 30;
+// Beyond this there are too many faults for chance to be a remedy.
+constexpr std::size_t kMostTriangles = 20'000;
+
+// How far and where to for try k.
+Vec3d move_of(const Vec3d& way_out, std::uint32_t point, std::uint32_t k) {
+  if (k < kOrderlyTries) return (k % 2 == 0 ? -1 : 1) * kDistances[k / 2] * way_out;
+  const double distance = kDistances[k % kDistances.size()];
+  const std::uint64_t chance = hash_mix(hash_mix(point + 1, k), 0) >> 20;
+  if (k < kEitherWayTries) return (static_cast<double>(chance % 5) - 2) / 2 * distance * way_out;
+  Vec3d to;
+  for (int axis = 0; axis < 3; ++axis) {
+    to[axis] = static_cast<double>((chance >> (8 * axis)) % 256) / 127.5 - 1;
+  }
+  return distance * to;
+}
+
+void keep_those_at_fault(TriangleSoup& mesh, std::vector<std::uint32_t>& points,
+                         std::vector<std::uint32_t>& group, ProgressObserver* progress) {
+  const PointMover all(mesh, points, group, progress);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (all.faults_of(group[i]) == 0) continue;
+    points[kept] = points[i];
+    group[kept++] = group[i];
+  }
+  points.resize(kept);
+  group.resize(kept);
+}
+
 }  // namespace
 
 std::size_t count_copies(const TriangleSoup& mesh) {
@@ -73,24 +132,27 @@ std::size_t count_copies(const TriangleSoup& mesh) {
   return static_cast<std::size_t>(std::count(places.is_copy.begin(), places.is_copy.end(), 1));
 }
 
-std::size_t separate_copies(TriangleSoup& mesh, double distance, Touching touching) {
+void separate_copies(TriangleSoup& mesh, double spacing, Precision precision, Touching touching,
+                     ProgressObserver* progress) {
   const Places places = find_places(mesh.points);
-  std::vector<char> goes_out(mesh.points.size(), 0);
-  if (touching == Touching::join) goes_out = find_common_edges(mesh, places);
-  std::vector<Vec3d> outward(mesh.points.size(), Vec3d::Zero());
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (places.is_copy[t[k]] != 0) outward[t[k]] += weighted_normal(mesh, t, k);
-    }
+  const std::vector<Vec3d> ways_out = find_ways_out(mesh, places, touching);
+  const std::vector<Vec3d> before = mesh.points;
+  const auto moved = [&](std::uint32_t p, std::uint32_t k) {
+    return rounded_to(before[p] + spacing * move_of(ways_out[p], p, k), precision);
+  };
+  std::vector<std::uint32_t> copies, group;
+  for (std::uint32_t p = 0; p < mesh.points.size(); ++p) {
+    if (places.is_copy[p] == 0) continue;
+    copies.push_back(p);
+    group.push_back(places.place[p]);
+    mesh.points[p] = moved(p, 0);
   }
-  std::size_t moved = 0;
-  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
-    const double length = outward[p].norm();
-    if (places.is_copy[p] == 0 || !(length > 0)) continue;
-    mesh.points[p] += (goes_out[p] != 0 ? distance : -distance) / length * outward[p];
-    ++moved;
+  keep_those_at_fault(mesh, copies, group, progress);
+  PointMover mover(mesh, copies, group, progress);
+  const std::uint32_t tries = mover.triangles() <= kMostTriangles ? kTries : kOrderlyTries;
+  for (std::uint32_t k = 1; k < tries && mover.faults() > 0; ++k) {
+    mover.try_moves([&](std::size_t i) { return moved(copies[i], k); });
   }
-  return moved;
 }
 
 }  // namespace meshrepair::internal

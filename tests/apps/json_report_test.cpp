@@ -51,6 +51,14 @@ TEST(JsonReport, FailureHasCodeAndMessage) {
   EXPECT_EQ(json["error"], "in.stl: encloses nothing");
 }
 
+TEST(JsonReport, ErrorsNeedNotBeThrown) {
+  JsonReport report("test", {"test"});
+  report.set_error("error: out.stl: written, but not closed");
+  const Json json = Json::parse(report.text(ExitCode::not_certified, std::nullopt, ProgressBar()));
+  EXPECT_EQ(json["exit_code"], 1);
+  EXPECT_EQ(json["error"], "error: out.stl: written, but not closed");
+}
+
 TEST(JsonReport, FileNamesNeedNotBeUtf8) {
   JsonReport report("test", {"test", "\xff.stl"});
   const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));

@@ -109,6 +109,10 @@ def main():
     tree = tree_of(bspbuild, pathlib.Path(mesh).read_bytes())
     files = {
         "empty.stl": b"",
+        "nothing.off": b"OFF\n0 0 0\n",
+        "nothing.obj": b"# nothing is solid\n",
+        "nothing.stl": bytes(84),
+        "points_only.off": b"OFF\n1 0 0\n0 0 0\n",
         "cut.stl": binary_stl(triangles=7, promised=100),
         "cut_to_nothing.stl": binary_stl(triangles=0, promised=100),
         "text.ply": b"This is no mesh.\n",

@@ -173,6 +173,29 @@ TEST(CleanSoup, OppositeCopiesHaveNoWinding) {
   }
 }
 
+// Layers nearer to each other than the grid can tell: what a walk through all of them meets.
+TEST(CleanSoup, NearLayersAddUp) {
+  for (const auto& [facing, sum] : std::vector<std::pair<std::vector<int>, int>>{
+           {{1, -1, 1}, 1}, {{-1, 1, 1}, 1}, {{1, -1}, 0}, {{-1, 1, -1, 1, -1}, -1}, {{1, 1}, 1}}) {
+    TriangleSoup soup;
+    for (const int facing_up : facing) {
+      const auto first = static_cast<std::uint32_t>(soup.points.size());
+      const double z = 1e-10 * static_cast<double>(soup.triangles.size());
+      for (const Vec3d& p : {Vec3d(0, 0, z), Vec3d(1, 0, z), Vec3d(0, 1, z)}) {
+        soup.points.push_back(p);
+      }
+      soup.triangles.push_back({first, first + 1, first + 2});
+      if (facing_up < 0) std::swap(soup.triangles.back()[0], soup.triangles.back()[1]);
+    }
+    CleanReport report;
+    const CleanSoup clean = clean_soup(soup, report);
+    ASSERT_EQ(clean.triangles.size(), 1u);
+    const Triangle& triangle = clean.triangles[TriangleId(0u)];
+    const int plane_is_up = clean.planes[triangle.plane].unit[2] > 0 ? 1 : -1;
+    EXPECT_EQ(triangle.winding * plane_is_up, sum);
+  }
+}
+
 TEST(CleanSoup, NegativeZeroIsNoNewPoint) {
   TriangleSoup soup = one_triangle();
   soup.points.emplace_back(-0.0, 0.0, -0.0);

@@ -209,6 +209,26 @@ TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
   EXPECT_NEAR(signed_volume(back), 3, 1e-5);
 }
 
+// Whether it is a cavity or a solid that has a tip on a face, the tip has to go back into what it
+// is the tip of.
+TEST(Certify, MovesTipsOfCavitiesOffTheFacesThatTheyTouch) {
+  const TriangleSoup tetrahedron = {
+      {{0.3, 0.4, 1}, {0.2, 0.2, 0.5}, {0.7, 0.2, 0.4}, {0.4, 0.8, 0.6}},
+      {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
+  TriangleSoup soup = cube();
+  append(soup, signed_volume(tetrahedron) > 0 ? flipped(tetrahedron) : tetrahedron);
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  options.certify.welded = true;
+  const RepairResult result = repair(soup, options);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_EQ(result.report.certify.rounds, 0u);
+  const TriangleSoup back = as_read_back(result.surface.mesh, SoupFormat::stl_binary);
+  EXPECT_TRUE(check_surface(back).valid_solid());
+  EXPECT_EQ(back.points.size(), result.surface.mesh.points.size());
+  EXPECT_NEAR(signed_volume(back), 1 - std::abs(signed_volume(tetrahedron)), 1e-5);
+}
+
 // Two cubes joined along an edge are one solid still when a reader of STL welds their corners.
 TEST(Certify, WidensJoinedEdgesForFormatsThatJoinPoints) {
   TriangleSoup soup = cube();

@@ -17,7 +17,8 @@ namespace meshrepair {
 struct Triangle {
   std::array<PointId, 3> corners;  // in the order of its first copy
   PlaneId plane;
-  // How its copies are turned: +1 all along the plane's normal, -1 all against it, 0 both kinds.
+  // How its copies are turned: +1 more along the plane's normal than against it, -1 fewer, 0 as
+  // many. Those at the very same place, as given, count once for each way they are turned.
   std::int32_t winding = 0;
   // Index of the first copy in the soup that was given; kNoSource for one that closes a hole.
   std::uint32_t source = 0;

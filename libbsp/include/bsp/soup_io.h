@@ -58,12 +58,14 @@ struct ReadResult {
 struct ReadOptions {
   // More throw LimitError, as soon as it is known; polygons count as what they will become.
   std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
+  // A file that holds no points and no faces, and promises none, is no error.
+  bool may_be_empty = false;
   ProgressObserver* progress = nullptr;
 };
 
 // Reads a file; "-" is standard input. Throws InputError (one line that names the file and the
 // place) when it cannot be opened, is empty, or holds no format that is known, or no readable
-// triangle at all; LimitError.
+// triangle at all, unless that may be; LimitError.
 [[nodiscard]] ReadResult read_soup(const std::filesystem::path& path,
                                    const ReadOptions& options = {});
 

@@ -14,8 +14,7 @@ namespace meshrepair {
 
 // A region is a connected set of boundary facets that are covered by the same triangle of the
 // input, or by several of one plane that are all cut, or that are not covered and lie in one plane.
-// Its outline may have holes, and may touch
-// itself at vertices and edges.
+// Its outline may have holes, and may touch itself at vertices and edges.
 struct MergedFacets {
   std::vector<std::uint32_t> region;        // of each polygon of the boundary
   std::vector<std::uint32_t> first;         // region r has the polygons list[first[r]] ...
@@ -27,6 +26,14 @@ struct MergedFacets {
   [[nodiscard]] std::size_t regions() const { return kept_corners.size(); }
   [[nodiscard]] std::span<const std::uint32_t> polygons_of(std::size_t r) const {
     return {list.data() + first[r], first[r + 1] - first[r]};
+  }
+  // The side of the outline that follows side s of it.
+  [[nodiscard]] std::uint32_t next_on_outline(const Boundary& boundary,
+                                              const ManifoldCorners& corners,
+                                              std::uint32_t s) const {
+    s = boundary.next(s);
+    while (dissolved[s] != 0) s = boundary.next(corners.mate[s]);
+    return s;
   }
 };
 

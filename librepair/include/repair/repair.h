@@ -86,6 +86,10 @@ struct RepairResult {
 [[nodiscard]] Surface repair(const TriangleSoup& soup, const RepairOptions& options,
                              RepairReport& report);
 
+// Whether repair would leave the soup as it is: it is the boundary of a solid, and no rule fills
+// what is hollow.
+[[nodiscard]] bool needs_no_repair(const TriangleSoup& soup, const RepairOptions& options);
+
 // Step 1: soup to tree, its leaves unknown. Throws NoSolidError when no triangle is left.
 [[nodiscard]] Tree make_tree(const TriangleSoup& soup, const RepairOptions& options,
                              RepairReport& report);

@@ -1,0 +1,47 @@
+// Moving points until no triangle around them is at fault.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <bsp/progress.h>
+#include <bsp/soup.h>
+
+namespace meshrepair::internal {
+
+// Triangles are at fault that intersect others or are degenerate, and points of a group that are in
+// one place.
+class PointMover {
+ public:
+  // `points` of the mesh may move, `group` says of each which it belongs to: 0, 1, ... Faults are
+  // counted, and moves taken back, by group. The mesh must outlive it.
+  PointMover(TriangleSoup& mesh, std::vector<std::uint32_t> points,
+             std::vector<std::uint32_t> group, ProgressObserver* progress);
+
+  [[nodiscard]] std::size_t faults() const { return total(faults_); }
+  [[nodiscard]] std::uint32_t faults_of(std::uint32_t group) const { return faults_[group]; }
+  // Triangles with a corner that may move.
+  [[nodiscard]] std::size_t triangles() const { return near_.size(); }
+
+  // Moves the points of groups at fault to where `moved` says, by their position in `points`. Takes
+  // back what did not help there, and all if the whole is no better.
+  void try_moves(const std::function<Vec3d(std::size_t)>& moved);
+
+ private:
+  [[nodiscard]] static std::size_t total(const std::vector<std::uint32_t>& faults);
+  [[nodiscard]] std::vector<std::uint32_t> count_faults() const;
+  void blame(std::vector<std::uint32_t>& faults, std::uint32_t triangle) const;
+  void count_points_in_one_place(std::vector<std::uint32_t>& faults) const;
+
+  TriangleSoup& mesh_;
+  std::vector<std::uint32_t> points_;
+  std::vector<std::uint32_t> group_;     // of each of points_
+  std::vector<std::uint32_t> group_at_;  // of each point of the mesh, or kNone
+  std::vector<std::uint32_t> near_;      // triangles
+  std::vector<std::uint32_t> faults_;    // of each group
+  ProgressObserver* progress_;
+};
+
+}  // namespace meshrepair::internal
