@@ -321,7 +321,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", help="folder of the programs")
     parser.add_argument("meshes", nargs="*", help="meshes to be repaired, too")
-    parser.add_argument("--timeout", type=float, default=60, metavar="SECONDS", help="of each program [%(default)s]")
+    parser.add_argument("--timeout", type=float, default=30, metavar="SECONDS", help="of each program [%(default)s]")
     parser.add_argument("--voxels", type=int, nargs="+", default=[256, 512, 1024, 2048], metavar="N",
                         help="across the models of fig. 3, for OpenVDB")
     return parser.parse_args()
