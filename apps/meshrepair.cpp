@@ -10,10 +10,10 @@ namespace {
 void repair_input(const StepOptions& options, const PointOptions& points, Run& run,
                   Findings& findings) {
   const WriteOptions format = mesh_format(options);
-  const TriangleSoup soup = read_any_stage(points, run, findings);
+  const AnySoup input = read_any_stage(points, run, findings);
   const RepairOptions repair_options = certified_for(*format.format, options.repair);
-  const Surface surface = repair_any(soup, points, repair_options, findings);
-  measure_distance_stage(soup, surface, repair_options.certify.precision, run, findings);
+  const Surface surface = repair_any(input, points, repair_options, findings);
+  measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   write_mesh_stage(surface, format, options, run, findings);
 }
 

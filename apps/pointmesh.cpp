@@ -20,12 +20,13 @@ int run_program(int argc, char** argv) {
                     "Triangles to write, with holes and any way round; - is standard output");
   add_point_options(app, points);
   add_format_option(app, options.format);
-  return run_steps(
-      program, argc, argv, options, [&](const StepOptions& steps, Run& run, Findings& findings) {
-        const WriteOptions format = mesh_format(steps);
-        const PointCloud cloud = read_points_stage(run, findings);
-        write_soup_stage(triangulate_stage(cloud, points, run, findings), format, run, findings);
-      });
+  return run_steps(program, argc, argv, options,
+                   [&](const StepOptions& steps, Run& run, Findings& findings) {
+                     const WriteOptions format = mesh_format(steps);
+                     const PointCloud cloud = read_points_stage(run, findings);
+                     const PointSoup result = triangulate_stage(cloud, points, run, findings);
+                     write_soup_stage(result.soup, format, run, findings);
+                   });
 }
 
 }  // namespace

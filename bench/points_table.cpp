@@ -122,8 +122,10 @@ void print_row(const Solid& solid, const Cloud& cloud, const Settings& settings,
       measure([&] { soup = make_point_soup(cloud.cloud, settings.soup, soup_report); });
   try {
     Surface surface;
+    RepairOptions options = settings.repair;
+    options.opacity = soup.opacity();
     repair_seconds = measure([&] {
-                       surface = repair(soup.soup, settings.repair, report);
+                       surface = repair(soup.soup, options, report);
                        drop_small_parts(surface, settings.soup.fewest_triangles, report);
                      }).cpu_seconds;
     const Topology& output = report.output;

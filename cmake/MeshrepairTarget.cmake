@@ -8,6 +8,9 @@ function(meshrepair_configure target)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Werror)
   endif()
+  if(MESHREPAIR_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE <Eigen/Geometry> <algorithm> <string> <vector>)
+  endif()
 endfunction()
 
 # meshrepair_library(NAME bsp SOURCES ... HEADERS ... LINK ...): a static library with its own

@@ -109,12 +109,12 @@ PointCloud read_points_stage(Run& run, Findings& findings) {
   return keep(read_points(findings.input, options), findings);
 }
 
-TriangleSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, Run& run,
-                               Findings& findings) {
+PointSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, Run& run,
+                            Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("points");
   options.progress = &run.progress;
-  return make_point_soup(cloud, options, findings.point_soup.emplace()).soup;
+  return make_point_soup(cloud, options, findings.point_soup.emplace());
 }
 
 void add_point_repair_options(CLI::App& app, PointOptions& options) {
@@ -133,7 +133,7 @@ void add_point_repair_options(CLI::App& app, PointOptions& options) {
   add_point_options(app, options.soup);
 }
 
-TriangleSoup read_any_stage(const PointOptions& options, Run& run, Findings& findings) {
+AnySoup read_any_stage(const PointOptions& options, Run& run, Findings& findings) {
   PointCloud cloud;
   if (options.as_points) {
     cloud = read_points_stage(run, findings);
@@ -145,22 +145,23 @@ TriangleSoup read_any_stage(const PointOptions& options, Run& run, Findings& fin
       if (options.base) throw UsageError("--base: is for points; --points takes those of a mesh");
       findings.mesh_read = std::move(input.mesh->report);
       log_warnings(findings.input_name(), findings.mesh_read->warnings);
-      return std::move(input.mesh->soup);
+      return {std::move(input.mesh->soup), {}};
     }
     cloud = keep(std::move(*input.points), findings);
   }
-  TriangleSoup soup = triangulate_stage(cloud, options.soup, run, findings);
-  if (!options.base) return soup;
-  return with_base(soup, options.scan_base, findings.scan_base.emplace());
+  PointSoup points = triangulate_stage(cloud, options.soup, run, findings);
+  if (!options.base) return {std::move(points.soup), points.opacity()};
+  return {with_base(points.soup, options.scan_base, findings.scan_base.emplace()), {}};
 }
 
-Surface repair_any(const TriangleSoup& soup, const PointOptions& points,
-                   const RepairOptions& options, Findings& findings) {
-  if (!findings.point_soup) return repair(soup, options, findings.repair);
+Surface repair_any(const AnySoup& input, const PointOptions& points, const RepairOptions& options,
+                   Findings& findings) {
+  if (!findings.point_soup) return repair(input.soup, options, findings.repair);
   RepairOptions point_options = options;
+  point_options.opacity = input.opacity;
   if (findings.scan_base) point_options.holes.largest_share = std::numeric_limits<double>::max();
   try {
-    Surface surface = repair(soup, point_options, findings.repair);
+    Surface surface = repair(input.soup, point_options, findings.repair);
     if (!findings.scan_base) require_enclosure(findings);
     findings.dropped_solids =
         drop_small_parts(surface, points.soup.fewest_triangles, findings.repair);

@@ -1,6 +1,8 @@
 // Point clouds as input: their options, and the steps from their file to the soup that is repaired.
 #pragma once
 
+#include <vector>
+
 #include <CLI/App.hpp>
 
 #include <bsp/point_cloud.h>
@@ -18,8 +20,8 @@ void add_point_options(CLI::App& app, PointSoupOptions& options);
 [[nodiscard]] PointCloud read_points_stage(Run& run, Findings& findings);
 
 // Stage "points": the local triangulation.
-[[nodiscard]] TriangleSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options,
-                                             Run& run, Findings& findings);
+[[nodiscard]] PointSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options,
+                                          Run& run, Findings& findings);
 
 // How a program that repairs takes points.
 struct PointOptions {
@@ -32,14 +34,19 @@ struct PointOptions {
 // --points, --base, --up and the options of the local triangulation.
 void add_point_repair_options(CLI::App& app, PointOptions& options);
 
+// What is to be repaired.
+struct AnySoup {
+  TriangleSoup soup;
+  std::vector<float> opacity;  // as RepairOptions takes it
+};
+
 // Reads a mesh, or a point cloud, triangulates it and puts it on its base.
-[[nodiscard]] TriangleSoup read_any_stage(const PointOptions& options, Run& run,
-                                          Findings& findings);
+[[nodiscard]] AnySoup read_any_stage(const PointOptions& options, Run& run, Findings& findings);
 
 // repair(), as the input needs it: the floor of a base is a hole of any size, and solids that the
 // points are too few to tell are dropped. Throws NoSolidError, with advice, also where the points
 // are those of an open scan, of which what can be enclosed would be mostly made up.
-[[nodiscard]] Surface repair_any(const TriangleSoup& soup, const PointOptions& points,
+[[nodiscard]] Surface repair_any(const AnySoup& input, const PointOptions& points,
                                  const RepairOptions& options, Findings& findings);
 
 }  // namespace meshrepair

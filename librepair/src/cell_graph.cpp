@@ -30,7 +30,8 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
       }
       links_.push_back({facet.below, facet.above,
                         static_cast<float>(std::max(facet_area(complex, f), kLeastArea)),
-                        cover[f].winding, cover[f].triangle});
+                        cover[f].winding, cover[f].triangle.valid() ? 1.0f : 0.0f,
+                        cover[f].triangle});
       ++first_[facet.below.index() + 1];
       ++first_[facet.above.index() + 1];
     }
@@ -42,6 +43,16 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
     check.tick();
     of_cell_[filled[links_[l].below.index()]++] = l;
     of_cell_[filled[links_[l].above.index()]++] = l;
+  }
+}
+
+void CellGraph::set_opacities(const IdVector<TriangleId, float>& opacity) {
+  for (Link& link : links_) {
+    if (link.opaque()) link.opacity = opacity[link.triangle];
+  }
+  for (const Layer& layer : layers_) {
+    float& most = links_[layer.link].opacity;
+    most = std::max(most, opacity[layer.triangle]);
   }
 }
 

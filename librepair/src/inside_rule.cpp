@@ -136,10 +136,11 @@ class InsideDecider {
     for (const Link& link : graph_.links()) {
       const std::size_t below = link.below.index(), above = link.above.index();
       const bool bounds = labels.solid[below] != labels.solid[above];
-      if (bounds == link.opaque()) continue;
+      const double share = bounds ? 1 - link.opacity : link.opacity;
+      if (share == 0) continue;
       const bool explained = link.opaque() && labels.solid[below] != 0 &&
                              std::abs(w[below] - w[above] - link.winding) <= 0.5;
-      if (!explained) sum += link.area;
+      if (!explained) sum += share * link.area;
     }
     return sum;
   }

@@ -107,6 +107,13 @@ PointSoup assemble(const PointCloud& cloud, const SiftedCloud& sifted,
 
 }  // namespace
 
+std::vector<float> PointSoup::opacity() const {
+  std::vector<float> share;
+  share.reserve(votes.size());
+  for (const std::uint8_t count : votes) share.push_back(static_cast<float>(count) / 3);
+  return share;
+}
+
 PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& options,
                           PointSoupReport& report) {
   require_sense(options);

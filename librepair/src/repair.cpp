@@ -90,10 +90,24 @@ std::string why_nothing_is_solid(const RepairReport& report, HoleMode mode) {
   return why + "no part of space is inside";
 }
 
+// Of the first copy of each triangle; those that close holes are opaque.
+IdVector<TriangleId, float> opacities_of(const CleanSoup& soup,
+                                         const std::vector<float>& of_input) {
+  IdVector<TriangleId, float> opacity;
+  opacity.reserve(soup.triangles.size());
+  for (const Triangle& t : soup.triangles) {
+    opacity.push_back(t.source < of_input.size() ? of_input[t.source] : 1.0f);
+  }
+  return opacity;
+}
+
 CellLabels find_solid(const CoveredCells& covered, const Orientation& orientation,
                       const RepairOptions& options, RepairReport& report, StageMeter& meter) {
   meter.begin("links");
-  const CellGraph graph(covered.complex, covered.cover, options.progress, covered.layers);
+  CellGraph graph(covered.complex, covered.cover, options.progress, covered.layers);
+  if (!options.opacity.empty()) {
+    graph.set_opacities(opacities_of(covered.complex.soup(), options.opacity));
+  }
   report.links = graph.links().size();
   meter.begin("inside");
   InsideOptions inside_options = options.inside;
@@ -184,6 +198,7 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   RepairOptions again = options;
   again.inside.rule = InsideRule::winding;
   again.holes = {};
+  again.opacity.clear();
   again.certify.wanted = false;
   again.progress = &quiet;
   RepairReport report;

@@ -11,7 +11,7 @@ using internal::LinkTerm;
 std::vector<double> solve_solidity(const CellGraph& graph, const SolveOptions& options,
                                    SolveReport& report) {
   const auto term = [](const Link& link) {
-    return LinkTerm{link.area, link.opaque() ? -1.0 : 1.0, 0.0};
+    return LinkTerm{link.area, 1 - 2.0 * link.opacity, 0.0};
   };
   std::vector<double> s = internal::minimise(graph, term, -1, options, report);
   for (double& x : s) x = std::clamp(x, -1.0, 1.0);

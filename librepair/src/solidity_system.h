@@ -6,7 +6,8 @@
 
 namespace meshrepair::internal {
 
-// One link's share of the energy: weight * (x_below - sign * x_above - jump)^2 with sign 1 or -1.
+// One link's share of the energy: weight * (x_below - sign * x_above - jump)^2 with sign 1 or -1,
+// or with jump 0 a mean of both.
 struct LinkTerm {
   double weight = 0;
   double sign = 1;

@@ -106,6 +106,20 @@ TEST(Solidity, TwoCellsMatchTheClosedForm) {
   EXPECT_NEAR(w[b], 29.0 / 35, 1e-9);
 }
 
+// A cube of one cell, of which the first triangles, one side, are not sure.
+TEST(Solidity, HalfOpaqueSidesAreBetweenOpaqueAndOpenOnes) {
+  for (const float opacity : {0.25f, 0.5f, 1.0f}) {
+    Graph g = graph_of(cube());
+    IdVector<TriangleId, float> opacities;
+    opacities.resize(12);
+    for (TriangleId t(0u); t.index() < 12; ++t.value) opacities[t] = t.index() < 2 ? opacity : 1;
+    g.graph.set_opacities(opacities);
+    SolveReport report;
+    const auto s = solve_solidity(g.graph, precise(), report);
+    EXPECT_NEAR(s[cell_at(g, {0.5, 0.5, 0.5}).index()], (2.0 + opacity) / 3, 1e-9);
+  }
+}
+
 TEST(Solidity, EnergyIsMinimal) {
   for (const SoupFamily& family : degenerate_families()) {
     SCOPED_TRACE(family.name);

@@ -16,6 +16,7 @@ struct Link {
   CellId below, above;
   float area = 0;            // grid units, from rounded coordinates: a weight
   std::int32_t winding = 0;  // of the cover, against the direction from below to above
+  float opacity = 0;         // 0 where no triangle covers it, up to 1
   TriangleId triangle;       // the lowest id of those that cover it; invalid: none
 
   [[nodiscard]] bool opaque() const { return triangle.valid(); }
@@ -31,6 +32,9 @@ class CellGraph {
   // Sets the windings of the links to those of triangles that are turned otherwise, against the
   // normals of their planes.
   void set_windings(const IdVector<TriangleId, std::int32_t>& winding);
+
+  // Sets the opacities of covered links, 1 until then, to those of triangles, of several the most.
+  void set_opacities(const IdVector<TriangleId, float>& opacity);
 
   [[nodiscard]] std::size_t cells() const { return first_.size() - 1; }
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }

@@ -65,6 +65,9 @@ struct PointSoup {
   // for bit, unless they were projected.
   TriangleSoup soup;
   std::vector<std::uint8_t> votes;  // of each triangle
+
+  // For RepairOptions::opacity: of each triangle the share of its corners that want it.
+  [[nodiscard]] std::vector<float> opacity() const;
 };
 
 // The soup of all triangles of the Delaunay stars that the points have in their tangent planes (see

@@ -37,6 +37,9 @@ struct RepairOptions {
   // Of floating predicates: points within it are on a plane; relative to the largest side of the
   // input's bounding box. Their results are certified, but not mended by repairing them again.
   double epsilon = kDefaultEpsilon;
+  // How sure it is that each triangle of the soup is part of the surface, above 0 and up to 1: for
+  // the solidity. Empty: all are.
+  std::vector<float> opacity;
   HoleOptions holes;
   BuildTreeOptions tree;
   InsideOptions inside;

@@ -23,7 +23,7 @@ struct SolveReport {
 };
 
 // s of each cell in [-1, 1], -1 outside: the minimum of
-//   sum over transparent links of A (s_i - s_j)^2 + sum over opaque links of A (s_i + s_j)^2.
+//   sum over all links of (1 - o) A (s_i - s_j)^2 + o A (s_i + s_j)^2, o the opacity.
 // Does not look at the triangles' orientation.
 [[nodiscard]] std::vector<double> solve_solidity(const CellGraph& graph,
                                                  const SolveOptions& options, SolveReport& report);
