@@ -1,5 +1,6 @@
 // bspbool A B ... --op OPERATION -o OUT: Boolean operations on solids.
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <string>
@@ -100,14 +101,25 @@ TriangleSoup take_operand(const BoolOptions& options, const std::string& name, R
   return std::move(operand.solid);
 }
 
+// Of the volume, from the rounding of points.
+constexpr double kTolerableChange = 0.01;
+
 // What repair says of its own grid, of the one of all operands.
 void warn_of_common_grid(const BoolOptions& options, const BooleanReport& report) {
   for (std::size_t i = 0; i < report.operands.size(); ++i) {
-    const CleanReport& clean = report.operands[i].clean;
-    if (clean.dropped_below_grid == 0) continue;
-    spdlog::warn(
-        "{}: {} narrower than the steps of the grid over all solids, {:.3g} each, and left out",
-        options.inputs[i], number_of(clean.dropped_below_grid, "triangle"), clean.grid_unit);
+    const OperandReport& operand = report.operands[i];
+    if (operand.clean.dropped_below_grid > 0) {
+      spdlog::warn(
+          "{}: {} narrower than the steps of the grid over all solids, {:.3g} each, and left out",
+          options.inputs[i], number_of(operand.clean.dropped_below_grid, "triangle"),
+          operand.clean.grid_unit);
+    }
+    if (std::abs(operand.volume_on_grid - operand.volume) > kTolerableChange * operand.volume) {
+      spdlog::warn(
+          "{}: its volume is {:.3g} where its points are on the grid over all solids, of steps of "
+          "{:.3g}, not {:.3g}",
+          options.inputs[i], operand.volume_on_grid, operand.clean.grid_unit, operand.volume);
+    }
   }
 }
 

@@ -34,6 +34,14 @@ RepairOptions with_winding(const RepairOptions& options) {
   throw InputError(message.str());
 }
 
+double volume_on_grid(const TriangleSoup& solid, const Grid& grid) {
+  TriangleSoup rounded;
+  rounded.triangles = solid.triangles;
+  rounded.points.reserve(solid.points.size());
+  for (const Vec3d& p : solid.points) rounded.points.push_back(as_vector(grid.to_grid(p)));
+  return signed_volume(rounded) * grid.unit * grid.unit * grid.unit;
+}
+
 // On the grid of all operands.
 Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& grid,
                   const BooleanOptions& options, BooleanReport& report) {
@@ -42,6 +50,7 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   if (solid.triangles.empty()) return empty_tree(grid);
   CleanSoup clean = clean_soup(solid, grid, operand.clean, options.repair.progress);
   if (clean.triangles.empty()) throw_too_small(number, grid);
+  operand.volume_on_grid = volume_on_grid(solid, grid);
   CancelOnly quiet(options.repair.progress);
   const bool is_solid = bounds_a_solid(clean, &quiet);
   BuildTreeOptions tree_options = options.repair.tree;

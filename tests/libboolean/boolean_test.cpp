@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -92,6 +93,25 @@ TEST(Boolean, OfManyIsTakenInTurn) {
   EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::subtract).volume(), 0.5);
   boxes.resize(2);
   EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::intersect).volume(), 0.5);
+}
+
+// A shell around a cube, and the gap between them, are both less than a step of the grid wide.
+TEST(Boolean, LayersNearerThanTheGridAreOne) {
+  TriangleSoup onion = cube();
+  append(onion, flipped(box(Vec3d::Constant(-1e-9), Vec3d::Constant(1 + 1e-9))));
+  append(onion, box(Vec3d::Constant(-2e-9), Vec3d::Constant(1 + 2e-9)));
+  const Result result = compute({onion, box({3, 3, 3}, {4, 4, 4})}, SetOperation::unite);
+  EXPECT_NEAR(result.volume(), 2, 1e-6);
+  EXPECT_NEAR(result.report.operands[0].volume_on_grid, result.report.operands[0].volume, 1e-6);
+}
+
+TEST(Boolean, SaysWhatTheCommonGridDoesToAVolume) {
+  const TriangleSoup leaf = box({0, 0, 0}, {1, 1, 1e-7});
+  const Result result = compute({leaf, box({3, 3, 3}, {4, 4, 4})}, SetOperation::unite);
+  const OperandReport& operand = result.report.operands[0];
+  const double steps = std::round(1e-7 / operand.clean.grid_unit);
+  EXPECT_DOUBLE_EQ(operand.volume, 1e-7);
+  EXPECT_NEAR(operand.volume_on_grid, steps * operand.clean.grid_unit, 1e-12);
 }
 
 TEST(Boolean, WhatIsNothingOnTheCommonGridIsRefused) {
