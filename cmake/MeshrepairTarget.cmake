@@ -10,13 +10,6 @@ function(meshrepair_configure target)
   endif()
 endfunction()
 
-# What most files of a target of many files include, and the headers given.
-function(meshrepair_precompile target)
-  if(MESHREPAIR_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE <Eigen/Geometry> <algorithm> <string> <vector> ${ARGN})
-  endif()
-endfunction()
-
 # meshrepair_library(NAME bsp SOURCES ... HEADERS ... LINK ...): a static library with its own
 # include root, installed and exported as meshrepair::NAME.
 function(meshrepair_library)
@@ -29,6 +22,5 @@ function(meshrepair_library)
   target_include_directories(${target} PRIVATE src)
   target_link_libraries(${target} PUBLIC ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
   meshrepair_configure(${target})
-  meshrepair_precompile(${target})
   install(TARGETS ${target} EXPORT meshrepair-targets FILE_SET HEADERS)
 endfunction()
