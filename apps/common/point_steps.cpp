@@ -7,9 +7,12 @@
 
 #include <CLI/Validators.hpp>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <bsp/error.h>
 #include <repair/drop_small_parts.h>
+
+#include "common/summary.h"
 
 namespace meshrepair {
 namespace {
@@ -32,19 +35,38 @@ double agreement(const PointSoupReport& soup) {
          static_cast<double>(std::max<std::size_t>(1, one + two + three));
 }
 
+std::string why_noisy(const PointSoupReport& soup) {
+  const double share = agreement(soup);
+  if (share >= kNoisy) return {};
+  return "the points are noisy, all three corners want only " + percent(share) +
+         " of the triangles: --project 3 --neighbours 30 smooths them";
+}
+
+// What is there, but is no surface for the triangulation.
+constexpr double kManyUnused = 0.1;
+
+// Of a result that is a solid, but maybe not that of the points.
+void warn_of_points(const Findings& findings) {
+  const PointSoupReport& soup = *findings.point_soup;
+  const std::string noisy = why_noisy(soup);
+  if (!noisy.empty()) spdlog::warn("{}: {}", findings.input_name(), noisy);
+  const std::size_t unused = soup.points - std::min(soup.points, findings.points_in_result);
+  if (static_cast<double>(unused) <= kManyUnused * static_cast<double>(soup.points)) return;
+  spdlog::warn(
+      "{}: {} of {} are not on the result: do they lie along lines, or inside, or is there more "
+      "than one surface?",
+      findings.input_name(), unused, number_of(soup.points, "point"));
+}
+
 std::string advice(const Findings& findings) {
-  const double share = agreement(*findings.point_soup);
-  if (share < kNoisy) {
-    return "; the points are noisy, all three corners want only " + percent(share) +
-           " of the triangles: --project 3 --neighbours 30 smooths them";
-  }
+  const std::string noisy = why_noisy(*findings.point_soup);
+  if (!noisy.empty()) return "; " + noisy;
   return "; --base closes a scan that is open below, and meshrepair on what pointmesh writes "
          "closes "
          "whatever it can";
 }
 
-void require_enclosure(const Findings& findings) {
-  const RepairReport& repair = findings.repair;
+void require_enclosure(const RepairReport& repair) {
   const auto kept = static_cast<double>(repair.triangles.untouched + repair.triangles.cut);
   const double share = kept / static_cast<double>(repair.clean.triangles_in);
   if (share < kFewestKept) {
@@ -114,7 +136,13 @@ PointSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, R
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("points");
   options.progress = &run.progress;
-  return make_point_soup(cloud, options, findings.point_soup.emplace());
+  PointSoup result = make_point_soup(cloud, options, findings.point_soup.emplace());
+  const std::size_t most = run.options.max_triangles, count = result.soup.triangles.size();
+  if (most > 0 && count > most) {
+    throw LimitError(number_of(count, "triangle") + " between the points, more than " +
+                     std::to_string(most));
+  }
+  return result;
 }
 
 void add_point_repair_options(CLI::App& app, PointOptions& options) {
@@ -159,12 +187,18 @@ Surface repair_any(const AnySoup& input, const PointOptions& points, const Repai
   if (!findings.point_soup) return repair(input.soup, options, findings.repair);
   RepairOptions point_options = options;
   point_options.opacity = input.opacity;
-  if (findings.scan_base) point_options.holes.largest_share = std::numeric_limits<double>::max();
+  if (findings.scan_base) {
+    point_options.holes.largest_share = std::numeric_limits<double>::max();
+  } else {
+    point_options.examine = require_enclosure;
+  }
   try {
     Surface surface = repair(input.soup, point_options, findings.repair);
-    if (!findings.scan_base) require_enclosure(findings);
     findings.dropped_solids =
         drop_small_parts(surface, points.soup.fewest_triangles, findings.repair);
+    findings.points_in_result = static_cast<std::size_t>(
+        std::count(surface.input_point.begin(), surface.input_point.end(), 1));
+    warn_of_points(findings);
     return surface;
   } catch (const NoSolidError& error) {
     if (findings.scan_base) throw;

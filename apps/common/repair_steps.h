@@ -46,6 +46,7 @@ struct Findings {
   std::optional<ReadReport> mesh_read;
   std::optional<PointReadReport> points_read;
   std::optional<PointSoupReport> point_soup;
+  std::size_t points_in_result = 0;  // of those left in point_soup
   std::optional<ScanBaseReport> scan_base;
   std::size_t dropped_solids = 0;  // too small for the points to tell
   bool soup_written = false;       // the output is the soup of the points, no solid

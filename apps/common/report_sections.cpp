@@ -238,7 +238,11 @@ void add_sections(const Findings& findings, JsonReport& report) {
   const RepairReport& repair = findings.repair;
   if (findings.mesh_read) report.set_section("read", section_of(*findings.mesh_read));
   if (findings.points_read) report.set_section("read", section_of(*findings.points_read));
-  if (findings.point_soup) report.set_section("points", section_of(*findings.point_soup));
+  if (findings.point_soup) {
+    Json points = section_of(*findings.point_soup);
+    if (was_begun(repair, "check")) points["points_in_result"] = findings.points_in_result;
+    report.set_section("points", std::move(points));
+  }
   if (findings.scan_base) report.set_section("base", section_of(*findings.scan_base));
   if (findings.tree_read) report.set_section("read", section_of(*findings.tree_read));
   if (was_begun(repair, "clean")) {

@@ -58,7 +58,10 @@ SoupFormat recognize_mesh(const MeshSource& source) {
   const std::string_view foreign = name_foreign_format(source.bytes);
   if (!foreign.empty()) source.fail("is " + std::string(foreign) + ", which cannot be read");
   const auto format = format_of_extension(source.name);
-  if (!format) source.fail("is in no known mesh format (STL, OBJ, OFF, PLY)");
+  if (!format)
+    source.fail(
+        "is in no known format: neither a mesh (STL, OBJ, OFF, PLY) nor points (XYZ, PTS, PWN, "
+        "PCD, PLY, OBJ)");
   const bool is_text = looks_like_text(source.bytes);
   if (*format == SoupFormat::stl_binary && is_text) return SoupFormat::stl_ascii;
   if (*format == SoupFormat::ply_binary)

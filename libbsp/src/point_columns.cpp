@@ -14,6 +14,15 @@ constexpr double kMostLines = 0.8;
 
 bool has_triple(const PointLine& line, std::size_t at) { return line.count >= at + 3; }
 
+// Colours from 0 to 1 of length 1 are pure red, green and blue. Normals that look the same all lie
+// along an axis, and are not missed.
+bool may_be_pure_colours(std::span<const PointLine> lines, std::size_t at) {
+  return std::all_of(lines.begin(), lines.end(), [&](const PointLine& line) {
+    const Vec3d triple = line.triple(at);
+    return triple.minCoeff() >= 0 && triple == Vec3d(triple.array().floor());
+  });
+}
+
 bool are_normals(std::span<const PointLine> lines, std::size_t at) {
   constexpr double kNearOne = 0.05;
   std::size_t known = 0;
@@ -25,7 +34,9 @@ bool are_normals(std::span<const PointLine> lines, std::size_t at) {
     ++known;
     of_length_one += std::abs(length - 1) < kNearOne;
   }
-  return known > 0 && static_cast<double>(of_length_one) >= kMostLines * static_cast<double>(known);
+  return known > 0 &&
+         static_cast<double>(of_length_one) >= kMostLines * static_cast<double>(known) &&
+         !may_be_pure_colours(lines, at);
 }
 
 bool are_colours(std::span<const PointLine> lines, std::size_t at) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "point_columns.h"
+#include "point_table.h"
 #include "read_guard.h"
 #include "recognize_format.h"
 #include "text_scanner.h"
@@ -53,33 +54,16 @@ std::vector<PointLine> first_lines(std::string_view bytes, std::size_t most) {
   return lines;
 }
 
-// Commas and semicolons between numbers, unless the commas are decimal ones.
-bool has_separators(std::string_view bytes) {
-  TextScanner text(bytes, {.comment = '#'});
-  for (int lines = 0; lines < 3 && text.next_anywhere(); ++lines) {
-    const std::string_view token = text.peek_token();
-    const auto count =
-        std::count_if(token.begin(), token.end(), [](char c) { return c == ',' || c == ';'; });
-    if (count >= 2 || token.ends_with(',') || token.ends_with(';')) return true;
-    text.skip_line();
-  }
-  return false;
-}
-
-std::string without_separators(std::string_view bytes) {
-  std::string text(bytes);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
-  return text;
-}
-
 class XyzReader {
  public:
   XyzReader(const MeshSource& source, std::string_view bytes, const PointReadOptions& options)
       : source_(source), text_(bytes, {.comment = '#'}), options_(options), guard_(source) {
-    std::vector<PointLine> lines = first_lines(bytes, kLinesLookedAt);
+    names_ = find_names(bytes);
+    std::vector<PointLine> lines = first_lines(bytes.substr(names_.end), kLinesLookedAt);
     std::erase_if(lines, [](const PointLine& line) { return line.count < 3; });
+    for (PointLine& line : lines) line = arranged(line, names_);
     columns_ = guess_columns(lines);
+    text_.go_to(names_.end);
   }
 
   PointReadResult run() {
@@ -100,7 +84,7 @@ class XyzReader {
  private:
   void take_line() {
     const std::size_t line_at = text_.position();
-    const PointLine line = read_line(text_);
+    const PointLine line = arranged(read_line(text_), names_);
     PointCloud& cloud = result_.cloud;
     if (is_count(line) && !text_.next_on_line()) {
       result_.report.declared_points += static_cast<std::size_t>(line.numbers[0]);
@@ -120,19 +104,38 @@ class XyzReader {
     return colour;
   }
 
-  // PWN: twice as many lines as were promised, the second half of length 1.
+  // PWN: the points, as many as were promised, and then, in as many lines, their normals, of length
+  // 1. Where the count is a little wrong, half of the lines are points; where normals are missing,
+  // there are none.
   void split_normals() {
     auto& points = result_.cloud.points;
-    const std::size_t half = points.size() / 2;
-    if (half == 0 || columns_.normal != 0 || result_.report.declared_points != half ||
-        points.size() % 2 != 0) {
-      return;
+    const std::size_t all = points.size(), promised = result_.report.declared_points;
+    if (promised == 0 || promised == all || columns_.normal != 0) return;
+    const std::size_t half = all / 2;
+    const std::size_t wrong = std::max(half, promised) - std::min(half, promised);
+    if (all % 2 == 0 && wrong <= half / 20 && are_of_length_one(half)) {
+      take_normals(half);
+    } else if (all > promised && all < 2 * promised && are_of_length_one(promised)) {
+      result_.report.warnings.push_back("of " + counted(promised, "point") + " the normals of " +
+                                        std::to_string(all - promised) +
+                                        " are there: none are taken");
+      points.resize(promised);
     }
+  }
+
+  // Nearly all from this one on.
+  [[nodiscard]] bool are_of_length_one(std::size_t first) const {
     constexpr double kNearOne = 0.05;
-    const auto near_one = static_cast<std::size_t>(
-        std::count_if(points.begin() + static_cast<std::ptrdiff_t>(half), points.end(),
+    const auto& points = result_.cloud.points;
+    const auto count = static_cast<std::size_t>(
+        std::count_if(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
                       [](const Vec3d& v) { return std::abs(v.norm() - 1) < kNearOne; }));
-    if (near_one < half - half / 5) return;
+    const std::size_t looked_at = points.size() - first;
+    return looked_at > 0 && count >= looked_at - looked_at / 5;
+  }
+
+  void take_normals(std::size_t half) {
+    auto& points = result_.cloud.points;
     result_.report.normals = true;
     if (options_.normals) {
       result_.cloud.normals.assign(points.begin() + static_cast<std::ptrdiff_t>(half),
@@ -153,8 +156,8 @@ class XyzReader {
                                 " without three numbers left out (first: line " +
                                 std::to_string(source_.line_at(first_bad_)) + ")");
     }
-    if (report.declared_points > good) {
-      report.missing_points = report.declared_points - good;
+    if (report.declared_points > good) report.missing_points = report.declared_points - good;
+    if (report.declared_points > 0 && report.declared_points != good) {
       report.warnings.push_back("the file promises " + counted(report.declared_points, "point") +
                                 " and holds " + std::to_string(good));
     }
@@ -164,6 +167,7 @@ class XyzReader {
   TextScanner text_;
   const PointReadOptions& options_;
   ReadGuard guard_;
+  ColumnNames names_;
   PointColumns columns_;
   PointReadResult result_;
   std::size_t first_bad_ = 0;
@@ -175,8 +179,7 @@ bool begins_with_points(std::string_view bytes) {
   if (!looks_like_text(bytes)) return false;
   constexpr std::size_t kFar = 65536;  // a long comment may come first
   const std::string_view start = bytes.substr(0, kFar);
-  const std::vector<PointLine> lines =
-      has_separators(start) ? first_lines(without_separators(start), 2) : first_lines(start, 2);
+  const std::vector<PointLine> lines = first_lines(with_blanks(start, find_separators(start)), 2);
   if (lines.empty()) return false;
   return lines[0].count >= 3 || (lines.size() == 2 && lines[1].count >= 3);
 }
@@ -191,8 +194,9 @@ bool has_point_extension(const std::string& name) {
 }
 
 PointReadResult read_xyz_points(const MeshSource& source, const PointReadOptions& options) {
-  if (!has_separators(source.bytes)) return XyzReader(source, source.bytes, options).run();
-  const std::string text = without_separators(source.bytes);
+  const Separators separators = find_separators(source.bytes);
+  if (separators == Separators::blanks) return XyzReader(source, source.bytes, options).run();
+  const std::string text = with_blanks(source.bytes, separators);
   return XyzReader(source, text, options).run();
 }
 

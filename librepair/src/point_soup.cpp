@@ -48,6 +48,10 @@ void require_sense(const PointSoupOptions& options) {
 
 void require_points(const PointSoupReport& report) {
   if (report.points >= kFewestPoints) return;
+  if (report.points == report.points_in) {
+    throw NoSolidError("there are only " + std::to_string(report.points) +
+                       " points, and a solid has four at least");
+  }
   throw NoSolidError("of " + std::to_string(report.points_in) + " points only " +
                      std::to_string(report.points) +
                      " are left, which enclose nothing: the others are not finite, there twice or "
@@ -88,7 +92,7 @@ void tidy(std::vector<VotedTriangle>& voted, const SiftedCloud& cloud,
     report.disagreed = before - voted.size();
     report.loose = keep_single_fans(voted, cloud.points.size());
   }
-  report.crumbs = drop_crumbs(voted, options.fewest_triangles);
+  report.crumbs = drop_crumbs(voted, options.fewest_triangles, options.outlier);
 }
 
 PointSoup assemble(const PointCloud& cloud, const SiftedCloud& sifted,

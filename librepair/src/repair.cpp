@@ -199,6 +199,7 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   again.inside.rule = InsideRule::winding;
   again.holes = {};
   again.opacity.clear();
+  again.examine = nullptr;
   again.certify.wanted = false;
   again.progress = &quiet;
   RepairReport report;
@@ -236,9 +237,21 @@ void require_range(const Surface& surface, Precision precision) {
   }
 }
 
+void describe(const CleanSoup& input, const Surface& surface, RepairReport& report) {
+  report.triangles = find_triangle_fates(input, report.parts, surface);
+  report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
+  report.output_volume = signed_volume(surface.mesh);
+  report.output_area = surface_area(surface.mesh);
+  report.closing_area = closing_area(surface);
+}
+
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   require_range(surface, options.certify.precision);
+  if (options.examine) {
+    describe(input, surface, report);
+    options.examine(report);
+  }
   if (options.certify.wanted) {
     meter.begin("certify");
     CertifyOptions certify_options = options.certify;
@@ -250,11 +263,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
         report.certify);
   }
   meter.begin("check");
-  report.triangles = find_triangle_fates(input, report.parts, surface);
-  report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
-  report.output_volume = signed_volume(surface.mesh);
-  report.output_area = surface_area(surface.mesh);
-  report.closing_area = closing_area(surface);
+  describe(input, surface, report);
   return surface;
 }
 

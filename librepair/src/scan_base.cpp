@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <span>
@@ -20,6 +19,22 @@ struct RimEdge {
   std::uint32_t from = 0, to = 0;  // as its triangle passes it
   std::uint32_t part = 0;
   std::uint32_t rim = 0;  // the lowest of its points
+};
+
+struct Box {
+  Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
+  Vec3d high = -low;
+
+  void add(const Vec3d& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  // Of its diagonal, seen along the axis.
+  [[nodiscard]] double width(int axis) const {
+    Vec3d size = high - low;
+    size[axis] = 0;
+    return size.norm();
+  }
 };
 
 class BaseBuilder {
@@ -61,16 +76,24 @@ class BaseBuilder {
 
   void keep_large_parts() {
     std::vector<double> areas(soup_.triangles.size(), 0);
+    std::vector<std::size_t> counts(soup_.triangles.size(), 0);
     double total = 0;
     for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
       areas[parts_.root(t)] += area(t);
+      ++counts[parts_.root(t)];
       total += area(t);
     }
+    const std::size_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+    const auto is_large = [&](std::uint32_t part) {
+      return areas[part] >= options_.smallest_part * total &&
+             static_cast<double>(counts[part]) >=
+                 options_.smallest_part * static_cast<double>(most);
+    };
     result_.points = soup_.points;
     is_kept_.assign(soup_.triangles.size(), 0);
     for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
       const std::uint32_t part = parts_.root(t);
-      is_kept_[part] = areas[part] >= options_.smallest_part * total ? 1 : 0;
+      is_kept_[part] = is_large(part) ? 1 : 0;
       if (is_kept_[part] != 0) {
         result_.triangles.push_back(soup_.triangles[t]);
       } else {
@@ -81,38 +104,47 @@ class BaseBuilder {
 
   // Of each part the rim whose bounding box has the longest diagonal, seen along the axis.
   void choose_rims() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<Vec3d, 2>> boxes;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Box> rims;
     for (const RimEdge& edge : edges_) {
-      if (is_kept_[edge.part] == 0) continue;
-      const Vec3d& at = soup_.points[edge.from];
-      auto& [low, high] =
-          boxes.try_emplace({edge.part, edge.rim}, std::array<Vec3d, 2>{at, at}).first->second;
-      low = low.cwiseMin(at);
-      high = high.cwiseMax(at);
+      if (is_kept_[edge.part] != 0) rims[{edge.part, edge.rim}].add(soup_.points[edge.from]);
     }
-    std::map<std::uint32_t, double> largest;  // of each part
-    for (const auto& [key, box] : boxes) {
-      Vec3d size = box[1] - box[0];
-      size[options_.axis] = 0;
-      const auto [entry, added] = largest.try_emplace(key.first, -1.0);
-      if (size.norm() <= entry->second) continue;
-      entry->second = size.norm();
+    std::map<std::uint32_t, double> largest = least_widths();
+    for (const auto& [key, box] : rims) {
+      double& width = largest[key.first];
+      if (box.width(options_.axis) < width) continue;
+      width = box.width(options_.axis);
       outer_[key.first] = key.second;
     }
-    if (outer_.empty()) throw NoSolidError("nothing is open, so there is no rim for a base");
+    if (outer_.empty()) {
+      throw NoSolidError(
+          "nothing is open as wide as it is, so there is no rim for a base; without one its holes "
+          "are closed");
+    }
     report_.parts = outer_.size();
   }
 
-  void add_skirts() {
-    Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
-    Vec3d high = -low;
-    for (const auto& triangle : result_.triangles) {
-      for (const std::uint32_t p : triangle) {
-        low = low.cwiseMin(soup_.points[p]);
-        high = high.cwiseMax(soup_.points[p]);
-      }
+  // That rims of the parts that are kept need.
+  [[nodiscard]] std::map<std::uint32_t, double> least_widths() {
+    std::map<std::uint32_t, Box> boxes;
+    for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
+      const std::uint32_t part = parts_.root(t);
+      if (is_kept_[part] == 0) continue;
+      Box& box = boxes[part];
+      for (const std::uint32_t p : soup_.triangles[t]) box.add(soup_.points[p]);
     }
-    report_.floor = low[options_.axis] - options_.depth * (high - low).norm();
+    std::map<std::uint32_t, double> widths;
+    for (const auto& [part, box] : boxes) {
+      widths[part] = options_.narrowest_rim * box.width(options_.axis);
+    }
+    return widths;
+  }
+
+  void add_skirts() {
+    Box box;
+    for (const auto& triangle : result_.triangles) {
+      for (const std::uint32_t p : triangle) box.add(soup_.points[p]);
+    }
+    report_.floor = box.low[options_.axis] - options_.depth * (box.high - box.low).norm();
     for (const RimEdge& edge : edges_) {
       const auto outer = outer_.find(edge.part);
       if (outer == outer_.end() || outer->second != edge.rim) continue;

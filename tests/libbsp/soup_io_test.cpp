@@ -148,7 +148,7 @@ TEST(ReadSoup, RefusalNamesTheFileAndTheReason) {
 TEST(ReadSoup, ForeignFormatsAreNamed) {
   EXPECT_THAT(refusal_of("PK\x03\x04 and so on", "a.3mf"), HasSubstr("ZIP archive"));
   EXPECT_THAT(refusal_of("\x1F\x8B and so on", "a.stl"), HasSubstr("gzip"));
-  EXPECT_THAT(refusal_of(std::string(200, '\1'), "a.xyz"), HasSubstr("no known mesh format"));
+  EXPECT_THAT(refusal_of(std::string(200, '\1'), "a.xyz"), HasSubstr("no known format"));
   EXPECT_THAT(refusal_of(std::string(200, '\1'), "a.obj"), HasSubstr("is not OBJ"));
   EXPECT_THAT(refusal_of("hello world\n", "a.ply"), HasSubstr("does not begin with 'ply'"));
   EXPECT_THAT(refusal_of("hello world\n", "a.stl"), HasSubstr("holds no triangles"));

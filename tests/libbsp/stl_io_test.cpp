@@ -71,7 +71,7 @@ TEST(ReadStl, BinaryHeaderMayBeginWithSolid) {
 
 TEST(ReadStl, BinaryIsKnownWithoutExtensionWhenTheCountFits) {
   expect_tetrahedron(read_text(binary_tetrahedron(), "-"));
-  EXPECT_THAT(refusal_of(binary_tetrahedron() + "x", "mesh"), HasSubstr("no known mesh format"));
+  EXPECT_THAT(refusal_of(binary_tetrahedron() + "x", "mesh"), HasSubstr("no known format"));
 }
 
 TEST(ReadStl, HeaderAloneIsRefused) {

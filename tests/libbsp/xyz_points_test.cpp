@@ -42,7 +42,7 @@ TEST(XyzPoints, ThreeMoreOfLengthOneAreNormals) {
   EXPECT_EQ(result.cloud.normals, (std::vector<Vec3d>{{0, 0, 1}, {0.6, 0, -0.8}}));
   EXPECT_TRUE(result.report.normals);
   const PointReadResult without =
-      read_points(std::string_view("1 2 3 0 0 1\n"), "a.xyz", {.normals = false});
+      read_points(std::string_view("1 2 3 0 0 -1\n"), "a.xyz", {.normals = false});
   EXPECT_TRUE(without.cloud.normals.empty());
   EXPECT_TRUE(without.report.normals);
 }
@@ -55,9 +55,9 @@ TEST(XyzPoints, ThreeMoreIntegersAreColours) {
   const PointReadResult result = read("1 2 3 255 0 128\n4 5 6 0 7 9\n");
   using Colours = std::vector<std::array<std::uint8_t, 3>>;
   EXPECT_EQ(result.cloud.colours, (Colours{{255, 0, 128}, {0, 7, 9}}));
-  const PointReadResult with_both = read("1 2 3 9 8 7 0 1 0\n4 5 6 6 5 4 1 0 0\n");
+  const PointReadResult with_both = read("1 2 3 9 8 7 0 -1 0\n4 5 6 6 5 4 1 0 0\n");
   EXPECT_EQ(with_both.cloud.colours, (Colours{{9, 8, 7}, {6, 5, 4}}));
-  EXPECT_EQ(with_both.cloud.normals, (std::vector<Vec3d>{{0, 1, 0}, {1, 0, 0}}));
+  EXPECT_EQ(with_both.cloud.normals, (std::vector<Vec3d>{{0, -1, 0}, {1, 0, 0}}));
 }
 
 TEST(XyzPoints, OfPtsBeginWithACountAndHaveAnIntensity) {
@@ -72,6 +72,52 @@ TEST(XyzPoints, OfPwnMayComeBeforeAllNormals) {
   const PointReadResult result = read("2\n1 2 3\n-4.5 5e-3 6\n0 0 1\n0 1 0\n", "a.pwn");
   EXPECT_EQ(result.cloud.points, kTwo);
   EXPECT_EQ(result.cloud.normals, (std::vector<Vec3d>{{0, 0, 1}, {0, 1, 0}}));
+}
+
+std::string lines_of(std::size_t count, const std::string& line) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += line + "\n";
+  return text;
+}
+
+TEST(XyzPoints, NormalsOfPwnAreNoPointsWhereTheCountIsWrong) {
+  for (const char* count : {"98", "100", "101"}) {
+    const PointReadResult result = read(
+        count + lines_of(1, "") + lines_of(100, "1 2 3") + lines_of(100, "0 0.6 0.8"), "a.pwn");
+    EXPECT_EQ(result.cloud.points, std::vector<Vec3d>(100, Vec3d(1, 2, 3))) << count;
+    EXPECT_EQ(result.cloud.normals, std::vector<Vec3d>(100, Vec3d(0, 0.6, 0.8))) << count;
+    EXPECT_EQ(result.report.warnings.empty(), count == std::string("100"));
+  }
+}
+
+TEST(XyzPoints, NormalsOfPwnThatAreNotAllThereAreLeftOut) {
+  const PointReadResult result =
+      read("100\n" + lines_of(100, "1 2 3") + lines_of(60, "0 0.6 0.8"), "a.pwn");
+  EXPECT_EQ(result.cloud.points, std::vector<Vec3d>(100, Vec3d(1, 2, 3)));
+  EXPECT_TRUE(result.cloud.normals.empty());
+  ASSERT_EQ(result.report.warnings.size(), 1u);
+  EXPECT_EQ(result.report.warnings[0], "of 100 points the normals of 60 are there: none are taken");
+}
+
+TEST(XyzPoints, PureColoursAreNoNormals) {
+  const PointReadResult result = read("1 2 3 1 0 0\n-4.5 5e-3 6 0 1 0\n");
+  EXPECT_EQ(result.cloud.points, kTwo);
+  EXPECT_TRUE(result.cloud.normals.empty());
+}
+
+TEST(XyzPoints, NamesOfColumnsSayWhereTheCoordinatesAre) {
+  for (const char* text :
+       {"index,x,y,z\n7,1,2,3\n8,-4.5,5e-3,6\n", "\"Z\";\"Y\";\"X\"\n3;2;1\n6;5e-3;-4.5\n",
+        "//X Y Z R\n1 2 3 9\n-4.5 5e-3 6 9\n", "# x y z\n1 2 3\n-4.5 5e-3 6\n"}) {
+    const PointReadResult result = read(text, "cloud.csv");
+    EXPECT_EQ(result.cloud.points, kTwo) << text;
+    EXPECT_TRUE(result.report.warnings.empty()) << text;
+  }
+}
+
+TEST(XyzPoints, CommasAreDecimalOnesBetweenSemicolons) {
+  EXPECT_EQ(read("1;2;3\n-4,5;0,005;6\n", "cloud.csv").cloud.points, kTwo);
+  EXPECT_EQ(read("1,0;2,0;3,0\n-4,5;5e-3;6,0\n", "cloud.csv").cloud.points, kTwo);
 }
 
 TEST(XyzPoints, ACountThatIsTooLargeIsSaidAndCostsNothing) {

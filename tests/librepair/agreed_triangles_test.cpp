@@ -71,14 +71,43 @@ TEST(SingleFans, WhatIsOneFanStays) {
 
 TEST(Crumbs, OpenPiecesOfFewTrianglesGo) {
   std::vector<VotedTriangle> triangles = {triangle(0, 1, 2), triangle(1, 2, 3), triangle(4, 5, 6)};
-  EXPECT_EQ(drop_crumbs(triangles, 2), 1U);
+  EXPECT_EQ(drop_crumbs(triangles, 2, 0), 1U);
   EXPECT_EQ(corners_of(triangles), (Corners{{0, 1, 2}, {1, 2, 3}}));
 }
 
 TEST(Crumbs, AClosedPieceStaysHoweverSmall) {
   std::vector<VotedTriangle> tetrahedron = {triangle(0, 1, 2), triangle(0, 1, 3), triangle(0, 2, 3),
                                             triangle(1, 2, 3)};
-  EXPECT_EQ(drop_crumbs(tetrahedron, 20), 0U);
+  EXPECT_EQ(drop_crumbs(tetrahedron, 20, 0), 0U);
+}
+
+// A strip of so many triangles from a point on.
+void append_strip(std::vector<VotedTriangle>& triangles, std::uint32_t first, std::uint32_t count,
+                  std::uint8_t votes, float size) {
+  for (std::uint32_t t = 0; t < count; ++t) {
+    triangles.push_back({{first + t, first + t + 1, first + t + 2}, votes, size});
+  }
+}
+
+TEST(Crumbs, SmallPiecesThatFewCornersWantGo) {
+  std::vector<VotedTriangle> triangles;
+  append_strip(triangles, 0, 1000, 3, 1);
+  append_strip(triangles, 2000, 90, 3, 1);
+  append_strip(triangles, 3000, 90, 1, 1);
+  append_strip(triangles, 4000, 110, 1, 1);  // not that small
+  EXPECT_EQ(drop_crumbs(triangles, 20, 5), 90U);
+  EXPECT_EQ(triangles.size(), 1200U);
+}
+
+TEST(Crumbs, TinyPiecesOfLargeTrianglesGo) {
+  for (const double coarse : {5.0, 0.0}) {
+    std::vector<VotedTriangle> triangles;
+    append_strip(triangles, 0, 2000, 3, 1);
+    append_strip(triangles, 3000, 30, 3, 4);
+    append_strip(triangles, 4000, 30, 3, 6);
+    append_strip(triangles, 5000, 50, 3, 6);  // not that small
+    EXPECT_EQ(drop_crumbs(triangles, 20, coarse), coarse > 0 ? 30U : 0U);
+  }
 }
 
 }  // namespace

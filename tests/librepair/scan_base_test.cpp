@@ -97,6 +97,30 @@ TEST(ScanBase, SmallPiecesAreDropped) {
   EXPECT_EQ(base.dropped_triangles, 2U);
 }
 
+TEST(ScanBase, PiecesOfFewTrianglesAreDroppedHoweverLarge) {
+  TriangleSoup soup = terrain(20, nowhere);
+  testing::append(soup, testing::moved(terrain(1, nowhere), {0, 0, 1}));
+  ScanBaseReport base;
+  (void)with_base(soup, {}, base);
+  EXPECT_EQ(base.parts, 1U);
+  EXPECT_EQ(base.dropped_triangles, 2U);
+}
+
+// A ball with a small hole hovers over the ground: only the ground gets a wall.
+TEST(ScanBase, WhatIsOpenAtAHoleStandsOnNothing) {
+  TriangleSoup ball = testing::sphere(2000, 0.2);
+  ball.triangles.pop_back();
+  ScanBaseReport base;
+  EXPECT_THROW((void)with_base(ball, {}, base), NoSolidError);
+  TriangleSoup soup = terrain(20, nowhere);
+  testing::append(soup, testing::moved(ball, {0.5, 0.5, 1}));
+  const TriangleSoup on_base = with_base(soup, {}, base);
+  EXPECT_EQ(base.parts, 1U);
+  EXPECT_EQ(base.dropped_triangles, 0U);
+  EXPECT_EQ(base.skirt_triangles, 4U * 20 * 2);
+  EXPECT_EQ(on_base.triangles.size(), soup.triangles.size() + base.skirt_triangles);
+}
+
 TEST(ScanBase, WhatIsClosedHasNone) {
   ScanBaseReport base;
   EXPECT_THROW((void)with_base(testing::cube(), {}, base), NoSolidError);

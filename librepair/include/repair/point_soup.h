@@ -29,7 +29,8 @@ struct PointSoupOptions {
   double reach = 3;
   // Points nearer to another one than this are duplicates.
   double duplicate = 0.01;
-  // Points whose spacing is so many times that of their neighbours are outliers; 0: none are.
+  // Points whose spacing is so many times that of their neighbours are outliers, and so are those
+  // of small open pieces whose triangles are so much larger than others; 0: none are.
   double outlier = 5;
   // How often each point is moved onto the surface that its neighbours suggest, twice as many as
   // above; points that are too near to others then are dropped.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,8 @@ enum class Predicates { exact, floating };
 
 [[nodiscard]] std::string_view predicates_name(Predicates predicates);
 
+struct RepairReport;
+
 struct RepairOptions {
   Predicates predicates = Predicates::exact;
   // Of floating predicates: points within it are on a plane; relative to the largest side of the
@@ -45,6 +48,9 @@ struct RepairOptions {
   InsideOptions inside;
   ExtractOptions extract;
   CertifyOptions certify;
+  // Told what the result will be, but for what certification moves, which may take much longer than
+  // all before; what it throws ends the work.
+  std::function<void(const RepairReport&)> examine;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
   ProgressObserver* progress = nullptr;
