@@ -27,6 +27,17 @@ std::string_view line_at(std::string_view bytes, std::size_t at) {
   return bytes.substr(at, bytes.find_first_of("\r\n", at) - at);
 }
 
+// Of the first line that is neither a comment nor a count.
+std::size_t columns_below(std::string_view text) {
+  TextScanner scanner(text, {.comment = '#'});
+  while (scanner.next_anywhere()) {
+    const std::size_t columns = scanner.tokens_on_line();
+    if (columns > 1 && !scanner.peek_token().starts_with("//")) return columns;
+    scanner.skip_line();
+  }
+  return 0;
+}
+
 }  // namespace
 
 Separators find_separators(std::string_view bytes) {
@@ -79,9 +90,9 @@ ColumnNames find_names(std::string_view text) {
     }
     ++column;
   }
-  if (!found[0] || !found[1] || !found[2]) return {};
   names.end = start + line.size();
-  return names;
+  const bool complete = found[0] && found[1] && found[2];
+  return complete && columns_below(text.substr(names.end)) == column ? names : ColumnNames{};
 }
 
 PointLine arranged(const PointLine& line, const ColumnNames& names) {

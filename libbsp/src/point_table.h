@@ -28,7 +28,8 @@ struct ColumnNames {
   std::array<std::size_t, 3> coordinates = {0, 1, 2};  // the columns of x, y and z
 };
 
-// Of a text with blanks. Without all three names there are none.
+// Of a text with blanks. There are none unless all three are, and as many as there are columns:
+// words of a comment are no names.
 [[nodiscard]] ColumnNames find_names(std::string_view text);
 
 // The coordinates brought to the front; all else stays in order.
