@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -83,8 +84,8 @@ class HolePatcher {
       report_.stray_edges = loops_.stray_edges;
       if (loops_.loops() == 0) return;
       measure_sheets(table);
+      find_rims(table);
     }
-    find_rims();
     triangulate();
     close_rings();
     curve();
@@ -106,7 +107,7 @@ class HolePatcher {
   }
 
   // In grid steps: where the mesh is makes no difference.
-  void find_rims() {
+  void find_rims(const EdgeTable& table) {
     rims_.resize(loops_.loops());
     for (std::size_t l = 0; l < rims_.size(); ++l) {
       for (const std::uint32_t p : loops_.points_of(l)) {
@@ -118,12 +119,56 @@ class HolePatcher {
         rims_[l].apex.push_back(position(soup_, PointId(third)));
       }
     }
+    find_taken_chords(table);
+  }
+
+  // Where a point is on a rim.
+  struct RimPlace {
+    std::uint32_t point;
+    std::uint32_t loop;
+    std::uint32_t position;
+
+    bool operator<(const RimPlace& other) const {
+      return std::tie(point, loop) < std::tie(other.point, other.loop);
+    }
+  };
+
+  void find_taken_chords(const EdgeTable& table) {
+    std::vector<RimPlace> places;
+    std::vector<char> on_rim(soup_.points.size(), 0);
+    for (std::uint32_t l = 0; l < rims_.size(); ++l) {
+      const auto points = loops_.points_of(l);
+      for (std::uint32_t i = 0; i < points.size(); ++i) {
+        places.push_back({points[i], l, i});
+        on_rim[points[i]] = 1;
+      }
+    }
+    std::sort(places.begin(), places.end());
+    table.for_each_edge([&](std::span<const std::uint32_t> sides) {
+      const std::uint32_t from = side_start(triangles_, sides[0]);
+      const std::uint32_t to = side_start(triangles_, next_side(sides[0]));
+      if (on_rim[from] == 0 || on_rim[to] == 0) return;
+      auto a = std::lower_bound(places.begin(), places.end(), RimPlace{from, 0, 0});
+      auto b = std::lower_bound(places.begin(), places.end(), RimPlace{to, 0, 0});
+      while (a != places.end() && b != places.end() && a->point == from && b->point == to) {
+        if (a->loop == b->loop) note_taken_chord(rims_[a->loop], a->position, b->position);
+        (a->loop < b->loop ? a : b)++;
+      }
+    });
+    for (Rim& rim : rims_) std::sort(rim.taken.begin(), rim.taken.end());
+  }
+
+  static void note_taken_chord(Rim& rim, std::uint32_t i, std::uint32_t j) {
+    const auto [low, high] = std::minmax(i, j);
+    const bool is_edge = high == low + 1 || (low == 0 && high + 1 == rim.size());
+    if (!is_edge) rim.taken.push_back({low, high});
   }
 
   void triangulate() {
     std::vector<double> allowed(rims_.size());
     for (std::size_t l = 0; l < rims_.size(); ++l) allowed[l] = largest_area(l, l);
     patches_.resize(rims_.size());
+    folded_.assign(rims_.size(), 0);
     SharedProgress shared(progress_, rims_.size());
     tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
       patches_[l].too_large = internal::least_area(rims_[l]) > allowed[l];
@@ -133,7 +178,8 @@ class HolePatcher {
       options.largest_area = allowed[l];
       options.poll = [&shared] { shared.poll(); };
       patches_[l] = internal::triangulate_loop(rims_[l], options);
-      if (lies_on_surface(l)) patches_[l].too_large = true;
+      folded_[l] = !patches_[l].too_large && lies_on_surface(l) ? 1 : 0;
+      if (folded_[l] != 0) patches_[l].too_large = true;
       shared.done();
     });
   }
@@ -183,9 +229,9 @@ class HolePatcher {
       if (!is_large_opening(a) && !is_large_opening(b)) continue;
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
       if (ring.folded || ring.area > largest_area(a, b)) continue;
-      const bool closable = !patches_[a].too_large && !patches_[b].too_large;
+      const bool known = has_known_area(a) && has_known_area(b);
       const double one_by_one = patches_[a].area + patches_[b].area;
-      if (closable && ring.area >= kWorthARing * one_by_one) continue;
+      if (known && ring.area >= kWorthARing * one_by_one) continue;
       closed_[a] = closed_[b] = 1;
       ++report_.rings;
       note_patch(2, ring.area, std::max(rims_[a].size(), rims_[b].size()));
@@ -198,9 +244,14 @@ class HolePatcher {
     }
   }
 
+  // Triangles are missing where a patch is too large, but not where it lies on the surface.
+  [[nodiscard]] bool has_known_area(std::size_t loop) const {
+    return !patches_[loop].too_large || folded_[loop] != 0;
+  }
+
   bool is_large_opening(std::size_t loop) {
     const double allowed = largest_area(loop, loop);
-    if (patches_[loop].too_large) return allowed > 0;
+    if (!has_known_area(loop)) return allowed > 0;
     return patches_[loop].area * options_.largest_share > kLargeOpening * allowed;
   }
 
@@ -327,6 +378,7 @@ class HolePatcher {
   BoundaryLoops loops_;
   std::vector<Rim> rims_;                                   // of each loop
   std::vector<LoopTriangulation> patches_;                  // of each loop
+  std::vector<char> folded_;                                // of each loop: onto the surface
   std::vector<char> closed_;                                // of each loop: by a ring
   std::vector<std::optional<internal::PatchMesh>> curved_;  // of each loop
   std::vector<std::uint32_t> roots_;                        // scratch

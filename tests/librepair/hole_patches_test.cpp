@@ -12,6 +12,7 @@
 #include <repair/repair.h>
 
 #include "degenerate_soups.h"
+#include "loop_triangulation.h"
 #include "random_geometry.h"
 #include "shapes.h"
 #include "trees.h"
@@ -352,6 +353,53 @@ TEST(PatchHoles, MissingTrianglesThatFaceEachOtherAreNoGap) {
   TriangleSoup twice = without(sphere(1000), {400});
   append(twice, without(sphere(1000, 0.97), {400}));
   EXPECT_NEAR(repaired_volume(twice), signed_volume(sphere(1000)), 1e-6);
+}
+
+// On a side of the triangle a spike, so flat that its front, which is missing, lies on its back.
+void put_open_spike(TriangleSoup& soup, std::size_t triangle) {
+  const auto [p, q, r] = soup.triangles[triangle];
+  const Vec3d middle = 0.5 * (soup.points[p] + soup.points[q]);
+  const auto m = static_cast<std::uint32_t>(soup.points.size());
+  soup.points.push_back(middle + 0.05 * (soup.points[r] - middle));
+  const std::uint32_t tip = m + 1;
+  soup.points.emplace_back(1.3 * middle);
+  soup.triangles[triangle] = {q, r, m};
+  soup.triangles.insert(soup.triangles.end(), {{r, p, m}, {q, m, tip}, {m, p, tip}});
+}
+
+TEST(PatchHoles, SmallFlatHolesFarFromEachOtherGetNoTunnel) {
+  TriangleSoup soup = sphere(2000);
+  const double volume = signed_volume(soup);
+  put_open_spike(soup, 10);
+  put_open_spike(soup, 1200);
+  const Patched p = patched(soup);
+  EXPECT_EQ(p.report.loops, 2u);
+  EXPECT_EQ(p.report.rings, 0u);
+  const RepairResult result = repair(soup);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_NEAR(result.report.output_volume, volume, 1e-3 * volume);
+}
+
+// The shorter chord is an edge of the surface already.
+TEST(PatchHoles, NoChordIsAnEdgeOfTheSurface) {
+  internal::Rim rim;
+  rim.points = {{0, 0, 0}, {1, 2, 0}, {2, 0, 0}, {1, -2, 0}};
+  rim.apex = {{-1, 2, 0}, {3, 2, 0}, {3, -2, 0}, {-1, -2, 0}};
+  internal::LoopTriangulationOptions options;
+  options.largest_area = 100;
+  const auto chord_of = [&] {
+    const auto triangles = internal::triangulate_loop(rim, options).triangles;
+    EXPECT_EQ(triangles.size(), 2u);
+    return std::count_if(triangles.begin(), triangles.end(), [](const auto& t) {
+      return std::count(t.begin(), t.end(), 0u) + std::count(t.begin(), t.end(), 2u) == 2;
+    });
+  };
+  rim.taken = {{0, 2}};
+  EXPECT_EQ(chord_of(), 0);
+  rim.taken = {{1, 3}};
+  EXPECT_EQ(chord_of(), 2);
+  rim.taken = {{0, 2}, {1, 3}};
+  (void)chord_of();
 }
 
 TEST(PatchHoles, AConeWithoutItsBaseIsClosed) {
