@@ -15,7 +15,7 @@ namespace meshrepair {
 
 struct GridPoint {
   std::int32_t x = 0, y = 0, z = 0;
-  constexpr auto operator<=>(const GridPoint&) const = default;
+  constexpr auto operator<=>(const GridPoint&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 [[nodiscard]] inline Vec3d as_vector(const GridPoint& p) {
