@@ -2,7 +2,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -84,8 +83,8 @@ class HolePatcher {
       report_.stray_edges = loops_.stray_edges;
       if (loops_.loops() == 0) return;
       measure_sheets(table);
-      find_rims(table);
     }
+    find_rims();
     triangulate();
     close_rings();
     curve();
@@ -107,7 +106,7 @@ class HolePatcher {
   }
 
   // In grid steps: where the mesh is makes no difference.
-  void find_rims(const EdgeTable& table) {
+  void find_rims() {
     rims_.resize(loops_.loops());
     for (std::size_t l = 0; l < rims_.size(); ++l) {
       for (const std::uint32_t p : loops_.points_of(l)) {
@@ -119,49 +118,6 @@ class HolePatcher {
         rims_[l].apex.push_back(position(soup_, PointId(third)));
       }
     }
-    find_taken_chords(table);
-  }
-
-  // Where a point is on a rim.
-  struct RimPlace {
-    std::uint32_t point;
-    std::uint32_t loop;
-    std::uint32_t position;
-
-    bool operator<(const RimPlace& other) const {
-      return std::tie(point, loop) < std::tie(other.point, other.loop);
-    }
-  };
-
-  void find_taken_chords(const EdgeTable& table) {
-    std::vector<RimPlace> places;
-    std::vector<char> on_rim(soup_.points.size(), 0);
-    for (std::uint32_t l = 0; l < rims_.size(); ++l) {
-      const auto points = loops_.points_of(l);
-      for (std::uint32_t i = 0; i < points.size(); ++i) {
-        places.push_back({points[i], l, i});
-        on_rim[points[i]] = 1;
-      }
-    }
-    std::sort(places.begin(), places.end());
-    table.for_each_edge([&](std::span<const std::uint32_t> sides) {
-      const std::uint32_t from = side_start(triangles_, sides[0]);
-      const std::uint32_t to = side_start(triangles_, next_side(sides[0]));
-      if (on_rim[from] == 0 || on_rim[to] == 0) return;
-      auto a = std::lower_bound(places.begin(), places.end(), RimPlace{from, 0, 0});
-      auto b = std::lower_bound(places.begin(), places.end(), RimPlace{to, 0, 0});
-      while (a != places.end() && b != places.end() && a->point == from && b->point == to) {
-        if (a->loop == b->loop) note_taken_chord(rims_[a->loop], a->position, b->position);
-        (a->loop < b->loop ? a : b)++;
-      }
-    });
-    for (Rim& rim : rims_) std::sort(rim.taken.begin(), rim.taken.end());
-  }
-
-  static void note_taken_chord(Rim& rim, std::uint32_t i, std::uint32_t j) {
-    const auto [low, high] = std::minmax(i, j);
-    const bool is_edge = high == low + 1 || (low == 0 && high + 1 == rim.size());
-    if (!is_edge) rim.taken.push_back({low, high});
   }
 
   void triangulate() {

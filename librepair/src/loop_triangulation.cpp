@@ -39,11 +39,7 @@ class BestTriangulation {
         loop_(loop),
         size_(loop.size()),
         cost_(size_ * size_, 0),
-        third_(size_ * size_, 0) {
-    double length = 0;
-    for (std::size_t i = 0; i < size_; ++i) length += (at(i) - at((i + 1) % size_)).norm();
-    price_of_taken_ = static_cast<double>(size_) * length * length;
-  }
+        third_(size_ * size_, 0) {}
 
   void run(const std::function<void()>& poll, LoopTriangulation& result) {
     for (std::size_t gap = 2; gap < size_; ++gap) {
@@ -68,7 +64,6 @@ class BestTriangulation {
       best = cost;
       best_third = m;
     }
-    if (rim_.is_taken(loop_[i], loop_[j])) best += price_of_taken_;
     cost_[i * size_ + j] = best;
     third_[i * size_ + j] = static_cast<std::uint32_t>(best_third);
   }
@@ -103,7 +98,6 @@ class BestTriangulation {
   std::size_t size_;
   std::vector<double> cost_;
   std::vector<std::uint32_t> third_;
-  double price_of_taken_ = 0;  // more than all triangles of a patch cost
 };
 
 // The shortest of the chords looked at that leave a quarter of the points or more on each side.
@@ -116,7 +110,7 @@ std::pair<std::size_t, std::size_t> choose_chord(const Rim& rim, const Positions
     for (std::size_t k = n / 4; k <= n - n / 4; ++k) {
       const std::size_t j = (i + k) % n;
       const double length = (rim.points[loop[j]] - rim.points[loop[i]]).squaredNorm();
-      if (length >= best || rim.is_taken(loop[i], loop[j])) continue;
+      if (length >= best) continue;
       best = length;
       chord = std::minmax(i, j);
     }

@@ -27,8 +27,7 @@ struct LoopTriangulationOptions {
   std::function<void()> poll;  // may throw; unless empty
 };
 
-// A triangle that turns back onto the surface counts double. Chords that are taken are chords of
-// the result only where there are no others.
+// A triangle that turns back onto the surface counts double.
 //
 // Liepa, "Filling holes in meshes" (2003), with one sum of areas, those of folded triangles
 // weighted, instead of the largest angle first and then the area.

@@ -1,9 +1,6 @@
 // The rim of a hole, as the triangulations over it see it.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -16,14 +13,7 @@ namespace meshrepair::internal {
 struct Rim {
   std::vector<Vec3d> points;  // three or more, all different
   std::vector<Vec3d> apex;
-  // Chords that are edges of the surface already, the lower position first, ascending. A patch that
-  // has one, too, touches the surface there.
-  std::vector<std::array<std::uint32_t, 2>> taken;
 
-  [[nodiscard]] bool is_taken(std::uint32_t i, std::uint32_t j) const {
-    return std::binary_search(taken.begin(), taken.end(),
-                              std::array<std::uint32_t, 2>{std::min(i, j), std::max(i, j)});
-  }
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 

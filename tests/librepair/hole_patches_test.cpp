@@ -12,7 +12,6 @@
 #include <repair/repair.h>
 
 #include "degenerate_soups.h"
-#include "loop_triangulation.h"
 #include "random_geometry.h"
 #include "shapes.h"
 #include "trees.h"
@@ -378,28 +377,6 @@ TEST(PatchHoles, SmallFlatHolesFarFromEachOtherGetNoTunnel) {
   const RepairResult result = repair(soup);
   EXPECT_TRUE(result.report.certify.passed());
   EXPECT_NEAR(result.report.output_volume, volume, 1e-3 * volume);
-}
-
-// The shorter chord is an edge of the surface already.
-TEST(PatchHoles, NoChordIsAnEdgeOfTheSurface) {
-  internal::Rim rim;
-  rim.points = {{0, 0, 0}, {1, 2, 0}, {2, 0, 0}, {1, -2, 0}};
-  rim.apex = {{-1, 2, 0}, {3, 2, 0}, {3, -2, 0}, {-1, -2, 0}};
-  internal::LoopTriangulationOptions options;
-  options.largest_area = 100;
-  const auto chord_of = [&] {
-    const auto triangles = internal::triangulate_loop(rim, options).triangles;
-    EXPECT_EQ(triangles.size(), 2u);
-    return std::count_if(triangles.begin(), triangles.end(), [](const auto& t) {
-      return std::count(t.begin(), t.end(), 0u) + std::count(t.begin(), t.end(), 2u) == 2;
-    });
-  };
-  rim.taken = {{0, 2}};
-  EXPECT_EQ(chord_of(), 0);
-  rim.taken = {{1, 3}};
-  EXPECT_EQ(chord_of(), 2);
-  rim.taken = {{0, 2}, {1, 3}};
-  (void)chord_of();
 }
 
 TEST(PatchHoles, AConeWithoutItsBaseIsClosed) {
