@@ -213,16 +213,19 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
   });
 }
 
-constexpr std::array<Choice<SetOperation>, 4> kOperations = {
-    {{"union", SetOperation::unite},
-     {"intersection", SetOperation::intersect},
-     {"difference", SetOperation::subtract},
-     {"xor", SetOperation::exclude}}};
+std::array<Choice<SetOperation>, 4> named_operations() {
+  constexpr std::array kAll = {SetOperation::unite, SetOperation::intersect, SetOperation::subtract,
+                               SetOperation::exclude};
+  std::array<Choice<SetOperation>, 4> named;
+  for (std::size_t i = 0; i < kAll.size(); ++i) named[i] = {operation_name(kAll[i]), kAll[i]};
+  return named;
+}
 
 constexpr std::array<Choice<RegionTest>, 2> kRegionTests = {
     {{"cells", RegionTest::cells}, {"programs", RegionTest::linear_programs}}};
 
 void add_bool_options(CLI::App& app, BoolOptions& options) {
+  static const auto kOperations = named_operations();
   add_choice(
       app, "--op", kOperations, [&options](SetOperation value) { options.operation = value; },
       "union; intersection; difference: the first without all others; xor: what is in one of "

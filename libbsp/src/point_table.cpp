@@ -96,7 +96,8 @@ ColumnNames find_names(std::string_view text) {
 }
 
 PointLine arranged(const PointLine& line, const ColumnNames& names) {
-  if (names.coordinates == std::array<std::size_t, 3>{0, 1, 2}) return line;
+  const bool in_order = names.coordinates == std::array<std::size_t, 3>{0, 1, 2};
+  if (in_order || line.count < 3) return line;
   PointLine result;
   for (const std::size_t column : names.coordinates) {
     if (column >= line.count) return result;  // no point

@@ -32,7 +32,8 @@ struct ColumnNames {
 // words of a comment are no names.
 [[nodiscard]] ColumnNames find_names(std::string_view text);
 
-// The coordinates brought to the front; all else stays in order.
+// The coordinates brought to the front; all else stays in order. Without one of them the line is
+// empty, but one that holds no point anyway, a count for one, stays as it is.
 [[nodiscard]] PointLine arranged(const PointLine& line, const ColumnNames& names);
 
 }  // namespace meshrepair

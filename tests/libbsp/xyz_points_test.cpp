@@ -108,7 +108,8 @@ TEST(XyzPoints, PureColoursAreNoNormals) {
 TEST(XyzPoints, NamesOfColumnsSayWhereTheCoordinatesAre) {
   for (const char* text :
        {"index,x,y,z\n7,1,2,3\n8,-4.5,5e-3,6\n", "\"Z\";\"Y\";\"X\"\n3;2;1\n6;5e-3;-4.5\n",
-        "//X Y Z R\n2\n1 2 3 9\n-4.5 5e-3 6 9\n", "# x y z\n1 2 3\n-4.5 5e-3 6\n"}) {
+        "//Z Y X R\n2\n3 2 1 9\n6 5e-3 -4.5 9\n", "//X Y Z R\n2\n1 2 3 9\n-4.5 5e-3 6 9\n",
+        "# x y z\n1 2 3\n-4.5 5e-3 6\n"}) {
     const PointReadResult result = read(text, "cloud.csv");
     EXPECT_EQ(result.cloud.points, kTwo) << text;
     EXPECT_TRUE(result.report.warnings.empty()) << text;

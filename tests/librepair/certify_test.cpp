@@ -209,6 +209,20 @@ TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
   EXPECT_NEAR(signed_volume(back), 3, 1e-5);
 }
 
+// As a reader of binary STL gets it back. No second repair is needed, and no points are welded.
+TriangleSoup repaired_as_stl(const TriangleSoup& soup, Touching touching) {
+  RepairOptions options;
+  options.extract.touching = touching;
+  options.certify.precision = Precision::float32;
+  options.certify.welded = true;
+  const RepairResult result = repair(soup, options);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_EQ(result.report.certify.rounds, 0u);
+  TriangleSoup back = as_read_back(result.surface.mesh, SoupFormat::stl_binary);
+  EXPECT_EQ(back.points.size(), result.surface.mesh.points.size());
+  return back;
+}
+
 // Whether it is a cavity or a solid that has a tip on a face, the tip has to go back into what it
 // is the tip of.
 TEST(Certify, MovesTipsOfCavitiesOffTheFacesThatTheyTouch) {
@@ -217,15 +231,8 @@ TEST(Certify, MovesTipsOfCavitiesOffTheFacesThatTheyTouch) {
       {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
   TriangleSoup soup = cube();
   append(soup, signed_volume(tetrahedron) > 0 ? flipped(tetrahedron) : tetrahedron);
-  RepairOptions options;
-  options.certify.precision = Precision::float32;
-  options.certify.welded = true;
-  const RepairResult result = repair(soup, options);
-  EXPECT_TRUE(result.report.certify.passed());
-  EXPECT_EQ(result.report.certify.rounds, 0u);
-  const TriangleSoup back = as_read_back(result.surface.mesh, SoupFormat::stl_binary);
+  const TriangleSoup back = repaired_as_stl(soup, Touching::separate);
   EXPECT_TRUE(check_surface(back).valid_solid());
-  EXPECT_EQ(back.points.size(), result.surface.mesh.points.size());
   EXPECT_NEAR(signed_volume(back), 1 - std::abs(signed_volume(tetrahedron)), 1e-5);
 }
 
@@ -234,14 +241,7 @@ TEST(Certify, WidensJoinedEdgesForFormatsThatJoinPoints) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {1, 1, 0}));  // along an edge
   append(soup, moved(cube(), {2, 2, 1}));  // in a corner
-  RepairOptions options;
-  options.extract.touching = Touching::join;
-  options.certify.precision = Precision::float32;
-  options.certify.welded = true;
-  const RepairResult result = repair(soup, options);
-  EXPECT_TRUE(result.report.certify.passed());
-  EXPECT_EQ(result.report.certify.rounds, 0u);
-  const TriangleSoup back = as_read_back(result.surface.mesh, SoupFormat::stl_binary);
+  const TriangleSoup back = repaired_as_stl(soup, Touching::join);
   expect_closed_manifold(back);
   const Topology t = examine_topology(back.triangles, back.points.size());
   EXPECT_EQ(t.parts, 2u);
