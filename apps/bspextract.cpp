@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
       ->required();
   add_output_option(app, options.output, "OUT", "Mesh to write; - is standard output");
   add_touching_option(app, options.repair.extract.touching);
+  add_simplify_option(app, options.repair.simplify);
   add_predicates_options(app, options.repair);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);

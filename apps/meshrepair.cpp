@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   add_holes_option(app, options.repair.holes);
   add_max_hole_option(app, options.repair.holes);
   add_touching_option(app, options.repair.extract.touching);
+  add_simplify_option(app, options.repair.simplify);
   add_predicates_options(app, options.repair);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);

@@ -109,6 +109,17 @@ void add_touching_option(CLI::App& app, Touching& touching) {
       ->group("Repair");
 }
 
+void add_simplify_option(CLI::App& app, double& simplify) {
+  simplify = kDefaultSimplify;
+  app.add_option("--simplify", simplify,
+                 "Fewer triangles where the mesh was cut, moving the surface by at most this\n"
+                 "share of the diagonal; what was not cut stays as it is; 0: no such thing")
+      ->check(why_no_share)
+      ->type_name("SHARE")
+      ->capture_default_str()
+      ->group("Repair");
+}
+
 void add_output_option(CLI::App& app, std::string& output, const std::string& type,
                        const std::string& description) {
   app.add_option("-o,--output", output, description)->required()->type_name(type)->group("Output");

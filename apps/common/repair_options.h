@@ -25,6 +25,9 @@ void add_max_hole_option(CLI::App& app, HoleOptions& holes);
 // --touching: what becomes of solids that touch along an edge.
 void add_touching_option(CLI::App& app, Touching& touching);
 
+// --simplify: how far the surface may move to have fewer triangles; kDefaultSimplify unless given.
+void add_simplify_option(CLI::App& app, double& simplify);
+
 // -o: the file to write, where it does not stand beside IN.
 void add_output_option(CLI::App& app, std::string& output, const std::string& type,
                        const std::string& description);

@@ -172,6 +172,14 @@ Json section_of(const ExtractReport& extract) {
           {"polygons_apart", extract.polygons_apart}};
 }
 
+Json section_of(const SimplifyReport& simplify) {
+  return {{"removed_points", simplify.removed_points},
+          {"removed_triangles", simplify.removed_triangles},
+          {"distance_at_most", simplify.distance},
+          {"points_to_stay", simplify.points_to_stay},
+          {"rounds", simplify.rounds}};
+}
+
 Json section_of(const PartsAndArea& parts) {
   return {{"parts", parts.parts}, {"area", parts.area}};
 }
@@ -257,6 +265,9 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "extract")) {
     report.set_section("removed", section_of(repair.parts));
     report.set_section("extract", section_of(repair.extract));
+  }
+  if (was_begun(repair, "simplify")) {
+    report.set_section("simplify", section_of(repair.simplify));
   }
   if (was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));

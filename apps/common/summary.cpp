@@ -208,6 +208,12 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   return texts;
 }
 
+std::vector<std::string> simplified(const SimplifyReport& report) {
+  if (report.removed_triangles == 0) return {};
+  return {fmt::format("{} fewer where it was cut, {:.2g} from there at most",
+                      number_of(report.removed_triangles, "triangle"), report.distance)};
+}
+
 void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
@@ -220,6 +226,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   std::vector<std::string> removed = removed_parts(repair);
   add_count(removed, findings.dropped_solids, "solid", "too small for the points to tell");
   lines.add("removed", removed);
+  lines.add("simpler", simplified(repair.simplify));
   lines.add("checked",
             joined({output.closed() ? "closed" : "NOT CLOSED",
                     output.manifold() ? "manifold" : "NOT MANIFOLD",

@@ -73,10 +73,9 @@ PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Co
   return fates;
 }
 
-TriangleFates find_triangle_fates(const CleanSoup& input, const PartFates& parts,
-                                  const Surface& surface) {
-  TriangleFates fates;
-  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+std::vector<char> find_whole_triangles(const CleanSoup& input, const Surface& surface) {
+  std::vector<char> whole(surface.mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < whole.size(); ++t) {
     if (surface.source[t] == Surface::kNoSource) continue;
     // Sources ascend.
     const auto found = std::lower_bound(
@@ -84,12 +83,21 @@ TriangleFates find_triangle_fates(const CleanSoup& input, const PartFates& parts
         [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
     if (found == input.triangles.end() || found->source != surface.source[t]) continue;
     const auto& to = surface.mesh.triangles[t];
-    fates.untouched += std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
+    const bool same = std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
       return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
         return surface.mesh.points[q] == input.points[p];
       });
     });
+    whole[t] = same ? 1 : 0;
   }
+  return whole;
+}
+
+TriangleFates find_triangle_fates(const CleanSoup& input, const PartFates& parts,
+                                  const Surface& surface) {
+  TriangleFates fates;
+  const std::vector<char> whole = find_whole_triangles(input, surface);
+  fates.untouched = static_cast<std::size_t>(std::count(whole.begin(), whole.end(), 1));
   fates.cut = std::max(parts.bounding_triangles, fates.untouched) - fates.untouched;
   return fates;
 }

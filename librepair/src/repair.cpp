@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <bsp/error.h>
 #include <extract/build_cells.h>
 #include <extract/check_surface.h>
@@ -201,6 +203,7 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   again.opacity.clear();
   again.examine = nullptr;
   again.certify.wanted = false;
+  again.simplify = options.simplify;
   again.progress = &quiet;
   RepairReport report;
   return repair(soup, again, report);
@@ -245,12 +248,26 @@ void describe(const CleanSoup& input, const Surface& surface, RepairReport& repo
   report.closing_area = closing_area(surface);
 }
 
+void simplify(const CleanSoup& input, const RepairOptions& options, Surface& surface,
+              SimplifyReport& report) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3d& p : surface.mesh.points) box.extend(p);
+  SimplifyOptions simplify_options;
+  simplify_options.within = options.simplify * (box.max() - box.min()).stableNorm();
+  simplify_options.progress = options.progress;
+  simplify_cuts(surface, find_whole_triangles(input, surface), simplify_options, report);
+}
+
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   require_range(surface, options.certify.precision);
   if (options.examine) {
     describe(input, surface, report);
     options.examine(report);
+  }
+  if (options.simplify > 0) {
+    meter.begin("simplify");
+    simplify(input, options, surface, report.simplify);
   }
   if (options.certify.wanted) {
     meter.begin("certify");

@@ -43,6 +43,14 @@ def touching_tetrahedra():
     return "".join(parts).encode()
 
 
+def slipped_tetrahedra():
+    """OBJ text: two that cross, the second 1e-7 aside and one quarter to the right."""
+    faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
+    parts = (f"v {x} {y} {y}\nv {x + 1} {y} {y}\nv {x} {y + 1} {y}\nv {x} {y} {y + 1}\n{faces}"
+             for x, y in ((0, 0), (0.25, 1e-7)))
+    return "".join(parts).encode()
+
+
 def row_of_tetrahedra(count):
     """OBJ text of some 100 bytes for each."""
     faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
@@ -127,6 +135,7 @@ def main():
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
         "open.obj": tetrahedron(f3=""),
         "touching.obj": touching_tetrahedra(),
+        "slipped.obj": slipped_tetrahedra(),
         "far_point.obj": two_tetrahedra(size=10 ** 9),
         "larger_than_a_pipe.obj": row_of_tetrahedra(4000),
         "much_work.off": random_triangles(1000),

@@ -33,6 +33,10 @@ struct PartFates {
                                         const IdVector<FacetId, Cover>& cover,
                                         const std::vector<char>& solid);
 
+// For each triangle of the surface whether it is one of the input, with its own coordinates.
+[[nodiscard]] std::vector<char> find_whole_triangles(const CleanSoup& input,
+                                                     const Surface& surface);
+
 // Of the input's triangles.
 struct TriangleFates {
   std::size_t untouched = 0;  // came out with their own coordinates, bit for bit

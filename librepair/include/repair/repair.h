@@ -17,6 +17,7 @@
 #include <extract/cover_facets.h>
 #include <extract/extract_surface.h>
 #include <extract/float_engine.h>
+#include <extract/simplify_cuts.h>
 #include <extract/surface.h>
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
@@ -47,6 +48,9 @@ struct RepairOptions {
   BuildTreeOptions tree;
   InsideOptions inside;
   ExtractOptions extract;
+  // How far the surface may move to have fewer triangles where it was cut, as a share of the
+  // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
+  double simplify = 0;
   CertifyOptions certify;
   // Told what the result will be, but for what certification moves, which may take much longer than
   // all before; what it throws ends the work.
@@ -55,6 +59,9 @@ struct RepairOptions {
   bool check_cells = false;
   ProgressObserver* progress = nullptr;
 };
+
+// What the programs that repair a mesh take for RepairOptions::simplify.
+inline constexpr double kDefaultSimplify = 5e-7;
 
 // Filled as far as the work came, also when it ended with an exception.
 struct RepairReport {
@@ -74,6 +81,7 @@ struct RepairReport {
   InsideReport inside;
   PartFates parts;
   ExtractReport extract;
+  SimplifyReport simplify;
   CertifyReport certify;
   TriangleFates triangles;
   Topology output;

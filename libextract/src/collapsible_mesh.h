@@ -1,0 +1,63 @@
+// A closed mesh whose points can be moved onto neighbours, one after the other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meshrepair::internal {
+
+// Triangle i is (point, link[i], link[i + 1]), after the last the first again.
+struct PointStar {
+  std::uint32_t point = 0;
+  std::vector<std::uint32_t> link, triangles;
+
+  [[nodiscard]] std::size_t before(std::size_t i) const { return i == 0 ? link.size() - 1 : i - 1; }
+  [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == link.size() ? 0 : i + 1; }
+};
+
+// Has the triangles of a closed manifold mesh, and stays one. Of each point it keeps the list of
+// its corners; corner 3 t + k is corner k of triangle t.
+class CollapsibleMesh {
+ public:
+  // Stars of more triangles are left alone, and so are those with a neighbour of many more: to look
+  // through all of that one's for every collapse beside would be quadratic.
+  static constexpr std::size_t kMostOfStar = 32;
+  static constexpr std::size_t kMostOfNeighbour = 256;
+
+  CollapsibleMesh(std::vector<std::array<std::uint32_t, 3>> triangles, std::size_t points);
+
+  [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const {
+    return triangles_;
+  }
+  [[nodiscard]] bool is_left(std::uint32_t triangle) const { return left_[triangle] != 0; }
+
+  // False for a point that has no triangles any more, or too many, or such a neighbour.
+  [[nodiscard]] bool find_star(std::uint32_t point, PointStar& star);
+
+  // Whether the mesh stays a closed manifold, of the same genus, when the star's point is moved
+  // onto link[to]: if the two points have only those two neighbours in common that both have to
+  // have, and no neighbour is left with two triangles.
+  [[nodiscard]] bool may_collapse(const PointStar& star, std::size_t to);
+
+  // The star has to be as find_star() gives it now. Its triangles before `to` and at `to` go.
+  void collapse(const PointStar& star, std::size_t to);
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  void append(std::uint32_t point, std::uint32_t corner);
+  template <class Visit>
+  void visit_corners(std::uint32_t point, const Visit& visit);
+
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<char> left_;
+  std::vector<std::uint32_t> next_;          // of each corner, in the list of its point
+  std::vector<std::uint32_t> first_, last_;  // of each point
+  std::vector<std::uint32_t> degree_;        // triangles of each point
+  std::vector<std::uint32_t> marked_by_;     // of each point, the last star it was a neighbour of
+  std::uint32_t mark_ = 0;
+};
+
+}  // namespace meshrepair::internal

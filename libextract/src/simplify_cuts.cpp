@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include <bsp/double_predicates.h>
+#include <extract/self_intersections.h>
+#include <extract/simplify_cuts.h>
+
+#include "collapsible_mesh.h"
+#include "star_distance.h"
+
+namespace meshrepair {
+namespace {
+
+using internal::CollapsibleMesh;
+using internal::PointStar;
+using internal::StarDistance;
+
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// Moves are made in the order of their distances, but among those below this share of the bound,
+// which make little difference, the shortest first: long ones leave long thin triangles.
+constexpr double kSmallShare = 1.0 / 64;
+
+struct Move {
+  double distance = kInfinite;  // of the new triangles from the surface at first
+  double cost = 0, length = 0;
+  std::uint32_t point = kNone, target = kNone;
+  std::uint32_t version = 0;  // of the point's star
+
+  // Of a queue whose top is the largest.
+  bool operator<(const Move& other) const {
+    return std::tie(cost, length, point) > std::tie(other.cost, other.length, other.point);
+  }
+};
+
+// One run over all points that may go.
+class CutSimplifier {
+ public:
+  CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays, double within,
+                ProgressObserver* progress)
+      : points_(mesh.points),
+        stays_(stays),
+        within_(within),
+        cancel_(progress),
+        mesh_(mesh.triangles, mesh.points.size()),
+        version_(mesh.points.size(), 0),
+        distance_(mesh.triangles.size(), 0),
+        moved_(mesh.points.size(), 0),
+        last_moved_(mesh.triangles.size(), kNone) {}
+
+  void run() {
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      if (stays_[p] == 0) consider(p);
+    }
+    while (!queue_.empty()) {
+      const Move move = queue_.top();
+      queue_.pop();
+      cancel_.tick();
+      if (move.version == version_[move.point] && moved_[move.point] == 0) make(move);
+    }
+  }
+
+  [[nodiscard]] const CollapsibleMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const std::vector<char>& moved() const { return moved_; }
+  // The point whose move changed the triangle last, or kNone.
+  [[nodiscard]] std::uint32_t last_moved(std::uint32_t triangle) const {
+    return last_moved_[triangle];
+  }
+  [[nodiscard]] double distance() const { return farthest_; }
+
+ private:
+  void consider(std::uint32_t point) {
+    Move best;
+    best.cost = best.length = kInfinite;
+    best.point = point;
+    best.version = version_[point];
+    if (!mesh_.find_star(point, star_)) return;
+    double before = 0;
+    for (const std::uint32_t t : star_.triangles) before = std::max(before, distance_[t]);
+    link_.clear();
+    for (const std::uint32_t p : star_.link) link_.push_back(points_[p]);
+    star_distance_.set_star(points_[point], link_);
+    for (std::size_t i = 0; i < link_.size(); ++i) {
+      Move move = best;
+      move.target = star_.link[i];
+      move.length = (link_[i] - points_[point]).norm();
+      move.distance = before + std::min(star_distance_.bound(i), move.length);
+      if (!(move.distance <= within_)) continue;
+      move.cost = std::max(move.distance, kSmallShare * within_);
+      if (best < move && may_move(i)) best = move;
+    }
+    if (best.target != kNone) queue_.push(best);
+  }
+
+  bool may_move(std::size_t to) {
+    if (!mesh_.may_collapse(star_, to)) return false;
+    for (std::size_t i = star_.after(to); star_.after(i) != to; i = star_.after(i)) {
+      if (projection_axis(link_[to], link_[i], link_[star_.after(i)]) < 0) return false;
+    }
+    return true;
+  }
+
+  void make(const Move& move) {
+    if (!mesh_.find_star(move.point, star_)) return;
+    const auto to = static_cast<std::size_t>(
+        std::find(star_.link.begin(), star_.link.end(), move.target) - star_.link.begin());
+    if (to == star_.link.size()) return;
+    if (!mesh_.may_collapse(star_, to)) {
+      // What the points have in common may have changed beyond the star.
+      ++version_[move.point];
+      return consider(move.point);
+    }
+    mesh_.collapse(star_, to);
+    moved_[move.point] = 1;
+    farthest_ = std::max(farthest_, move.distance);
+    for (const std::uint32_t t : star_.triangles) {
+      distance_[t] = move.distance;
+      last_moved_[t] = move.point;
+    }
+    const std::vector<std::uint32_t> around = star_.link;
+    for (const std::uint32_t p : around) ++version_[p];
+    for (const std::uint32_t p : around) {
+      if (stays_[p] == 0) consider(p);
+    }
+  }
+
+  const std::vector<Vec3d>& points_;
+  const std::vector<char>& stays_;
+  double within_;
+  CancelCheck cancel_;
+  CollapsibleMesh mesh_;
+  std::vector<std::uint32_t> version_;
+  std::vector<double> distance_;  // of each triangle from the surface at first, at most
+  std::vector<char> moved_;       // of each point, whether it is gone
+  std::vector<std::uint32_t> last_moved_;
+  double farthest_ = 0;
+  std::priority_queue<Move> queue_;
+  PointStar star_;
+  std::vector<Vec3d> link_;
+  StarDistance star_distance_;
+};
+
+// Those of whole triangles.
+std::vector<char> points_to_keep(const TriangleSoup& mesh, const std::vector<char>& whole) {
+  std::vector<char> stays(mesh.points.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (whole[t] == 0) continue;
+    for (const std::uint32_t p : mesh.triangles[t]) stays[p] = 1;
+  }
+  return stays;
+}
+
+// The surface without what has gone; for each triangle that is left, which it was.
+std::vector<std::uint32_t> compact(const Surface& from, const CutSimplifier& simplifier,
+                                   Surface& to) {
+  to = {};
+  std::vector<std::uint32_t> new_index(from.mesh.points.size(), kNone), kept;
+  for (std::uint32_t p = 0; p < from.mesh.points.size(); ++p) {
+    if (simplifier.moved()[p] != 0) continue;
+    new_index[p] = static_cast<std::uint32_t>(to.mesh.points.size());
+    to.mesh.points.push_back(from.mesh.points[p]);
+    to.input_point.push_back(from.input_point[p]);
+  }
+  for (std::uint32_t t = 0; t < from.mesh.triangles.size(); ++t) {
+    if (!simplifier.mesh().is_left(t)) continue;
+    const auto& c = simplifier.mesh().triangles()[t];
+    to.mesh.triangles.push_back({new_index[c[0]], new_index[c[1]], new_index[c[2]]});
+    to.source.push_back(from.source[t]);
+    kept.push_back(t);
+  }
+  return kept;
+}
+
+}  // namespace
+
+void simplify_cuts(Surface& surface, const std::vector<char>& whole, const SimplifyOptions& options,
+                   SimplifyReport& report) {
+  report = {};
+  std::vector<char> stays = points_to_keep(surface.mesh, whole);
+  const auto to_stay = std::count(stays.begin(), stays.end(), 1);
+  if (!(options.within > 0) || to_stay == static_cast<std::ptrdiff_t>(stays.size())) return;
+  for (;;) {
+    ++report.rounds;
+    CutSimplifier simplifier(surface.mesh, stays, options.within, options.progress);
+    simplifier.run();
+    Surface result;
+    const std::vector<std::uint32_t> kept = compact(surface, simplifier, result);
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t t = 0; t < kept.size(); ++t) {
+      if (simplifier.last_moved(kept[t]) != kNone) changed.push_back(t);
+    }
+    SelfIntersectionOptions meeting;
+    meeting.most_pairs = 200'000;
+    meeting.progress = options.progress;
+    const SelfIntersections found = self_intersections(result.mesh, changed, meeting);
+    if (found.pairs.empty()) {
+      report.removed_points = surface.mesh.points.size() - result.mesh.points.size();
+      report.removed_triangles = surface.mesh.triangles.size() - result.mesh.triangles.size();
+      report.distance = simplifier.distance();
+      report.points_to_stay =
+          static_cast<std::size_t>(std::count(stays.begin(), stays.end(), 1) - to_stay);
+      surface = std::move(result);
+      return;
+    }
+    for (const auto& pair : found.pairs) {
+      for (const std::uint32_t t : pair) {
+        const std::uint32_t p = simplifier.last_moved(kept[t]);
+        if (p != kNone) stays[p] = 1;
+      }
+    }
+  }
+}
+
+}  // namespace meshrepair

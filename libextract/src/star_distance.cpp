@@ -1,0 +1,133 @@
+// Both stars have the link as their border, and the new one covers what is inside the border once,
+// seen along the normal. So each of its points has some of the old star above or below it, and
+// where edges of neither pass between, the distance along the normal changes linearly. What is left
+// to look at are the places where an edge of one lies over an edge or a point of the other.
+#include "star_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace meshrepair::internal {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// Of products of coordinates up to 1. What is nearer to an edge counts as on it, which looks at a
+// place too many, not at one too few.
+constexpr double kRounding = 0x1p-50;
+
+template <class Point>
+double cross(const Point& a, const Point& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+template <class Point>
+double turn(const Point& a, const Point& b, const Point& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// From `at` to the triangle along the normal, 0 where it is beside it.
+template <class Point>
+double distance_over(const Point& at, const Point& a, const Point& b, const Point& c) {
+  const double area = turn(a, b, c);
+  if (std::abs(area) < kRounding) return 0;  // edge on: its edges tell
+  const double sign = area > 0 ? 1 : -1;
+  const double of_a = turn(at, b, c), of_b = turn(at, c, a), of_c = turn(at, a, b);
+  if (std::min({sign * of_a, sign * of_b, sign * of_c}) < -kRounding) return 0;
+  return std::abs((of_a * a.z + of_b * b.z + of_c * c.z) / area - at.z);
+}
+
+// Between two segments along the normal, 0 where they do not cross.
+template <class Point>
+double distance_between(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const double of_a = turn(c, d, a), of_b = turn(c, d, b);
+  const double of_c = turn(a, b, c), of_d = turn(a, b, d);
+  const double across = of_a - of_b, along = of_c - of_d;
+  if (std::min(std::abs(across), std::abs(along)) < kRounding) return 0;  // parallel: points tell
+  const double on_first = of_a / across, on_second = of_c / along;
+  const double most = 1 + kRounding;
+  if (std::min(on_first, on_second) < -kRounding || std::max(on_first, on_second) > most) return 0;
+  return std::abs(a.z + on_first * (b.z - a.z) - (c.z + on_second * (d.z - c.z)));
+}
+
+}  // namespace
+
+void StarDistance::set_star(const Vec3d& centre, std::span<const Vec3d> link) {
+  project(centre, link);
+  if (fold_distance_ == 0 && folds()) fold_distance_ = distance_of_folds();
+}
+
+void StarDistance::project(const Vec3d& centre, std::span<const Vec3d> link) {
+  double size = 0;
+  for (const Vec3d& p : link) size = std::max(size, (p - centre).cwiseAbs().maxCoeff());
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  unit_ = std::ldexp(1.0, exponent);
+  Vec3d normal = Vec3d::Zero();
+  for (std::size_t i = 0; i < link.size(); ++i) {
+    const Vec3d& next = link[i + 1 == link.size() ? 0 : i + 1];
+    normal += ((link[i] - centre) / unit_).cross((next - centre) / unit_);
+  }
+  link_.clear();
+  const double length = normal.norm();
+  fold_distance_ = length > kRounding ? 0 : kInfinite;
+  if (fold_distance_ > 0) return;
+  normal /= length;
+  const Vec3d across = normal.unitOrthogonal(), up = normal.cross(across);
+  for (const Vec3d& p : link) {
+    const Vec3d d = (p - centre) / unit_;
+    link_.push_back({d.dot(across), d.dot(up), d.dot(normal)});
+  }
+}
+
+bool StarDistance::folds() const {
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    if (!(cross(link_[i], link_[after(i)]) > 0)) return true;
+  }
+  return false;
+}
+
+// The old star over the border, where it is not the border itself.
+double StarDistance::distance_of_folds() const {
+  constexpr Point kCentre{0, 0, 0};
+  double worst = 0;
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    for (std::size_t k = 0; k < link_.size(); ++k) {
+      if (k != i && k != after(i)) {
+        worst = std::max(worst, distance_over(link_[k], kCentre, link_[i], link_[after(i)]));
+      }
+      if (k != i && after(k) != i) {
+        worst = std::max(worst, distance_between(kCentre, link_[i], link_[k], link_[after(k)]));
+      }
+    }
+  }
+  return worst;
+}
+
+double StarDistance::bound(std::size_t to) const {
+  if (!(fold_distance_ < kInfinite)) return kInfinite;
+  constexpr Point kCentre{0, 0, 0};
+  const Point& target = link_[to];
+  double worst = fold_distance_;
+  bool covered = false;
+  for (std::size_t i = after(to); after(i) != to; i = after(i)) {
+    const Point &a = link_[i], &b = link_[after(i)];
+    if (!(turn(target, a, b) > 0)) return kInfinite;
+    covered = covered || std::min({turn(kCentre, a, b), turn(kCentre, b, target),
+                                   turn(kCentre, target, a)}) >= -kRounding;
+    worst = std::max(worst, distance_over(kCentre, target, a, b));
+  }
+  if (!covered) return kInfinite;
+  for (std::size_t i = after(after(to)); after(i) != to; i = after(i)) {
+    for (std::size_t k = 0; k < link_.size(); ++k) {
+      if (k == i || k == to) continue;
+      worst = std::max(worst, distance_between(kCentre, link_[k], target, link_[i]));
+    }
+  }
+  return worst * unit_;
+}
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,37 @@
+// How far the triangles around a point are from those that replace them when the point goes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <bsp/soup.h>
+
+namespace meshrepair::internal {
+
+class StarDistance {
+ public:
+  // `link` counter-clockwise around the centre as seen from outside.
+  void set_star(const Vec3d& centre, std::span<const Vec3d> link);
+
+  // No point of the triangles from link[to] to the edges of the link is farther from the star than
+  // this; infinite where, seen along the mean normal, they overlap or leave something out.
+  [[nodiscard]] double bound(std::size_t to) const;
+
+ private:
+  // Seen along the mean normal, z towards the eye; the centre is the origin. At most 1 from it.
+  struct Point {
+    double x, y, z;
+  };
+
+  [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == link_.size() ? 0 : i + 1; }
+  void project(const Vec3d& centre, std::span<const Vec3d> link);
+  [[nodiscard]] bool folds() const;
+  [[nodiscard]] double distance_of_folds() const;
+
+  std::vector<Point> link_;
+  double unit_ = 1;           // of the coordinates, a power of two
+  double fold_distance_ = 0;  // infinite where there is no normal
+};
+
+}  // namespace meshrepair::internal
