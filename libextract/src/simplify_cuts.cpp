@@ -28,6 +28,13 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // which make little difference, the shortest first: long ones leave long thin triangles.
 constexpr double kSmallShare = 1.0 / 64;
 
+// Rounds in which as few points as may be are told to stay; and those after which all do.
+constexpr std::size_t kPatientRounds = 4;
+constexpr std::size_t kMostRounds = 32;
+
+// More are found in the next round.
+constexpr std::size_t kMostPairs = 200'000;
+
 struct Move {
   double distance = kInfinite;  // of the new triangles from the surface at first
   double cost = 0, length = 0;
@@ -52,7 +59,7 @@ class CutSimplifier {
         mesh_(mesh.triangles, mesh.points.size()),
         version_(mesh.points.size(), 0),
         distance_(mesh.triangles.size(), 0),
-        moved_(mesh.points.size(), 0),
+        moved_onto_(mesh.points.size(), kNone),
         last_moved_(mesh.triangles.size(), kNone) {}
 
   void run() {
@@ -63,12 +70,21 @@ class CutSimplifier {
       const Move move = queue_.top();
       queue_.pop();
       cancel_.tick();
-      if (move.version == version_[move.point] && moved_[move.point] == 0) make(move);
+      if (move.version == version_[move.point] && !has_moved(move.point)) make(move);
     }
   }
 
   [[nodiscard]] const CollapsibleMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const std::vector<char>& moved() const { return moved_; }
+  [[nodiscard]] bool has_moved(std::uint32_t point) const { return moved_onto_[point] != kNone; }
+  // Where each point is now: where it was, if it has not moved.
+  [[nodiscard]] std::vector<std::uint32_t> places() const {
+    std::vector<std::uint32_t> places(moved_onto_.size());
+    std::iota(places.begin(), places.end(), 0u);
+    for (auto point = moves_.rbegin(); point != moves_.rend(); ++point) {
+      places[*point] = places[moved_onto_[*point]];
+    }
+    return places;
+  }
   // The point whose move changed the triangle last, or kNone.
   [[nodiscard]] std::uint32_t last_moved(std::uint32_t triangle) const {
     return last_moved_[triangle];
@@ -118,15 +134,16 @@ class CutSimplifier {
       return consider(move.point);
     }
     mesh_.collapse(star_, to);
-    moved_[move.point] = 1;
+    moved_onto_[move.point] = move.target;
+    moves_.push_back(move.point);
     farthest_ = std::max(farthest_, move.distance);
     for (const std::uint32_t t : star_.triangles) {
       distance_[t] = move.distance;
       last_moved_[t] = move.point;
     }
-    const std::vector<std::uint32_t> around = star_.link;
-    for (const std::uint32_t p : around) ++version_[p];
-    for (const std::uint32_t p : around) {
+    around_ = star_.link;
+    for (const std::uint32_t p : around_) ++version_[p];
+    for (const std::uint32_t p : around_) {
       if (stays_[p] == 0) consider(p);
     }
   }
@@ -137,13 +154,15 @@ class CutSimplifier {
   CancelCheck cancel_;
   CollapsibleMesh mesh_;
   std::vector<std::uint32_t> version_;
-  std::vector<double> distance_;  // of each triangle from the surface at first, at most
-  std::vector<char> moved_;       // of each point, whether it is gone
-  std::vector<std::uint32_t> last_moved_;
+  std::vector<double> distance_;           // of each triangle from the surface at first, at most
+  std::vector<std::uint32_t> moved_onto_;  // of each point, the neighbour, or kNone
+  std::vector<std::uint32_t> moves_;       // the points that moved, in their order
+  std::vector<std::uint32_t> last_moved_;  // of each triangle, the point that changed it last
   double farthest_ = 0;
   std::priority_queue<Move> queue_;
   PointStar star_;
   std::vector<Vec3d> link_;
+  std::vector<std::uint32_t> around_;
   StarDistance star_distance_;
 };
 
@@ -163,7 +182,7 @@ std::vector<std::uint32_t> compact(const Surface& from, const CutSimplifier& sim
   to = {};
   std::vector<std::uint32_t> new_index(from.mesh.points.size(), kNone), kept;
   for (std::uint32_t p = 0; p < from.mesh.points.size(); ++p) {
-    if (simplifier.moved()[p] != 0) continue;
+    if (simplifier.has_moved(p)) continue;
     new_index[p] = static_cast<std::uint32_t>(to.mesh.points.size());
     to.mesh.points.push_back(from.mesh.points[p]);
     to.input_point.push_back(from.input_point[p]);
@@ -178,6 +197,36 @@ std::vector<std::uint32_t> compact(const Surface& from, const CutSimplifier& sim
   return kept;
 }
 
+// Triangles of the result that are not as they were.
+std::vector<std::uint32_t> changed_triangles(const CutSimplifier& simplifier,
+                                             const std::vector<std::uint32_t>& kept) {
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t t = 0; t < kept.size(); ++t) {
+    if (simplifier.last_moved(kept[t]) != kNone) changed.push_back(t);
+  }
+  return changed;
+}
+
+// Of each pair of triangles that meet, the last move that changed one; from some round on, all that
+// ended in its corners. At least one point more each time.
+void keep_apart(const CutSimplifier& simplifier, const std::vector<std::uint32_t>& kept,
+                const SelfIntersections& meeting, std::size_t round, std::vector<char>& stays) {
+  std::vector<char> is_corner(stays.size(), 0);
+  for (const auto& pair : meeting.pairs) {
+    for (const std::uint32_t t : pair) {
+      const std::uint32_t last = simplifier.last_moved(kept[t]);
+      if (last == kNone) continue;
+      stays[last] = 1;
+      for (const std::uint32_t p : simplifier.mesh().triangles()[kept[t]]) is_corner[p] = 1;
+    }
+  }
+  if (round < kPatientRounds) return;
+  const std::vector<std::uint32_t> places = simplifier.places();
+  for (std::uint32_t p = 0; p < stays.size(); ++p) {
+    if (simplifier.has_moved(p) && is_corner[places[p]] != 0) stays[p] = 1;
+  }
+}
+
 }  // namespace
 
 void simplify_cuts(Surface& surface, const std::vector<char>& whole, const SimplifyOptions& options,
@@ -186,35 +235,28 @@ void simplify_cuts(Surface& surface, const std::vector<char>& whole, const Simpl
   std::vector<char> stays = points_to_keep(surface.mesh, whole);
   const auto to_stay = std::count(stays.begin(), stays.end(), 1);
   if (!(options.within > 0) || to_stay == static_cast<std::ptrdiff_t>(stays.size())) return;
-  for (;;) {
+  SelfIntersectionOptions test;
+  test.most_pairs = kMostPairs;
+  test.progress = options.progress;
+  while (report.rounds < kMostRounds) {
     ++report.rounds;
     CutSimplifier simplifier(surface.mesh, stays, options.within, options.progress);
     simplifier.run();
     Surface result;
     const std::vector<std::uint32_t> kept = compact(surface, simplifier, result);
-    std::vector<std::uint32_t> changed;
-    for (std::uint32_t t = 0; t < kept.size(); ++t) {
-      if (simplifier.last_moved(kept[t]) != kNone) changed.push_back(t);
+    const SelfIntersections meeting =
+        self_intersections(result.mesh, changed_triangles(simplifier, kept), test);
+    if (!meeting.pairs.empty()) {
+      keep_apart(simplifier, kept, meeting, report.rounds, stays);
+      continue;
     }
-    SelfIntersectionOptions meeting;
-    meeting.most_pairs = 200'000;
-    meeting.progress = options.progress;
-    const SelfIntersections found = self_intersections(result.mesh, changed, meeting);
-    if (found.pairs.empty()) {
-      report.removed_points = surface.mesh.points.size() - result.mesh.points.size();
-      report.removed_triangles = surface.mesh.triangles.size() - result.mesh.triangles.size();
-      report.distance = simplifier.distance();
-      report.points_to_stay =
-          static_cast<std::size_t>(std::count(stays.begin(), stays.end(), 1) - to_stay);
-      surface = std::move(result);
-      return;
-    }
-    for (const auto& pair : found.pairs) {
-      for (const std::uint32_t t : pair) {
-        const std::uint32_t p = simplifier.last_moved(kept[t]);
-        if (p != kNone) stays[p] = 1;
-      }
-    }
+    report.removed_points = surface.mesh.points.size() - result.mesh.points.size();
+    report.removed_triangles = surface.mesh.triangles.size() - result.mesh.triangles.size();
+    report.distance = simplifier.distance();
+    report.points_to_stay =
+        static_cast<std::size_t>(std::count(stays.begin(), stays.end(), 1) - to_stay);
+    surface = std::move(result);
+    return;
   }
 }
 
