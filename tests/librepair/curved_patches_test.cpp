@@ -124,6 +124,15 @@ TEST(CurvedPatches, OfACylinderStayOnIt) {
   }
 }
 
+TEST(CurvedPatches, GrowCoarserInwards) {
+  const TriangleSoup whole = sphere(20000);
+  const TriangleSoup open = pierced(whole, kLargeCap);
+  const RepairResult result = closed_by(open, HoleMode::patch);
+  const std::size_t missing = whole.triangles.size() - open.triangles.size();
+  EXPECT_LT(result.report.holes.triangles, 0.5 * static_cast<double>(missing));
+  EXPECT_LT(std::abs(result.report.output_volume / signed_volume(whole) - 1), 2e-3);
+}
+
 TEST(CurvedPatches, OfATorusFollowBothCurvatures) {
   const TriangleSoup whole = torus(120, 60);
   for (const Vec3d& centre : {Vec3d(2.7, 0, 0), Vec3d(1.3, 0, 0), Vec3d(2, 0, 0.7)}) {
