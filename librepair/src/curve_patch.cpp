@@ -24,6 +24,19 @@ constexpr double kSteep = 1.2;
 constexpr double kSteepAtPlane = 0.3;
 constexpr double kPlanar = 1e-3;  // of the rim's extent
 
+// Solutions with the weights of the shape at hand: the rounds of least bending, and at most those
+// of even bending, which end where no point moves by more than a share of the rim's extent.
+constexpr int kLeastRounds = 2;
+constexpr int kEvenRounds = 6;
+constexpr double kSettled = 1e-3;
+
+// The share of L x along the surface that even bending leaves as it is. With less the points of
+// large patches slide from round to round; with all of it patches keep the noise of their rims.
+constexpr double kHeld = 0.8;
+
+// Even bending is not to leave the rim more steeply than least bending, or hardly.
+constexpr double kAsSteep = 1.05;
+
 using Sparse = Eigen::SparseMatrix<double>;
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
@@ -79,9 +92,15 @@ bool goes_on_curved(const Rim& rim, const LoopTriangulation& flat) {
 }
 
 // Solves for the new points: they minimise the sum over all points of the rim and the patch of
-// |L x|^2 / area, L the cotangent Laplacian of the patch and the collar.
+// |L x - b|^2 / area, L the cotangent Laplacian of the patch and the collar. b is 0 for least
+// bending. That makes caps of a sphere too flat, the more the larger they are; with even bending
+// spheres, cylinders and planes stay what they are: b has the part h s along the normal of the
+// shape at hand, s the point's share of the area and h, twice the mean curvature, the one number
+// that fits this shape best.
 class Bending {
  public:
+  enum class Kind { least, even };
+
   Bending(PatchMesh& patch, const Rim& rim, const Collar& collar)
       : patch_(patch),
         rim_(static_cast<Eigen::Index>(rim.size())),
@@ -97,7 +116,7 @@ class Bending {
   }
 
   // With weights of the shape at hand; false where that gives no numbers.
-  bool solve() {
+  bool solve(Kind kind) {
     const Sparse laplacian = weighted_laplacian();
     const Sparse moving = laplacian.middleCols(rim_, inner_ - rim_);
     Positions fixed(laplacian.cols(), 3);
@@ -105,21 +124,69 @@ class Bending {
       const bool is_moving = i >= rim_ && i < inner_;
       fixed.row(i) = is_moving ? Vec3d::Zero() : points_[static_cast<std::size_t>(i)];
     }
+    Positions wanted = -(laplacian * fixed);
+    if (kind == Kind::even) wanted += even_bend(laplacian);
     const Sparse system = moving.transpose() * moving;
-    const Positions right = -(moving.transpose() * (laplacian * fixed));
+    const Positions right = moving.transpose() * wanted;
     Eigen::SimplicialLDLT<Sparse> solver(system);
     if (solver.info() != Eigen::Success) return false;
     const Positions solution = solver.solve(right);
     if (solver.info() != Eigen::Success || !solution.allFinite()) return false;
+    farthest_ = 0;
     for (Eigen::Index i = rim_; i < inner_; ++i) {
       const Vec3d at = solution.row(i - rim_);
+      farthest_ = std::max(farthest_, (at - points_[static_cast<std::size_t>(i)]).norm());
       points_[static_cast<std::size_t>(i)] = at;
       patch_.points[static_cast<std::size_t>(i)] = at;
     }
     return true;
   }
 
+  // That a point went in the last solution.
+  [[nodiscard]] double farthest_move() const { return farthest_; }
+
  private:
+  // The part of L x along each normal is to be h s, which on a sphere holds for all points and any
+  // weights. What lies along the surface comes from the mesh, not the shape.
+  [[nodiscard]] Positions even_bend(const Sparse& laplacian) const {
+    Positions at(laplacian.cols(), 3);
+    for (Eigen::Index i = 0; i < at.rows(); ++i) at.row(i) = points_[static_cast<std::size_t>(i)];
+    Eigen::VectorXd share = Eigen::VectorXd::Zero(inner_);
+    for (Eigen::Index column = 0; column < laplacian.outerSize(); ++column) {
+      for (Sparse::InnerIterator entry(laplacian, column); entry; ++entry) {
+        const double length2 = (at.row(entry.row()) - at.row(column)).squaredNorm();
+        share[entry.row()] += 0.25 * entry.value() * length2;
+      }
+    }
+    const Positions normal = normals(), bend = laplacian * at;
+    const Eigen::VectorXd along = bend.cwiseProduct(normal).rowwise().sum();
+    const double even = along.dot(share) / std::max(share.squaredNorm(), 1e-300);
+    return kHeld * bend + (even * share - kHeld * along).asDiagonal() * normal;
+  }
+
+  // Of the rim and the patch. The surface may run either way round: its triangles are turned as
+  // those of the patch at each point.
+  [[nodiscard]] Positions normals() const {
+    Positions sum = Positions::Zero(inner_, 3), own = sum;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      const Vec3d normal = (points_[b] - points_[a]).cross(points_[c] - points_[a]);
+      const bool in_collar = t >= patch_.triangles.size();
+      if (t == patch_.triangles.size()) own = sum;
+      for (const std::uint32_t p : triangles_[t]) {
+        const auto row = static_cast<Eigen::Index>(p);
+        if (row >= inner_) continue;
+        const bool turned = in_collar && own.row(row).dot(normal) < 0;
+        sum.row(row) += turned ? Vec3d(-normal) : normal;
+      }
+    }
+    for (Eigen::Index row = 0; row < inner_; ++row) {
+      const double length = sum.row(row).norm();
+      if (length > 0) sum.row(row) /= length;
+    }
+    return sum;
+  }
+
   // Rows of the rim and the new points, each divided by the root of its area.
   [[nodiscard]] Sparse weighted_laplacian() const {
     std::vector<Eigen::Triplet<double>> entries;
@@ -164,7 +231,12 @@ class Bending {
   Eigen::Index rim_, inner_;  // the new points lie between these positions
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Vec3d> points_;
+  double farthest_ = 0;
 };
+
+double mean_bend(const Rim& rim, const PatchMesh& patch) {
+  return mean_bend(rim, patch.points, patch.triangles);
+}
 
 // Not where it went far away, or leaves the rim more steeply than the flat patch.
 bool is_sound(const PatchMesh& bent, const PatchMesh& flat, const Rim& rim) {
@@ -172,7 +244,28 @@ bool is_sound(const PatchMesh& bent, const PatchMesh& flat, const Rim& rim) {
   for (std::size_t i = rim.size(); i < bent.points.size(); ++i) {
     if ((bent.points[i] - flat.points[i]).norm() > reach) return false;
   }
-  return mean_bend(rim, bent.points, bent.triangles) <= mean_bend(rim, flat.points, flat.triangles);
+  return mean_bend(rim, bent) <= mean_bend(rim, flat);
+}
+
+bool bend_least(PatchMesh& patch, const Rim& rim, const Collar& collar,
+                const std::function<void()>& poll) {
+  for (int round = 0; round < kLeastRounds; ++round) {
+    if (poll) poll();
+    if (!Bending(patch, rim, collar).solve(Bending::Kind::least)) return false;
+  }
+  return true;
+}
+
+bool bend_evenly(PatchMesh& patch, const Rim& rim, const Collar& collar,
+                 const std::function<void()>& poll) {
+  const double settled = kSettled * extent_of(rim.points);
+  Bending bending(patch, rim, collar);
+  for (int round = 0; round < kEvenRounds; ++round) {
+    if (poll) poll();
+    if (!bending.solve(Bending::Kind::even)) return false;
+    if (bending.farthest_move() <= settled) break;
+  }
+  return true;
 }
 
 }  // namespace
@@ -184,13 +277,10 @@ std::optional<PatchMesh> curve_patch(const Rim& rim, const LoopTriangulation& fl
   refine_patch(patch, std::max(kMostPoints, 2 * rim.size()), poll);
   if (patch.points.size() == rim.size()) return std::nullopt;
   const PatchMesh before = patch;
-  // The second time with the weights of the bent shape.
-  for (int round = 0; round < 2; ++round) {
-    if (poll) poll();
-    if (!Bending(patch, rim, collar).solve()) return std::nullopt;
-  }
-  if (!is_sound(patch, before, rim)) return std::nullopt;
-  return patch;
+  if (!bend_least(patch, rim, collar, poll) || !is_sound(patch, before, rim)) return std::nullopt;
+  PatchMesh even = patch;
+  if (!bend_evenly(even, rim, collar, poll) || !is_sound(even, before, rim)) return patch;
+  return mean_bend(rim, even) <= kAsSteep * mean_bend(rim, patch) ? even : patch;
 }
 
 }  // namespace meshrepair::internal

@@ -20,9 +20,10 @@ struct Collar {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Gives the patch points of its own and bends it to a surface of least bending that leaves the rim
-// as the surface arrives there (Liepa 2003, section 5, with the cotangent Laplacian). Nothing where
-// the flat patch is as good or better: the rim is short, the surface goes on straight, or it
+// Gives the patch points of its own and bends it to a surface that leaves the rim as the surface
+// around it arrives there: first to one of least bending (Liepa 2003, section 5, with the cotangent
+// Laplacian), then to one of even mean curvature, as a sphere has it, where that is sound. Nothing
+// where the flat patch is as good or better: the rim is short, the surface goes on straight, or it
 // arrives so steeply that what is missing is rather a face of its own, as the lid of a box.
 [[nodiscard]] std::optional<PatchMesh> curve_patch(const Rim& rim, const LoopTriangulation& flat,
                                                    const Collar& collar,

@@ -18,6 +18,10 @@ constexpr int kMostPasses = 20;  // of turning edges, after each pass of splitti
 // rim's points are apart (Liepa's alpha).
 constexpr double kDensity = std::numbers::sqrt2;
 
+// Points grow less dense from hop to hop inwards: far from the rim there is nothing to be shown in
+// detail.
+constexpr double kGrowth = 1.1;
+
 class Refiner {
  public:
   Refiner(PatchMesh& patch, std::size_t most_points, const std::function<void()>& poll)
@@ -94,7 +98,7 @@ class Refiner {
     for (std::uint32_t t = 0; t < count; ++t) {
       const Corners c = triangles_[t];
       const Vec3d middle = (points_[c[0]] + points_[c[1]] + points_[c[2]]) / 3;
-      const double scale = (scales_[c[0]] + scales_[c[1]] + scales_[c[2]]) / 3;
+      const double scale = kGrowth * (scales_[c[0]] + scales_[c[1]] + scales_[c[2]]) / 3;
       const bool large = std::all_of(c.begin(), c.end(), [&](std::uint32_t p) {
         const double reach = kDensity * (points_[p] - middle).norm();
         return reach > scale && reach > scales_[p];

@@ -3,6 +3,7 @@
 #include <functional>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +57,80 @@ TEST(CurvedPatches, OfASphereAreNearlyRound) {
   const RepairResult result = closed_by(open, HoleMode::patch);
   EXPECT_EQ(result.report.holes.curved, 1u);
   for (const Vec3d& p : result.surface.mesh.points) EXPECT_NEAR(p.norm(), 1, 2e-2);
+}
+
+// 15 % of the sphere is missing.
+const Inside kLargeCap = ball({0.6, -0.64, 0.48}, 0.775);
+
+TEST(CurvedPatches, OfALargeCapOfASphereAreNearlyRound) {
+  const TriangleSoup whole = sphere(5000);
+  const TriangleSoup open = pierced(whole, kLargeCap);
+  EXPECT_GT(volume_error(whole, open, HoleMode::flat), 3e-2);
+  EXPECT_LT(volume_error(whole, open, HoleMode::patch), 2e-3);
+}
+
+// The patch runs round its rim in a direction of its own.
+TEST(CurvedPatches, AreTheSameWhicheverWayTheSurfaceRuns) {
+  TriangleSoup open = pierced(sphere(5000), kLargeCap);
+  for (int turn = 0; turn < 2; ++turn) {
+    CleanSoup soup = cleaned(open);
+    HoleReport report;
+    patch_holes(soup, {}, report);
+    EXPECT_EQ(report.curved, 1u);
+    for (PointId p(0u); p < soup.points.end_id(); ++p.value) {
+      EXPECT_NEAR(soup.points[p].norm(), 1, 5e-3);
+    }
+    for (auto& t : open.triangles) std::swap(t[1], t[2]);
+  }
+}
+
+TEST(CurvedPatches, OfNoisySpheresDoNotBulge) {
+  for (const double noise : {0.005, 0.015}) {  // 10 % and 30 % of an edge
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(seed);
+      Random random(seed);
+      TriangleSoup whole = sphere(5000);
+      for (Vec3d& p : whole.points) {
+        p += noise * Vec3d(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1));
+      }
+      const TriangleSoup open = pierced(whole, kLargeCap);
+      EXPECT_LT(volume_error(whole, open, HoleMode::patch), 1.5e-2);
+      for (const Vec3d& p : closed_by(open, HoleMode::patch).surface.mesh.points) {
+        EXPECT_LT(p.norm(), 1.02 + noise);
+      }
+    }
+  }
+}
+
+TEST(CurvedPatches, OfACylinderStayOnIt) {
+  TriangleSoup whole;
+  constexpr std::uint32_t kAround = 120, kAlong = 60;
+  for (std::uint32_t z = 0; z <= kAlong; ++z) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double a = 2 * std::numbers::pi * i / kAround;
+      whole.points.emplace_back(std::cos(a), std::sin(a), 0.05 * z);
+    }
+  }
+  for (std::uint32_t p = 0; p < kAlong * kAround; ++p) {
+    const std::uint32_t next = p % kAround + 1 == kAround ? p + 1 - kAround : p + 1;
+    whole.triangles.push_back({p, next, next + kAround});
+    whole.triangles.push_back({p, next + kAround, p + kAround});
+  }
+  const TriangleSoup open = pierced(whole, ball({1, 0, 1.5}, 0.7));
+  const RepairResult result = closed_by(open, HoleMode::patch);
+  EXPECT_EQ(result.report.holes.curved, 1u);
+  for (const Vec3d& p : result.surface.mesh.points) {
+    EXPECT_NEAR(std::hypot(p.x(), p.y()), 1, 1e-2);
+  }
+}
+
+TEST(CurvedPatches, GrowCoarserInwards) {
+  const TriangleSoup whole = sphere(20000);
+  const TriangleSoup open = pierced(whole, kLargeCap);
+  const RepairResult result = closed_by(open, HoleMode::patch);
+  const std::size_t missing = whole.triangles.size() - open.triangles.size();
+  EXPECT_LT(result.report.holes.triangles, 0.5 * static_cast<double>(missing));
+  EXPECT_LT(std::abs(result.report.output_volume / signed_volume(whole) - 1), 2e-3);
 }
 
 TEST(CurvedPatches, OfATorusFollowBothCurvatures) {
