@@ -32,6 +32,8 @@ class CollapsibleMesh {
     return triangles_;
   }
   [[nodiscard]] bool is_left(std::uint32_t triangle) const { return left_[triangle] != 0; }
+  // Triangles of the point.
+  [[nodiscard]] std::uint32_t degree(std::uint32_t point) const { return degree_[point]; }
 
   // False for a point that has no triangles any more, or too many, or such a neighbour.
   [[nodiscard]] bool find_star(std::uint32_t point, PointStar& star);

@@ -7,7 +7,10 @@
 #include <tuple>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <bsp/double_predicates.h>
+#include <extract/part_orientation.h>
 #include <extract/self_intersections.h>
 #include <extract/simplify_cuts.h>
 
@@ -28,9 +31,13 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // which make little difference, the shortest first: long ones leave long thin triangles.
 constexpr double kSmallShare = 1.0 / 64;
 
+// The work for a star grows with the cube of its size, so larger ones are not looked at again after
+// each move around them.
+constexpr std::uint32_t kLargeStar = 10;
+
 // Rounds in which as few points as may be are told to stay; and those after which all do.
-constexpr std::size_t kPatientRounds = 4;
-constexpr std::size_t kMostRounds = 32;
+constexpr std::size_t kPatientRounds = 2;
+constexpr std::size_t kMostRounds = 16;
 
 // More are found in the next round.
 constexpr std::size_t kMostPairs = 200'000;
@@ -58,6 +65,7 @@ class CutSimplifier {
         cancel_(progress),
         mesh_(mesh.triangles, mesh.points.size()),
         version_(mesh.points.size(), 0),
+        waits_(mesh.points.size(), 0),
         distance_(mesh.triangles.size(), 0),
         moved_onto_(mesh.points.size(), kNone),
         last_moved_(mesh.triangles.size(), kNone) {}
@@ -70,7 +78,13 @@ class CutSimplifier {
       const Move move = queue_.top();
       queue_.pop();
       cancel_.tick();
-      if (move.version == version_[move.point] && !has_moved(move.point)) make(move);
+      if (has_moved(move.point)) continue;
+      if (move.target == kNone) {
+        waits_[move.point] = 0;
+        consider(move.point);
+      } else if (move.version == version_[move.point]) {
+        make(move);
+      }
     }
   }
 
@@ -106,13 +120,23 @@ class CutSimplifier {
     for (std::size_t i = 0; i < link_.size(); ++i) {
       Move move = best;
       move.target = star_.link[i];
-      move.length = (link_[i] - points_[point]).norm();
-      move.distance = before + std::min(star_distance_.bound(i), move.length);
+      move.length = (link_[i] - points_[point]).stableNorm();
+      move.distance = before + std::min(star_distance_.bound(i, within_ - before), move.length);
       if (!(move.distance <= within_)) continue;
       move.cost = std::max(move.distance, kSmallShare * within_);
       if (best < move && may_move(i)) best = move;
     }
     if (best.target != kNone) queue_.push(best);
+  }
+
+  // Until all moves that are known have been made.
+  void postpone(std::uint32_t point) {
+    if (waits_[point] != 0) return;
+    waits_[point] = 1;
+    Move later;
+    later.cost = later.length = kInfinite;
+    later.point = point;
+    queue_.push(later);
   }
 
   bool may_move(std::size_t to) {
@@ -144,7 +168,12 @@ class CutSimplifier {
     around_ = star_.link;
     for (const std::uint32_t p : around_) ++version_[p];
     for (const std::uint32_t p : around_) {
-      if (stays_[p] == 0) consider(p);
+      if (stays_[p] != 0) continue;
+      if (mesh_.degree(p) > kLargeStar) {
+        postpone(p);
+      } else {
+        consider(p);
+      }
     }
   }
 
@@ -154,6 +183,7 @@ class CutSimplifier {
   CancelCheck cancel_;
   CollapsibleMesh mesh_;
   std::vector<std::uint32_t> version_;
+  std::vector<char> waits_;                // of each point, whether it is postponed
   std::vector<double> distance_;           // of each triangle from the surface at first, at most
   std::vector<std::uint32_t> moved_onto_;  // of each point, the neighbour, or kNone
   std::vector<std::uint32_t> moves_;       // the points that moved, in their order
@@ -207,20 +237,60 @@ std::vector<std::uint32_t> changed_triangles(const CutSimplifier& simplifier,
   return changed;
 }
 
-// Of each pair of triangles that meet, the last move that changed one; from some round on, all that
-// ended in its corners. At least one point more each time.
-void keep_apart(const CutSimplifier& simplifier, const std::vector<std::uint32_t>& kept,
-                const SelfIntersections& meeting, std::size_t round, std::vector<char>& stays) {
-  std::vector<char> is_corner(stays.size(), 0);
-  for (const auto& pair : meeting.pairs) {
-    for (const std::uint32_t t : pair) {
-      const std::uint32_t last = simplifier.last_moved(kept[t]);
-      if (last == kNone) continue;
-      stays[last] = 1;
-      for (const std::uint32_t p : simplifier.mesh().triangles()[kept[t]]) is_corner[p] = 1;
+// The triangles of the result that moves have brought where they meet others.
+std::vector<std::uint32_t> meeting_triangles(const TriangleSoup& mesh,
+                                             const std::vector<std::uint32_t>& changed,
+                                             ProgressObserver* progress) {
+  SelfIntersectionOptions options;
+  options.most_pairs = kMostPairs;
+  options.progress = progress;
+  std::vector<std::uint32_t> blamed;
+  for (const auto& pair : self_intersections(mesh, changed, options).pairs) {
+    blamed.insert(blamed.end(), pair.begin(), pair.end());
+  }
+  return blamed;
+}
+
+// A part that was flattened may face the wrong way then, and so does one that another part's
+// surface was moved across: the changed triangles of those parts, and those around them.
+std::vector<std::uint32_t> turning_triangles(const TriangleSoup& mesh,
+                                             const std::vector<std::uint32_t>& changed,
+                                             double within, ProgressObserver* progress) {
+  const PartOrientation parts = examine_part_orientation(mesh, progress);
+  std::vector<Eigen::AlignedBox3d> boxes(parts.inside_out.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (parts.inside_out[parts.part_of[t]] == 0) continue;
+    for (const std::uint32_t p : mesh.triangles[t]) {
+      boxes[parts.part_of[t]].extend(mesh.points[p]);
     }
   }
-  if (round < kPatientRounds) return;
+  std::erase_if(boxes, [](const Eigen::AlignedBox3d& box) { return box.isEmpty(); });
+  std::vector<std::uint32_t> blamed;
+  for (const std::uint32_t t : boxes.empty() ? std::vector<std::uint32_t>() : changed) {
+    Eigen::AlignedBox3d reach;
+    for (const std::uint32_t p : mesh.triangles[t]) reach.extend(mesh.points[p]);
+    reach.min().array() -= within;
+    reach.max().array() += within;
+    if (std::any_of(boxes.begin(), boxes.end(),
+                    [&](const Eigen::AlignedBox3d& box) { return box.intersects(reach); })) {
+      blamed.push_back(t);
+    }
+  }
+  return blamed;
+}
+
+// Of each triangle to blame, the point that changed it last; where that takes too many rounds, all
+// points that ended in its corners. At least one point more each time.
+void take_back(const CutSimplifier& simplifier, const std::vector<std::uint32_t>& kept,
+               const std::vector<std::uint32_t>& blamed, bool all, std::vector<char>& stays) {
+  std::vector<char> is_corner(stays.size(), 0);
+  for (const std::uint32_t t : blamed) {
+    const std::uint32_t last = simplifier.last_moved(kept[t]);
+    if (last == kNone) continue;
+    stays[last] = 1;
+    for (const std::uint32_t p : simplifier.mesh().triangles()[kept[t]]) is_corner[p] = 1;
+  }
+  if (!all) return;
   const std::vector<std::uint32_t> places = simplifier.places();
   for (std::uint32_t p = 0; p < stays.size(); ++p) {
     if (simplifier.has_moved(p) && is_corner[places[p]] != 0) stays[p] = 1;
@@ -235,19 +305,19 @@ void simplify_cuts(Surface& surface, const std::vector<char>& whole, const Simpl
   std::vector<char> stays = points_to_keep(surface.mesh, whole);
   const auto to_stay = std::count(stays.begin(), stays.end(), 1);
   if (!(options.within > 0) || to_stay == static_cast<std::ptrdiff_t>(stays.size())) return;
-  SelfIntersectionOptions test;
-  test.most_pairs = kMostPairs;
-  test.progress = options.progress;
   while (report.rounds < kMostRounds) {
     ++report.rounds;
     CutSimplifier simplifier(surface.mesh, stays, options.within, options.progress);
     simplifier.run();
     Surface result;
     const std::vector<std::uint32_t> kept = compact(surface, simplifier, result);
-    const SelfIntersections meeting =
-        self_intersections(result.mesh, changed_triangles(simplifier, kept), test);
-    if (!meeting.pairs.empty()) {
-      keep_apart(simplifier, kept, meeting, report.rounds, stays);
+    const std::vector<std::uint32_t> changed = changed_triangles(simplifier, kept);
+    if (changed.empty()) return;
+    auto blamed = meeting_triangles(result.mesh, changed, options.progress);
+    const bool meet = !blamed.empty();
+    if (!meet) blamed = turning_triangles(result.mesh, changed, options.within, options.progress);
+    if (!blamed.empty()) {
+      take_back(simplifier, kept, blamed, !meet || report.rounds > kPatientRounds, stays);
       continue;
     }
     report.removed_points = surface.mesh.points.size() - result.mesh.points.size();

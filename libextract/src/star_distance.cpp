@@ -1,7 +1,7 @@
-// Both stars have the link as their border, and the new one covers what is inside the border once,
-// seen along the normal. So each of its points has some of the old star above or below it, and
-// where edges of neither pass between, the distance along the normal changes linearly. What is left
-// to look at are the places where an edge of one lies over an edge or a point of the other.
+// Both stars have the link as their border, and cover what is inside the border once, seen along
+// the normal. So each point of the new star has one of the old star above or below it, and where
+// edges of neither pass between, the distance along the normal changes linearly. What is left to
+// look at are the places where an edge of one lies over an edge or the centre of the other.
 #include "star_distance.h"
 
 #include <algorithm>
@@ -56,11 +56,6 @@ double distance_between(const Point& a, const Point& b, const Point& c, const Po
 }  // namespace
 
 void StarDistance::set_star(const Vec3d& centre, std::span<const Vec3d> link) {
-  project(centre, link);
-  if (fold_distance_ == 0 && folds()) fold_distance_ = distance_of_folds();
-}
-
-void StarDistance::project(const Vec3d& centre, std::span<const Vec3d> link) {
   double size = 0;
   for (const Vec3d& p : link) size = std::max(size, (p - centre).cwiseAbs().maxCoeff());
   int exponent = 0;
@@ -73,52 +68,42 @@ void StarDistance::project(const Vec3d& centre, std::span<const Vec3d> link) {
   }
   link_.clear();
   const double length = normal.norm();
-  fold_distance_ = length > kRounding ? 0 : kInfinite;
-  if (fold_distance_ > 0) return;
+  is_flat_fan_ = false;
+  if (!(length > kRounding)) return;
   normal /= length;
   const Vec3d across = normal.unitOrthogonal(), up = normal.cross(across);
   for (const Vec3d& p : link) {
     const Vec3d d = (p - centre) / unit_;
     link_.push_back({d.dot(across), d.dot(up), d.dot(normal)});
   }
+  is_flat_fan_ = is_flat_fan();
 }
 
-bool StarDistance::folds() const {
+// Whether all triangles lie beside each other, once round the centre: the link is a simple polygon.
+bool StarDistance::is_flat_fan() const {
+  std::size_t turns = 0;
   for (std::size_t i = 0; i < link_.size(); ++i) {
-    if (!(cross(link_[i], link_[after(i)]) > 0)) return true;
+    const Point &a = link_[i], &b = link_[after(i)];
+    if (!(cross(a, b) > kRounding)) return false;
+    turns += a.y < 0 && b.y >= 0 ? 1 : 0;
   }
-  return false;
+  return turns == 1;
 }
 
-// The old star over the border, where it is not the border itself.
-double StarDistance::distance_of_folds() const {
-  constexpr Point kCentre{0, 0, 0};
-  double worst = 0;
-  for (std::size_t i = 0; i < link_.size(); ++i) {
-    for (std::size_t k = 0; k < link_.size(); ++k) {
-      if (k != i && k != after(i)) {
-        worst = std::max(worst, distance_over(link_[k], kCentre, link_[i], link_[after(i)]));
-      }
-      if (k != i && after(k) != i) {
-        worst = std::max(worst, distance_between(kCentre, link_[i], link_[k], link_[after(k)]));
-      }
-    }
-  }
-  return worst;
-}
-
-double StarDistance::bound(std::size_t to) const {
-  if (!(fold_distance_ < kInfinite)) return kInfinite;
+double StarDistance::bound(std::size_t to, double most) const {
+  if (!is_flat_fan_) return kInfinite;
   constexpr Point kCentre{0, 0, 0};
   const Point& target = link_[to];
-  double worst = fold_distance_;
+  most /= unit_;
+  double worst = 0;
   bool covered = false;
   for (std::size_t i = after(to); after(i) != to; i = after(i)) {
     const Point &a = link_[i], &b = link_[after(i)];
-    if (!(turn(target, a, b) > 0)) return kInfinite;
+    if (!(turn(target, a, b) > kRounding)) return kInfinite;
     covered = covered || std::min({turn(kCentre, a, b), turn(kCentre, b, target),
                                    turn(kCentre, target, a)}) >= -kRounding;
     worst = std::max(worst, distance_over(kCentre, target, a, b));
+    if (worst > most) return kInfinite;
   }
   if (!covered) return kInfinite;
   for (std::size_t i = after(after(to)); after(i) != to; i = after(i)) {
@@ -126,6 +111,7 @@ double StarDistance::bound(std::size_t to) const {
       if (k == i || k == to) continue;
       worst = std::max(worst, distance_between(kCentre, link_[k], target, link_[i]));
     }
+    if (worst > most) return kInfinite;
   }
   return worst * unit_;
 }

@@ -15,8 +15,9 @@ class StarDistance {
   void set_star(const Vec3d& centre, std::span<const Vec3d> link);
 
   // No point of the triangles from link[to] to the edges of the link is farther from the star than
-  // this; infinite where, seen along the mean normal, they overlap or leave something out.
-  [[nodiscard]] double bound(std::size_t to) const;
+  // this; infinite where that would be more than `most`, or where, seen along the mean normal,
+  // triangles of either star do not lie beside each other.
+  [[nodiscard]] double bound(std::size_t to, double most) const;
 
  private:
   // Seen along the mean normal, z towards the eye; the centre is the origin. At most 1 from it.
@@ -25,13 +26,11 @@ class StarDistance {
   };
 
   [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == link_.size() ? 0 : i + 1; }
-  void project(const Vec3d& centre, std::span<const Vec3d> link);
-  [[nodiscard]] bool folds() const;
-  [[nodiscard]] double distance_of_folds() const;
+  [[nodiscard]] bool is_flat_fan() const;
 
   std::vector<Point> link_;
-  double unit_ = 1;           // of the coordinates, a power of two
-  double fold_distance_ = 0;  // infinite where there is no normal
+  double unit_ = 1;  // of the coordinates, a power of two
+  bool is_flat_fan_ = false;
 };
 
 }  // namespace meshrepair::internal

@@ -189,10 +189,39 @@ TEST(SimplifyCuts, KeepsNearSkinsApart) {
   expect_same_solid(shell, result);
 }
 
+// A void in a bump that is lower than the bound: without the bump it would lie outside.
+TEST(SimplifyCuts, MovesNoSurfaceAcrossAnotherPart) {
+  TriangleSoup soup = squared_cube(2);
+  const auto top = std::find(soup.points.begin(), soup.points.end(), Vec3d(0.5, 0.5, 1));
+  ASSERT_NE(top, soup.points.end());
+  top->z() += 1e-3;
+  EXPECT_EQ(simplify(soup, 1e-2).surface.mesh.triangles.size(), 12u);
+  std::vector<char> whole(soup.triangles.size(), 0);
+  append(soup, moved(flipped(sphere(100, 1e-4)), {0.5, 0.5, 1 + 5e-4}));
+  whole.resize(soup.triangles.size(), 1);
+  ASSERT_TRUE(check_surface(soup).valid_solid());
+  expect_same_solid(soup, simplify(soup, 1e-2, whole));
+}
+
+// Thinner than the bound: they may get flatter, not turn over.
+TEST(SimplifyCuts, ThinPartsDoNotTurnOver) {
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    TriangleSoup soup = sphere(40);
+    for (Vec3d& p : soup.points) {
+      p *= random.real(0.3, 1.3);
+      p.z() *= 0.1;
+    }
+    if (self_intersections(soup).count > 0 || signed_volume(soup) <= 0) continue;
+    const Simplified result = simplify(soup, random.real(0.1, 1.5));
+    EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid()) << seed;
+  }
+}
+
 TEST(SimplifyCuts, DoesNotDependOnTheUnit) {
   TriangleSoup soup = sphere(2000);
   const Simplified one = simplify(soup, 1e-2);
-  for (const double factor : {0x1p-300, 0x1p-20, 0x1p20, 0x1p300}) {
+  for (const double factor : {0x1p-600, 0x1p-300, 0x1p-20, 0x1p20, 0x1p300, 0x1p600}) {
     const Simplified other = simplify(scaled(soup, factor), 1e-2 * factor);
     EXPECT_EQ(other.surface.mesh.triangles, one.surface.mesh.triangles) << factor;
     EXPECT_EQ(other.report.distance, one.report.distance * factor);
@@ -248,7 +277,7 @@ TEST(CollapsibleMesh, StarsOfVeryManyTrianglesAreLeftAlone) {
 
 // A star whose points are anywhere; then the distance is that along the normal, or none is told.
 TEST(StarDistance, IsNeverTooSmall) {
-  std::size_t told = 0, folded = 0;
+  std::size_t told = 0;
   for (std::uint32_t seed = 1; seed <= 4000; ++seed) {
     Random random(seed);
     const auto size = static_cast<std::size_t>(random.integer(3, 8));
@@ -260,7 +289,7 @@ TEST(StarDistance, IsNeverTooSmall) {
       const double out = random.real(0.05, 1);
       link.emplace_back(out * std::cos(angle), out * std::sin(angle), height * random.real(-1, 1));
     }
-    const double aside = seed % 3 == 0 ? 1 : 0.05;  // then the star often folds
+    const double aside = seed % 3 == 0 ? 1 : 0.05;  // with 1 the star often folds
     const Vec3d centre(aside * random.real(-1, 1), aside * random.real(-1, 1),
                        height * random.real(-1, 1));
     StarDistance distance;
@@ -273,10 +302,9 @@ TEST(StarDistance, IsNeverTooSmall) {
           {static_cast<std::uint32_t>(size), i, static_cast<std::uint32_t>((i + 1) % size)});
     }
     for (std::uint32_t to = 0; to < size; ++to) {
-      const double bound = distance.bound(to);
+      const double bound = distance.bound(to, std::numeric_limits<double>::infinity());
       if (std::isinf(bound)) continue;
       ++told;
-      folded += aside == 1 ? 1 : 0;
       TriangleSoup other{link, {}};
       for (std::uint32_t i = 0; i < size; ++i) {
         const auto next = static_cast<std::uint32_t>((i + 1) % size);
@@ -288,7 +316,6 @@ TEST(StarDistance, IsNeverTooSmall) {
     }
   }
   EXPECT_GT(told, 1000u);
-  EXPECT_GT(folded, 100u);
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ struct SimplifyReport {
 // Simplifying polygonal models using successive mappings, 1997). Triangles with a flag in `whole`
 // (one for each) stay, and the points that have some; so what was never cut is as it was. No new
 // points, no degenerate triangles; the surface stays closed and manifold, of the same genus, and no
-// triangles meet that have been changed (exactly tested, with equal points as one); where that
-// takes too many rounds, nothing is. Sources and flags of points go along. Throws Cancelled. n log
-// n but for points of very many triangles, which stay.
+// triangles meet that have been changed, and no part faces another way (exactly tested, with equal
+// points as one); where that takes too many rounds, nothing is. Sources and flags of points go
+// along. Throws Cancelled. n log n but for points of very many triangles, which stay.
 void simplify_cuts(Surface& surface, const std::vector<char>& whole, const SimplifyOptions& options,
                    SimplifyReport& report);
 

@@ -81,7 +81,7 @@ struct RepairReport {
   InsideReport inside;
   PartFates parts;
   ExtractReport extract;
-  SimplifyReport simplify;
+  SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;
   TriangleFates triangles;
   Topology output;
