@@ -15,6 +15,7 @@
 #include <extract/simplify_cuts.h>
 
 #include "collapsible_mesh.h"
+#include "part_volumes.h"
 #include "star_distance.h"
 
 namespace meshrepair {
@@ -30,6 +31,10 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Moves are made in the order of their distances, but among those below this share of the bound,
 // which make little difference, the shortest first: long ones leave long thin triangles.
 constexpr double kSmallShare = 1.0 / 64;
+
+// Parts that are not thicker than this times the bound stay: what is little for the surface is much
+// for them.
+constexpr double kThinParts = 20;
 
 // The work for a star grows with the cube of its size, so larger ones are not looked at again after
 // each move around them.
@@ -196,14 +201,27 @@ class CutSimplifier {
   StarDistance star_distance_;
 };
 
-// Those of whole triangles.
-std::vector<char> points_to_keep(const TriangleSoup& mesh, const std::vector<char>& whole) {
-  std::vector<char> stays(mesh.points.size(), 0);
+void keep_points(const TriangleSoup& mesh, const std::vector<char>& of, std::vector<char>& stays) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (whole[t] == 0) continue;
+    if (of[t] == 0) continue;
     for (const std::uint32_t p : mesh.triangles[t]) stays[p] = 1;
   }
-  return stays;
+}
+
+// Where parts touch, they have points in the same place. To move one of those would leave gaps that
+// no other program can tell from none.
+void keep_contacts(const TriangleSoup& mesh, std::vector<char>& stays) {
+  std::vector<std::pair<std::array<double, 3>, std::uint32_t>> places;
+  places.reserve(mesh.points.size());
+  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
+    const Vec3d& p = mesh.points[i];
+    places.push_back({{p.x(), p.y(), p.z()}, i});
+  }
+  std::sort(places.begin(), places.end());
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (places[i].first != places[i - 1].first) continue;
+    stays[places[i].second] = stays[places[i - 1].second] = 1;
+  }
 }
 
 // The surface without what has gone; for each triangle that is left, which it was.
@@ -251,8 +269,8 @@ std::vector<std::uint32_t> meeting_triangles(const TriangleSoup& mesh,
   return blamed;
 }
 
-// A part that was flattened may face the wrong way then, and so does one that another part's
-// surface was moved across: the changed triangles of those parts, and those around them.
+// A part that another part's surface was moved across faces the wrong way: the changed triangles
+// around it.
 std::vector<std::uint32_t> turning_triangles(const TriangleSoup& mesh,
                                              const std::vector<std::uint32_t>& changed,
                                              double within, ProgressObserver* progress) {
@@ -302,9 +320,14 @@ void take_back(const CutSimplifier& simplifier, const std::vector<std::uint32_t>
 void simplify_cuts(Surface& surface, const std::vector<char>& whole, const SimplifyOptions& options,
                    SimplifyReport& report) {
   report = {};
-  std::vector<char> stays = points_to_keep(surface.mesh, whole);
+  std::vector<char> stays(surface.mesh.points.size(), 0);
+  keep_points(surface.mesh, whole, stays);
+  if (!(options.within > 0) || std::find(stays.begin(), stays.end(), 0) == stays.end()) return;
+  const internal::PartVolumes volumes(surface.mesh);
+  keep_points(surface.mesh, volumes.in_thin_parts(surface.mesh, kThinParts * options.within),
+              stays);
+  keep_contacts(surface.mesh, stays);
   const auto to_stay = std::count(stays.begin(), stays.end(), 1);
-  if (!(options.within > 0) || to_stay == static_cast<std::ptrdiff_t>(stays.size())) return;
   while (report.rounds < kMostRounds) {
     ++report.rounds;
     CutSimplifier simplifier(surface.mesh, stays, options.within, options.progress);
@@ -315,7 +338,9 @@ void simplify_cuts(Surface& surface, const std::vector<char>& whole, const Simpl
     if (changed.empty()) return;
     auto blamed = meeting_triangles(result.mesh, changed, options.progress);
     const bool meet = !blamed.empty();
-    if (!meet) blamed = turning_triangles(result.mesh, changed, options.within, options.progress);
+    if (!meet) blamed = volumes.altered(result.mesh, kept, changed);
+    if (blamed.empty())
+      blamed = turning_triangles(result.mesh, changed, options.within, options.progress);
     if (!blamed.empty()) {
       take_back(simplifier, kept, blamed, !meet || report.rounds > kPatientRounds, stays);
       continue;

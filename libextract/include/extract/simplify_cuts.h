@@ -26,12 +26,15 @@ struct SimplifyReport {
 // Moves points of a closed manifold surface onto neighbours, the nearest first, as long as every
 // point of the new surface is within the bound of the old one: it adds the largest distances
 // between the stars before and after, one over the other (J. Cohen, D. Manocha and M. Olano:
-// Simplifying polygonal models using successive mappings, 1997). Triangles with a flag in `whole`
-// (one for each) stay, and the points that have some; so what was never cut is as it was. No new
-// points, no degenerate triangles; the surface stays closed and manifold, of the same genus, and no
-// triangles meet that have been changed, and no part faces another way (exactly tested, with equal
-// points as one); where that takes too many rounds, nothing is. Sources and flags of points go
-// along. Throws Cancelled. n log n but for points of very many triangles, which stay.
+// Simplifying polygonal models using successive mappings, 1997).
+//
+// Points of triangles with a flag in `whole` (one for each) stay, so that what was never cut is as
+// it was; and those in which parts touch, and parts that are hardly thicker than the bound. There
+// are no new points and no degenerate triangles. The surface stays closed and manifold, of the same
+// genus; changed triangles meet no others (exactly tested, with equal points as one); no part faces
+// another way, or changes its volume by over a tenth. Where that takes too many rounds, nothing is
+// changed. Sources and flags of points go along. Throws Cancelled. n log n; stars of very many
+// triangles stay.
 void simplify_cuts(Surface& surface, const std::vector<char>& whole, const SimplifyOptions& options,
                    SimplifyReport& report);
 
