@@ -258,6 +258,46 @@ void simplify(const CleanSoup& input, const RepairOptions& options, Surface& sur
   simplify_cuts(surface, find_whole_triangles(input, surface), simplify_options, report);
 }
 
+Surface certify(Surface surface, const Grid& grid, const RepairOptions& options,
+                CertifyReport& report) {
+  CertifyOptions certify_options = options.certify;
+  certify_options.touching = options.extract.touching;
+  if (options.predicates != Predicates::exact) certify_options.most_rounds = 0;
+  return certify(
+      std::move(surface), grid, certify_options,
+      [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,
+      report);
+}
+
+// Fewer triangles mostly make fewer faults when they are rounded; where they make more, the surface
+// stays as it was.
+Surface simplify_and_certify(const CleanSoup& input, Surface surface, const RepairOptions& options,
+                             RepairReport& report, StageMeter& meter) {
+  if (options.simplify > 0) {
+    meter.begin("simplify");
+    Surface simpler = surface;
+    simplify(input, options, simpler, report.simplify);
+    if (!options.certify.wanted) return simpler;
+    if (report.simplify.removed_points > 0) {
+      meter.begin("certify");
+      simpler = certify(std::move(simpler), input.grid, options, report.certify);
+      if (report.certify.passed()) return simpler;
+      RepairOptions plain = options;
+      plain.simplify = 0;
+      CertifyReport certified;
+      meter.begin("certify");
+      surface = certify(std::move(surface), input.grid, plain, certified);
+      if (!certified.passed()) return simpler;
+      report.simplify = {};
+      report.certify = certified;
+      return surface;
+    }
+  }
+  if (!options.certify.wanted) return surface;
+  meter.begin("certify");
+  return certify(std::move(surface), input.grid, options, report.certify);
+}
+
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   require_range(surface, options.certify.precision);
@@ -265,20 +305,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
     describe(input, surface, report);
     options.examine(report);
   }
-  if (options.simplify > 0) {
-    meter.begin("simplify");
-    simplify(input, options, surface, report.simplify);
-  }
-  if (options.certify.wanted) {
-    meter.begin("certify");
-    CertifyOptions certify_options = options.certify;
-    certify_options.touching = options.extract.touching;
-    if (options.predicates != Predicates::exact) certify_options.most_rounds = 0;
-    surface = certify(
-        std::move(surface), input.grid, certify_options,
-        [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,
-        report.certify);
-  }
+  surface = simplify_and_certify(input, std::move(surface), options, report, meter);
   meter.begin("check");
   describe(input, surface, report);
   return surface;
