@@ -210,7 +210,7 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
 
 std::vector<std::string> simplified(const SimplifyReport& report) {
   if (report.removed_triangles == 0) return {};
-  return {fmt::format("{} fewer where it was cut, {:.2g} from there at most",
+  return {fmt::format("{} fewer where it was cut, which moved the surface by {:.2g} at most",
                       number_of(report.removed_triangles, "triangle"), report.distance)};
 }
 

@@ -203,7 +203,6 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   again.opacity.clear();
   again.examine = nullptr;
   again.certify.wanted = false;
-  again.simplify = options.simplify;
   again.progress = &quiet;
   RepairReport report;
   return repair(soup, again, report);

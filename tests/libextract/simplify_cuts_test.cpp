@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -284,7 +285,7 @@ TEST(StarDistance, IsNeverTooSmall) {
     const double height = std::pow(10.0, random.real(-6, 0.3));
     std::vector<Vec3d> link;
     for (std::size_t i = 0; i < size; ++i) {
-      const double angle = 6.283185307179586 * (static_cast<double>(i) + random.real(0, 0.9)) /
+      const double angle = 2 * std::numbers::pi * (static_cast<double>(i) + random.real(0, 0.9)) /
                            static_cast<double>(size);
       const double out = random.real(0.05, 1);
       link.emplace_back(out * std::cos(angle), out * std::sin(angle), height * random.real(-1, 1));
