@@ -52,4 +52,19 @@ std::uint32_t PointWelder::index_of(Vec3d point) {
   return fresh;
 }
 
+PointPlaces find_places(const std::vector<Vec3d>& points) {
+  std::vector<Vec3d> distinct;
+  PointWelder welder(distinct, points.size());
+  PointPlaces places;
+  places.place.reserve(points.size());
+  for (const Vec3d& p : points) places.place.push_back(welder.index_of(p));
+  std::vector<std::uint32_t> count(distinct.size(), 0);
+  for (const std::uint32_t place : places.place) ++count[place];
+  places.is_copy.reserve(points.size());
+  for (const std::uint32_t place : places.place) {
+    places.is_copy.push_back(count[place] > 1 ? 1 : 0);
+  }
+  return places;
+}
+
 }  // namespace meshrepair

@@ -103,23 +103,8 @@ class RayCaster {
 
   template <class Visit>
   void visit_column(const Vec3d& p, Visit visit) const {
-    const BoxTree& tree = tree_.front();
-    if (tree.nodes().empty()) return;
-    std::vector<std::uint32_t> stack(1, 0);
-    while (!stack.empty()) {
-      const std::uint32_t n = stack.back();
-      stack.pop_back();
-      const BoxNode& node = tree.nodes()[n];
-      if (!reaches_column(node.box, p)) continue;
-      if (node.is_leaf()) {
-        for (const std::uint32_t i : tree.order().subspan(node.first, node.count)) {
-          visit(triangles_[i]);
-        }
-      } else {
-        stack.push_back(node.right);
-        stack.push_back(n + 1);
-      }
-    }
+    tree_.front().visit([&](const Box& box) { return reaches_column(box, p); },
+                        [&](std::uint32_t i) { visit(triangles_[i]); });
   }
 
   const TriangleSoup& soup_;

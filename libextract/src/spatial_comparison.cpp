@@ -44,26 +44,6 @@ bool have_one_hub(std::span<const std::uint32_t> hubs, std::uint32_t a, std::uin
   return hubs[a] != kNoHub && hubs[a] == hubs[b];
 }
 
-template <class Visit>
-void visit_neighbours(const BoxTree& tree, std::span<const Box> boxes, const Box& box,
-                      Visit visit) {
-  std::vector<std::uint32_t> stack(1, 0);
-  while (!stack.empty()) {
-    const std::uint32_t n = stack.back();
-    stack.pop_back();
-    const BoxNode& node = tree.nodes()[n];
-    if (!node.box.meets(box)) continue;
-    if (node.is_leaf()) {
-      for (const std::uint32_t item : tree.order().subspan(node.first, node.count)) {
-        if (boxes[item].meets(box)) visit(item);
-      }
-    } else {
-      stack.push_back(node.right);
-      stack.push_back(n + 1);
-    }
-  }
-}
-
 class SpatialComparison {
  public:
   SpatialComparison(std::span<const CornerTriangle> triangles, std::span<const std::uint32_t> hubs,
@@ -250,13 +230,15 @@ bool boxes_tell_little(std::span<const CornerTriangle> triangles, std::span<cons
   for (std::size_t k = 0; k < kSamples; ++k) {
     const auto sample = static_cast<std::uint32_t>(k * triangles.size() / kSamples);
     std::size_t own_tests = 0;
-    visit_neighbours(tree, boxes, boxes[sample], [&](std::uint32_t other) {
-      if (other == sample || have_one_hub(hubs, sample, other)) return;
-      ++neighbours;
-      if (++own_tests > kTestsPerSample) return;
-      ++tests;
-      hits += meeting_of(triangles[sample], triangles[other]) != Meeting::apart;
-    });
+    tree.visit([&](const Box& box) { return box.meets(boxes[sample]); },
+               [&](std::uint32_t other) {
+                 if (other == sample || !boxes[other].meets(boxes[sample])) return;
+                 if (have_one_hub(hubs, sample, other)) return;
+                 ++neighbours;
+                 if (++own_tests > kTestsPerSample) return;
+                 ++tests;
+                 hits += meeting_of(triangles[sample], triangles[other]) != Meeting::apart;
+               });
   }
   return neighbours > kSamples * kManyNeighbours && hits * kHitsAreRare < tests;
 }

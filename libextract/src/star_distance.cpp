@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Geometry>
 
 namespace meshrepair::internal {
 namespace {
+
+
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -19,30 +22,23 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // place too many, not at one too few.
 constexpr double kRounding = 0x1p-50;
 
-template <class Point>
-double cross(const Point& a, const Point& b) {
+double cross(const StarPoint& a, const StarPoint& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-template <class Point>
-double turn(const Point& a, const Point& b, const Point& c) {
+double turn(const StarPoint& a, const StarPoint& b, const StarPoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// From `at` to the triangle along the normal, 0 where it is beside it.
-template <class Point>
-double distance_over(const Point& at, const Point& a, const Point& b, const Point& c) {
-  const double area = turn(a, b, c);
-  if (std::abs(area) < kRounding) return 0;  // edge on: its edges tell
-  const double sign = area > 0 ? 1 : -1;
-  const double of_a = turn(at, b, c), of_b = turn(at, c, a), of_c = turn(at, a, b);
-  if (std::min({sign * of_a, sign * of_b, sign * of_c}) < -kRounding) return 0;
-  return std::abs((of_a * a.z + of_b * b.z + of_c * c.z) / area - at.z);
+// From the centre to the triangle along the normal; nothing where it lies beside the centre.
+std::optional<double> distance_from_centre(const StarPoint& a, const StarPoint& b, const StarPoint& c) {
+  const double of_a = cross(b, c), of_b = cross(c, a), of_c = cross(a, b);
+  if (std::min({of_a, of_b, of_c}) < -kRounding) return std::nullopt;
+  return std::abs((of_a * a.z + of_b * b.z + of_c * c.z) / turn(a, b, c));
 }
 
 // Between two segments along the normal, 0 where they do not cross.
-template <class Point>
-double distance_between(const Point& a, const Point& b, const Point& c, const Point& d) {
+double distance_between(const StarPoint& a, const StarPoint& b, const StarPoint& c, const StarPoint& d) {
   const double of_a = turn(c, d, a), of_b = turn(c, d, b);
   const double of_c = turn(a, b, c), of_d = turn(a, b, d);
   const double across = of_a - of_b, along = of_c - of_d;
@@ -83,7 +79,7 @@ void StarDistance::set_star(const Vec3d& centre, std::span<const Vec3d> link) {
 bool StarDistance::is_flat_fan() const {
   std::size_t turns = 0;
   for (std::size_t i = 0; i < link_.size(); ++i) {
-    const Point &a = link_[i], &b = link_[after(i)];
+    const StarPoint &a = link_[i], &b = link_[after(i)];
     if (!(cross(a, b) > kRounding)) return false;
     turns += a.y < 0 && b.y >= 0 ? 1 : 0;
   }
@@ -92,17 +88,18 @@ bool StarDistance::is_flat_fan() const {
 
 double StarDistance::bound(std::size_t to, double most) const {
   if (!is_flat_fan_) return kInfinite;
-  constexpr Point kCentre{0, 0, 0};
-  const Point& target = link_[to];
+  constexpr StarPoint kCentre{0, 0, 0};
+  const StarPoint& target = link_[to];
   most /= unit_;
   double worst = 0;
   bool covered = false;
   for (std::size_t i = after(to); after(i) != to; i = after(i)) {
-    const Point &a = link_[i], &b = link_[after(i)];
+    const StarPoint &a = link_[i], &b = link_[after(i)];
     if (!(turn(target, a, b) > kRounding)) return kInfinite;
-    covered = covered || std::min({turn(kCentre, a, b), turn(kCentre, b, target),
-                                   turn(kCentre, target, a)}) >= -kRounding;
-    worst = std::max(worst, distance_over(kCentre, target, a, b));
+    if (const auto distance = distance_from_centre(target, a, b)) {
+      covered = true;
+      worst = std::max(worst, *distance);
+    }
     if (worst > most) return kInfinite;
   }
   if (!covered) return kInfinite;

@@ -9,6 +9,11 @@
 
 namespace meshrepair::internal {
 
+// Seen along the mean normal of a star, z towards the eye; its centre is the origin.
+struct StarPoint {
+  double x, y, z;
+};
+
 class StarDistance {
  public:
   // `link` counter-clockwise around the centre as seen from outside.
@@ -20,16 +25,11 @@ class StarDistance {
   [[nodiscard]] double bound(std::size_t to, double most) const;
 
  private:
-  // Seen along the mean normal, z towards the eye; the centre is the origin. At most 1 from it.
-  struct Point {
-    double x, y, z;
-  };
-
   [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == link_.size() ? 0 : i + 1; }
   [[nodiscard]] bool is_flat_fan() const;
 
-  std::vector<Point> link_;
-  double unit_ = 1;  // of the coordinates, a power of two
+  std::vector<StarPoint> link_;  // at most 1 along each axis
+  double unit_ = 1;              // of the coordinates, a power of two
   bool is_flat_fan_ = false;
 };
 

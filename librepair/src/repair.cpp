@@ -247,14 +247,14 @@ void describe(const CleanSoup& input, const Surface& surface, RepairReport& repo
   report.closing_area = closing_area(surface);
 }
 
-void simplify(const CleanSoup& input, const RepairOptions& options, Surface& surface,
-              SimplifyReport& report) {
+std::optional<Surface> simplify(const CleanSoup& input, const RepairOptions& options,
+                                const Surface& surface, SimplifyReport& report) {
   Eigen::AlignedBox3d box;
   for (const Vec3d& p : surface.mesh.points) box.extend(p);
   SimplifyOptions simplify_options;
   simplify_options.within = options.simplify * (box.max() - box.min()).stableNorm();
   simplify_options.progress = options.progress;
-  simplify_cuts(surface, find_whole_triangles(input, surface), simplify_options, report);
+  return simplify_cuts(surface, find_whole_triangles(input, surface), simplify_options, report);
 }
 
 Surface certify(Surface surface, const Grid& grid, const RepairOptions& options,
@@ -269,32 +269,22 @@ Surface certify(Surface surface, const Grid& grid, const RepairOptions& options,
 }
 
 // Fewer triangles mostly make fewer faults when they are rounded; where they make more, the surface
-// stays as it was.
-Surface simplify_and_certify(const CleanSoup& input, Surface surface, const RepairOptions& options,
-                             RepairReport& report, StageMeter& meter) {
-  if (options.simplify > 0) {
-    meter.begin("simplify");
-    Surface simpler = surface;
-    simplify(input, options, simpler, report.simplify);
-    if (!options.certify.wanted) return simpler;
-    if (report.simplify.removed_points > 0) {
-      meter.begin("certify");
-      simpler = certify(std::move(simpler), input.grid, options, report.certify);
-      if (report.certify.passed()) return simpler;
-      RepairOptions plain = options;
-      plain.simplify = 0;
-      CertifyReport certified;
-      meter.begin("certify");
-      surface = certify(std::move(surface), input.grid, plain, certified);
-      if (!certified.passed()) return simpler;
-      report.simplify = {};
-      report.certify = certified;
-      return surface;
-    }
-  }
-  if (!options.certify.wanted) return surface;
+// with all of them is the result.
+Surface certify(Surface surface, std::optional<Surface> simpler, const Grid& grid,
+                const RepairOptions& options, RepairReport& report, StageMeter& meter) {
   meter.begin("certify");
-  return certify(std::move(surface), input.grid, options, report.certify);
+  if (!simpler) return certify(std::move(surface), grid, options, report.certify);
+  Surface first = certify(std::move(*simpler), grid, options, report.certify);
+  if (report.certify.passed()) return first;
+  RepairOptions plain = options;
+  plain.simplify = 0;
+  CertifyReport certified;
+  meter.begin("certify");
+  surface = certify(std::move(surface), grid, plain, certified);
+  if (!certified.passed()) return first;
+  report.simplify = {};
+  report.certify = certified;
+  return surface;
 }
 
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
@@ -304,7 +294,16 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
     describe(input, surface, report);
     options.examine(report);
   }
-  surface = simplify_and_certify(input, std::move(surface), options, report, meter);
+  std::optional<Surface> simpler;
+  if (options.simplify > 0) {
+    meter.begin("simplify");
+    simpler = simplify(input, options, surface, report.simplify);
+  }
+  if (options.certify.wanted) {
+    surface = certify(std::move(surface), std::move(simpler), input.grid, options, report, meter);
+  } else if (simpler) {
+    surface = std::move(*simpler);
+  }
   meter.begin("check");
   describe(input, surface, report);
   return surface;

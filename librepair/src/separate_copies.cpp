@@ -17,26 +17,8 @@
 namespace meshrepair::internal {
 namespace {
 
-// Points by where they lie.
-struct Places {
-  std::vector<std::uint32_t> place;  // of each point; points with equal coordinates have the same
-  std::vector<char> is_copy;         // of each point: has another one its place?
-};
-
-Places find_places(const std::vector<Vec3d>& points) {
-  std::vector<Vec3d> distinct;
-  PointWelder welder(distinct, points.size());
-  Places places;
-  places.place.reserve(points.size());
-  for (const Vec3d& p : points) places.place.push_back(welder.index_of(p));
-  std::vector<std::uint32_t> count(distinct.size(), 0);
-  for (const std::uint32_t d : places.place) ++count[d];
-  for (const std::uint32_t d : places.place) places.is_copy.push_back(count[d] > 1 ? 1 : 0);
-  return places;
-}
-
 // Of each point: does an edge of its lie where one of its copies has one?
-std::vector<char> find_common_edges(const TriangleSoup& mesh, const Places& places) {
+std::vector<char> find_common_edges(const TriangleSoup& mesh, const PointPlaces& places) {
   // From a place to a place, and the point that the edge starts at.
   std::vector<std::array<std::uint32_t, 3>> edges;
   for (const auto& t : mesh.triangles) {
@@ -72,7 +54,7 @@ Vec3d weighted_normal(const TriangleSoup& mesh, const std::array<std::uint32_t, 
 
 // Unit vectors out of the solid around each copy, or where copies were joined along an edge, into
 // it; 0 for all other points.
-std::vector<Vec3d> find_ways_out(const TriangleSoup& mesh, const Places& places,
+std::vector<Vec3d> find_ways_out(const TriangleSoup& mesh, const PointPlaces& places,
                                  Touching touching) {
   std::vector<char> joined(mesh.points.size(), 0);
   if (touching == Touching::join) joined = find_common_edges(mesh, places);
@@ -128,13 +110,13 @@ void keep_those_at_fault(TriangleSoup& mesh, std::vector<std::uint32_t>& points,
 }  // namespace
 
 std::size_t count_copies(const TriangleSoup& mesh) {
-  const Places places = find_places(mesh.points);
+  const PointPlaces places = find_places(mesh.points);
   return static_cast<std::size_t>(std::count(places.is_copy.begin(), places.is_copy.end(), 1));
 }
 
 void separate_copies(TriangleSoup& mesh, double spacing, Precision precision, Touching touching,
                      ProgressObserver* progress) {
-  const Places places = find_places(mesh.points);
+  const PointPlaces places = find_places(mesh.points);
   const std::vector<Vec3d> ways_out = find_ways_out(mesh, places, touching);
   const std::vector<Vec3d> before = mesh.points;
   const auto moved = [&](std::uint32_t p, std::uint32_t k) {

@@ -26,4 +26,12 @@ class PointWelder {
   internal::HashIndex index_;
 };
 
+// Points by where they lie.
+struct PointPlaces {
+  std::vector<std::uint32_t> place;  // of each point; equal points have the same
+  std::vector<char> is_copy;         // of each point: has another one its place?
+};
+
+[[nodiscard]] PointPlaces find_places(const std::vector<Vec3d>& points);
+
 }  // namespace meshrepair

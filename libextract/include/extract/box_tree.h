@@ -66,6 +66,26 @@ class BoxTree {
   // The items by their place in the leaves.
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
 
+  // The items of all leaves whose boxes, and those above, `reaches(box)` says yes to; their own
+  // boxes are not asked about.
+  template <class Reaches, class Visit>
+  void visit(Reaches reaches, Visit visit_item) const {
+    if (nodes_.empty()) return;
+    std::vector<std::uint32_t> stack(1, 0);
+    while (!stack.empty()) {
+      const std::uint32_t n = stack.back();
+      stack.pop_back();
+      const BoxNode& node = nodes_[n];
+      if (!reaches(node.box)) continue;
+      if (node.is_leaf()) {
+        for (std::uint32_t i = 0; i < node.count; ++i) visit_item(order_[node.first + i]);
+      } else {
+        stack.push_back(node.right);
+        stack.push_back(n + 1);
+      }
+    }
+  }
+
  private:
   std::vector<BoxNode> nodes_;
   std::vector<std::uint32_t> order_;

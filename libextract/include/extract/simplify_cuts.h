@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <bsp/progress.h>
@@ -32,10 +33,12 @@ struct SimplifyReport {
 // it was; and those in which parts touch, and parts that are hardly thicker than the bound. There
 // are no new points and no degenerate triangles. The surface stays closed and manifold, of the same
 // genus; changed triangles meet no others (exactly tested, with equal points as one); no part faces
-// another way, or changes its volume by over a tenth. Where that takes too many rounds, nothing is
-// changed. Sources and flags of points go along. Throws Cancelled. n log n; stars of very many
-// triangles stay.
-void simplify_cuts(Surface& surface, const std::vector<char>& whole, const SimplifyOptions& options,
-                   SimplifyReport& report);
+// another way, or changes its volume by over a tenth. Sources and flags of points go along. Returns
+// nothing where nothing can go, or where all that takes too many rounds. Throws Cancelled. n log n;
+// stars of very many triangles stay.
+[[nodiscard]] std::optional<Surface> simplify_cuts(const Surface& surface,
+                                                   const std::vector<char>& whole,
+                                                   const SimplifyOptions& options,
+                                                   SimplifyReport& report);
 
 }  // namespace meshrepair

@@ -21,4 +21,7 @@ struct Surface {
   std::vector<char> input_point;
 };
 
+// Those with a flag, one for each, and the points that they have, all in their order.
+void keep_triangles(Surface& surface, const std::vector<char>& keep);
+
 }  // namespace meshrepair
