@@ -225,9 +225,9 @@ constexpr std::array<Choice<RegionTest>, 2> kRegionTests = {
     {{"cells", RegionTest::cells}, {"programs", RegionTest::linear_programs}}};
 
 void add_bool_options(CLI::App& app, BoolOptions& options) {
-  static const auto kOperations = named_operations();
+  static const auto operations = named_operations();
   add_choice(
-      app, "--op", kOperations, [&options](SetOperation value) { options.operation = value; },
+      app, "--op", operations, [&options](SetOperation value) { options.operation = value; },
       "union; intersection; difference: the first without all others; xor: what is in one of "
       "two")
       ->required();

@@ -14,31 +14,29 @@
 namespace meshrepair::internal {
 namespace {
 
-
-
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // Of products of coordinates up to 1. What is nearer to an edge counts as on it, which looks at a
 // place too many, not at one too few.
 constexpr double kRounding = 0x1p-50;
 
-double cross(const StarPoint& a, const StarPoint& b) {
-  return a.x * b.y - a.y * b.x;
-}
+double cross(const StarPoint& a, const StarPoint& b) { return a.x * b.y - a.y * b.x; }
 
 double turn(const StarPoint& a, const StarPoint& b, const StarPoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 // From the centre to the triangle along the normal; nothing where it lies beside the centre.
-std::optional<double> distance_from_centre(const StarPoint& a, const StarPoint& b, const StarPoint& c) {
+std::optional<double> distance_from_centre(const StarPoint& a, const StarPoint& b,
+                                           const StarPoint& c) {
   const double of_a = cross(b, c), of_b = cross(c, a), of_c = cross(a, b);
   if (std::min({of_a, of_b, of_c}) < -kRounding) return std::nullopt;
   return std::abs((of_a * a.z + of_b * b.z + of_c * c.z) / turn(a, b, c));
 }
 
 // Between two segments along the normal, 0 where they do not cross.
-double distance_between(const StarPoint& a, const StarPoint& b, const StarPoint& c, const StarPoint& d) {
+double distance_between(const StarPoint& a, const StarPoint& b, const StarPoint& c,
+                        const StarPoint& d) {
   const double of_a = turn(c, d, a), of_b = turn(c, d, b);
   const double of_c = turn(a, b, c), of_d = turn(a, b, d);
   const double across = of_a - of_b, along = of_c - of_d;

@@ -28,9 +28,6 @@ namespace {
 // More are counted but not mended in one round.
 constexpr std::size_t kMostPairs = 1'000'000;
 
-// Where two rounds in a row gained nothing, moving points makes as many new crossings as it mends.
-constexpr std::size_t kMostRoundsInVain = 2;
-
 using GridCell = std::array<double, 3>;
 
 void round_points(TriangleSoup& mesh, Precision precision) {
@@ -109,6 +106,10 @@ class Certifier {
     options.most_pairs = kMostPairs;
     options.progress = progress_;
     attempt.found = self_intersections(attempt.surface.mesh, options);
+    if (const std::size_t dropped = drop_thin_parts(attempt); dropped > 0) {
+      attempt.dropped_parts += dropped;
+      attempt.found = self_intersections(attempt.surface.mesh, options);
+    }
     attempt.inside_out_parts = 0;
     if (attempt.found.count + attempt.found.degenerate == 0) {
       const auto parts = internal::drop_inside_out_parts(attempt.surface, reach(), progress_);
@@ -116,6 +117,16 @@ class Certifier {
       attempt.dropped_parts += parts.dropped;
     }
     attempt.joined = options_.welded ? internal::count_copies(attempt.surface.mesh) : 0;
+  }
+
+  // Those at fault whose walls are no further apart than what rounding moves them by.
+  std::size_t drop_thin_parts(Attempt& attempt) const {
+    std::vector<std::uint32_t> at_fault;
+    for (const auto& pair : attempt.found.pairs) {
+      at_fault.insert(at_fault.end(), pair.begin(), pair.end());
+    }
+    if (at_fault.empty()) return 0;
+    return internal::drop_thin_parts(attempt.surface, at_fault, 2 * spacing_);
   }
 
   // How far points may have been moved by now, with what nudge_points() and separate_copies() add.
@@ -159,9 +170,7 @@ class Certifier {
 
   void mend() {
     double step = step_;
-    std::size_t in_vain = 0;
-    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds &&
-           in_vain < kMostRoundsInVain) {
+    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds) {
       ++report_.rounds;
       report_.snapped_points = snap_concerned(current_, step);
       snap_cut_triangles();
@@ -176,7 +185,7 @@ class Certifier {
       }
       current_.surface = std::move(again);
       test(current_);
-      in_vain = keep_if_better() ? 0 : in_vain + 1;
+      keep_if_better();
       improve();
       step *= 4;
     }

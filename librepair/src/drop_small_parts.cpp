@@ -10,8 +10,8 @@ std::size_t drop_small_parts(Surface& surface, std::size_t fewest, RepairReport&
   const MeshParts parts = find_parts(surface.mesh);
   std::vector<std::size_t> triangles(parts.count, 0);
   for (const std::uint32_t part : parts.of_triangle) ++triangles[part];
-  const auto small = std::count_if(triangles.begin(), triangles.end(),
-                                   [&](std::size_t n) { return n < fewest; });
+  const auto small =
+      std::count_if(triangles.begin(), triangles.end(), [&](std::size_t n) { return n < fewest; });
   if (small == 0 || static_cast<std::size_t>(small) == triangles.size()) return 0;
   std::vector<char> keep;
   keep.reserve(parts.of_triangle.size());

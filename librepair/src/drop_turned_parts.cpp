@@ -12,15 +12,13 @@ namespace meshrepair::internal {
 namespace {
 
 // Of each part: no thicker than this, on average?
-std::vector<char> thin_parts(const TriangleSoup& mesh, const PartOrientation& parts,
-                             double thickness) {
+std::vector<char> thin_parts(const TriangleSoup& mesh, const std::vector<std::uint32_t>& part_of,
+                             std::uint32_t parts, double thickness) {
   const UnitScale scale(mesh.points);
-  const auto count = static_cast<std::uint32_t>(parts.inside_out.size());
   std::vector<char> thin;
-  thin.reserve(count);
+  thin.reserve(parts);
   // A slab has two faces.
-  for (const PartSize& size :
-       part_sizes(mesh.points, mesh.triangles, parts.part_of, count, scale)) {
+  for (const PartSize& size : part_sizes(mesh.points, mesh.triangles, part_of, parts, scale)) {
     thin.push_back(2 * std::abs(size.volume) <= size.area * scale(thickness) ? 1 : 0);
   }
   return thin;
@@ -33,7 +31,8 @@ InsideOutParts drop_once(Surface& surface, double reach, ProgressObserver* progr
   const auto wrong = std::count(parts.inside_out.begin(), parts.inside_out.end(), 1);
   if (wrong == 0) return {};
   // Both walls may have moved.
-  const std::vector<char> thin = thin_parts(mesh, parts, 2 * reach);
+  const auto count = static_cast<std::uint32_t>(parts.inside_out.size());
+  const std::vector<char> thin = thin_parts(mesh, parts.part_of, count, 2 * reach);
   InsideOutParts result;
   for (std::size_t part = 0; part < thin.size(); ++part) {
     if (parts.inside_out[part] != 0) ++(thin[part] != 0 ? result.dropped : result.left);
@@ -81,6 +80,22 @@ std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before
   std::vector<char> keep;
   keep.reserve(parts.of_triangle.size());
   for (const std::uint32_t part : parts.of_triangle) keep.push_back(keeps[part]);
+  keep_triangles(surface, keep);
+  return dropped;
+}
+
+std::size_t drop_thin_parts(Surface& surface, std::span<const std::uint32_t> among,
+                            double thickness) {
+  const MeshParts parts = find_parts(surface.mesh);
+  const std::vector<char> thin =
+      thin_parts(surface.mesh, parts.of_triangle, parts.count, thickness);
+  std::vector<char> drop(parts.count, 0);
+  for (const std::uint32_t t : among) drop[parts.of_triangle[t]] = thin[parts.of_triangle[t]];
+  const auto dropped = static_cast<std::size_t>(std::count(drop.begin(), drop.end(), 1));
+  if (dropped == 0 || dropped == drop.size()) return 0;
+  std::vector<char> keep;
+  keep.reserve(parts.of_triangle.size());
+  for (const std::uint32_t part : parts.of_triangle) keep.push_back(drop[part] == 0 ? 1 : 0);
   keep_triangles(surface, keep);
   return dropped;
 }

@@ -1,7 +1,9 @@
-// Taking away parts that rounding turned inside out or flattened.
+// Taking away parts that rounding turned inside out or flattened, or may flatten.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bsp/progress.h>
@@ -25,5 +27,10 @@ struct InsideOutParts {
 // left.
 [[nodiscard]] InsideOutParts drop_inside_out_parts(Surface& surface, double reach,
                                                    ProgressObserver* progress);
+
+// Of the parts that one of the triangles `among` belongs to, those go that are no thicker than
+// this, on average; none if all parts would go. Returns how many.
+std::size_t drop_thin_parts(Surface& surface, std::span<const std::uint32_t> among,
+                            double thickness);
 
 }  // namespace meshrepair::internal

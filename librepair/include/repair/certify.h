@@ -35,13 +35,14 @@ struct CertifyReport {
   std::size_t degenerate = 0;        // triangles without area, in the end
   std::size_t rounds = 0;            // of mending
   std::size_t snapped_points = 0;    // moved onto a grid in the last of them
-  std::size_t dropped_parts = 0;     // that rounding flattened or turned inside out
+  std::size_t dropped_parts = 0;     // that rounding flattened or turned
   std::size_t joined_points = 0;     // that a welding format still joins with others
   std::size_t inside_out_parts = 0;  // that are left, known where no triangles intersect
 
-  [[nodiscard]] bool passed() const {
-    return done && pairs == 0 && degenerate == 0 && joined_points == 0 && inside_out_parts == 0;
+  [[nodiscard]] std::size_t faults() const {
+    return pairs + degenerate + joined_points + inside_out_parts;
   }
+  [[nodiscard]] bool passed() const { return done && faults() == 0; }
 };
 
 // Repairs a soup that is a solid already but for places where its sheets cross: the whole pipeline,
@@ -51,10 +52,10 @@ using RepairAgain = std::function<Surface(const TriangleSoup&)>;
 // Rounds the coordinates to the precision and tests exactly for triangles that intersect or have no
 // area. Where it finds some, it brings their corners onto the working grid, where every decision
 // was exact, then onto coarser ones, and repairs what comes of that; the best attempt is returned.
-// Points of the input that are not concerned stay where they are. Parts that are so thin that
-// rounding turned them inside out are dropped, or turned where there is nothing else; thicker ones
-// that face the wrong way are counted and left. `surface.source` keeps naming
-// triangles of the first input.
+// Points of the input that are not concerned stay where they are. Parts that take part in faults
+// and are no thicker than two steps of the numbers are dropped, as are those so thin that rounding
+// turned them inside out; or turned where there is nothing else. Thicker ones that face the wrong
+// way are counted and left. `surface.source` keeps naming triangles of the first input.
 [[nodiscard]] Surface certify(Surface surface, const Grid& grid, const CertifyOptions& options,
                               const RepairAgain& repair_again, ProgressObserver* progress,
                               CertifyReport& report);
