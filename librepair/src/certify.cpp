@@ -28,6 +28,10 @@ namespace {
 // More are counted but not mended in one round.
 constexpr std::size_t kMostPairs = 1'000'000;
 
+// Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
+// that are only moved.
+constexpr std::size_t kMostGrowth = 4;
+
 using GridCell = std::array<double, 3>;
 
 void round_points(TriangleSoup& mesh, Precision precision) {
@@ -142,13 +146,16 @@ class Certifier {
     improve();
   }
 
-  // What needs no new repair. Further rounds start from what was before, on the grid.
+  // What needs no new repair, as long as it is of much use. Further rounds start from what was
+  // before, on the grid.
   void improve() {
     Attempt moved = current_;
-    for (std::size_t faults = moved.faults() + 1; moved.faults() < faults;) {
-      faults = moved.faults();
-      if (faults < best_.faults()) best_ = moved;
+    bool is_of_use = true;
+    while (is_of_use) {
+      const std::size_t faults = moved.faults();
       if (faults > 0) move_points(moved);
+      if (moved.faults() < best_.faults()) best_ = moved;
+      is_of_use = moved.faults() + faults / 4 < faults;
     }
   }
 
@@ -170,7 +177,9 @@ class Certifier {
 
   void mend() {
     double step = step_;
-    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds) {
+    const std::size_t most = kMostGrowth * current_.surface.mesh.triangles.size();
+    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds &&
+           current_.surface.mesh.triangles.size() <= most) {
       ++report_.rounds;
       report_.snapped_points = snap_concerned(current_, step);
       snap_cut_triangles();

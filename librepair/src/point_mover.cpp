@@ -3,43 +3,55 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include <bsp/double_predicates.h>
-#include <extract/self_intersections.h>
 
 namespace meshrepair::internal {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-// More say no more about which points are to blame.
-constexpr std::size_t kMostPairs = 200'000;
-
 bool is_degenerate(const TriangleSoup& mesh, std::uint32_t t) {
   const auto& c = mesh.triangles[t];
   return projection_axis(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]) < 0;
 }
 
+std::vector<std::uint32_t> groups_of_points(std::size_t mesh_points,
+                                            const std::vector<std::uint32_t>& points,
+                                            const std::vector<std::uint32_t>& group) {
+  std::vector<std::uint32_t> group_at(mesh_points, kNone);
+  for (std::size_t i = 0; i < points.size(); ++i) group_at[points[i]] = group[i];
+  return group_at;
+}
+
+std::vector<std::uint32_t> triangles_at(const TriangleSoup& mesh,
+                                        const std::vector<std::uint32_t>& group_at) {
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& corners = mesh.triangles[t];
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](std::uint32_t p) { return group_at[p] != kNone; })) {
+      triangles.push_back(t);
+    }
+  }
+  return triangles;
+}
+
 }  // namespace
 
 PointMover::PointMover(TriangleSoup& mesh, std::vector<std::uint32_t> points,
-                       std::vector<std::uint32_t> group, ProgressObserver* progress)
-    : mesh_(mesh), points_(std::move(points)), group_(std::move(group)), progress_(progress) {
-  group_at_.assign(mesh_.points.size(), kNone);
-  for (std::size_t i = 0; i < points_.size(); ++i) group_at_[points_[i]] = group_[i];
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const auto& corners = mesh_.triangles[t];
-    if (std::any_of(corners.begin(), corners.end(),
-                    [&](std::uint32_t p) { return group_at_[p] != kNone; })) {
-      near_.push_back(t);
-    }
-  }
-  const std::size_t groups =
-      group_.empty() ? 0 : std::size_t{*std::max_element(group_.begin(), group_.end())} + 1;
-  faults_.resize(groups);
-  faults_ = count_faults();
+                       std::vector<std::uint32_t> group, double reach, ProgressObserver* progress)
+    : mesh_(mesh),
+      points_(std::move(points)),
+      group_(std::move(group)),
+      group_at_(groups_of_points(mesh.points.size(), points_, group_)),
+      near_(triangles_at(mesh, group_at_)),
+      intersections_(mesh, near_, reach),
+      progress_(progress) {
+  if (group_.empty()) return;
+  faults_.of_group.resize(std::size_t{*std::max_element(group_.begin(), group_.end())} + 1);
+  faults_ = count_faults({}, near_);
 }
 
 std::size_t PointMover::total(const std::vector<std::uint32_t>& faults) {
@@ -65,37 +77,60 @@ void PointMover::count_points_in_one_place(std::vector<std::uint32_t>& faults) c
   }
 }
 
-std::vector<std::uint32_t> PointMover::count_faults() const {
-  std::vector<std::uint32_t> faults(faults_.size(), 0);
-  if (near_.empty()) return faults;
-  SelfIntersectionOptions options;
-  options.most_pairs = kMostPairs;
-  options.progress = progress_;
-  for (const auto& pair : self_intersections(mesh_, near_, options).pairs) {
-    blame(faults, pair[0]);
-    blame(faults, pair[1]);
-  }
+// Of the triangles near points that may move those with a corner that is one of these.
+std::vector<std::uint32_t> PointMover::triangles_of(const std::vector<char>& is_moved) const {
+  std::vector<std::uint32_t> triangles;
   for (const std::uint32_t t : near_) {
-    if (is_degenerate(mesh_, t)) blame(faults, t);
+    const auto& corners = mesh_.triangles[t];
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](std::uint32_t p) { return is_moved[p] != 0; })) {
+      triangles.push_back(t);
+    }
   }
-  count_points_in_one_place(faults);
+  return triangles;
+}
+
+PointMover::Faults PointMover::count_faults(const Faults& before,
+                                            const std::vector<std::uint32_t>& changed) {
+  const auto is_changed = [&](std::uint32_t t) {
+    return std::binary_search(changed.begin(), changed.end(), t);
+  };
+  Faults faults{intersections_.find(changed, &progress_), {}};
+  for (const std::uint32_t t : changed) {
+    if (is_degenerate(mesh_, t)) faults.pairs.push_back({t, t});
+  }
+  for (const auto& pair : before.pairs) {
+    if (!is_changed(pair[0]) && !is_changed(pair[1])) faults.pairs.push_back(pair);
+  }
+  faults.of_group.assign(faults_.of_group.size(), 0);
+  for (const auto& pair : faults.pairs) {
+    blame(faults.of_group, pair[0]);
+    if (pair[1] != pair[0]) blame(faults.of_group, pair[1]);
+  }
+  count_points_in_one_place(faults.of_group);
   return faults;
 }
 
 void PointMover::try_moves(const std::function<Vec3d(std::size_t)>& moved) {
   std::vector<Vec3d> before(points_.size());
+  std::vector<char> is_moved(mesh_.points.size(), 0);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     before[i] = mesh_.points[points_[i]];
-    if (faults_[group_[i]] > 0) mesh_.points[points_[i]] = moved(i);
+    if (faults_of(group_[i]) == 0) continue;
+    mesh_.points[points_[i]] = moved(i);
+    is_moved[points_[i]] = 1;
   }
-  std::vector<std::uint32_t> after = count_faults();
-  if (total(after) >= total(faults_)) {
+  Faults after = count_faults(faults_, triangles_of(is_moved));
+  if (total(after.of_group) >= faults()) {
+    std::fill(is_moved.begin(), is_moved.end(), 0);
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (after[group_[i]] >= faults_[group_[i]]) mesh_.points[points_[i]] = before[i];
+      if (after.of_group[group_[i]] < faults_of(group_[i])) continue;
+      mesh_.points[points_[i]] = before[i];
+      is_moved[points_[i]] = 1;
     }
-    after = count_faults();
+    after = count_faults(after, triangles_of(is_moved));
   }
-  if (total(after) < total(faults_)) {
+  if (total(after.of_group) < faults()) {
     faults_ = std::move(after);
     return;
   }

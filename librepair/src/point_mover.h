@@ -9,6 +9,8 @@
 #include <bsp/progress.h>
 #include <bsp/soup.h>
 
+#include "nearby_intersections.h"
+
 namespace meshrepair::internal {
 
 // Triangles are at fault that intersect others or are degenerate, and points of a group that are in
@@ -16,12 +18,15 @@ namespace meshrepair::internal {
 class PointMover {
  public:
   // `points` of the mesh may move, `group` says of each which it belongs to: 0, 1, ... Faults are
-  // counted, and moves taken back, by group. The mesh must outlive it.
+  // counted, and moves taken back, by group. No point will be moved by more than `reach` in all.
+  // The mesh must outlive it.
   PointMover(TriangleSoup& mesh, std::vector<std::uint32_t> points,
-             std::vector<std::uint32_t> group, ProgressObserver* progress);
+             std::vector<std::uint32_t> group, double reach, ProgressObserver* progress);
 
-  [[nodiscard]] std::size_t faults() const { return total(faults_); }
-  [[nodiscard]] std::uint32_t faults_of(std::uint32_t group) const { return faults_[group]; }
+  [[nodiscard]] std::size_t faults() const { return total(faults_.of_group); }
+  [[nodiscard]] std::uint32_t faults_of(std::uint32_t group) const {
+    return faults_.of_group[group];
+  }
   // Triangles with a corner that may move.
   [[nodiscard]] std::size_t triangles() const { return near_.size(); }
 
@@ -30,8 +35,16 @@ class PointMover {
   void try_moves(const std::function<Vec3d(std::size_t)>& moved);
 
  private:
+  struct Faults {
+    std::vector<NearbyIntersections::Pair> pairs;  // a degenerate triangle is one with itself
+    std::vector<std::uint32_t> of_group;
+  };
+
   [[nodiscard]] static std::size_t total(const std::vector<std::uint32_t>& faults);
-  [[nodiscard]] std::vector<std::uint32_t> count_faults() const;
+  // `changed` since `before` was counted.
+  [[nodiscard]] Faults count_faults(const Faults& before,
+                                    const std::vector<std::uint32_t>& changed);
+  [[nodiscard]] std::vector<std::uint32_t> triangles_of(const std::vector<char>& is_moved) const;
   void blame(std::vector<std::uint32_t>& faults, std::uint32_t triangle) const;
   void count_points_in_one_place(std::vector<std::uint32_t>& faults) const;
 
@@ -40,8 +53,9 @@ class PointMover {
   std::vector<std::uint32_t> group_;     // of each of points_
   std::vector<std::uint32_t> group_at_;  // of each point of the mesh, or kNone
   std::vector<std::uint32_t> near_;      // triangles
-  std::vector<std::uint32_t> faults_;    // of each group
-  ProgressObserver* progress_;
+  NearbyIntersections intersections_;
+  Faults faults_;
+  CancelOnly progress_;
 };
 
 }  // namespace meshrepair::internal

@@ -73,6 +73,8 @@ std::vector<Vec3d> find_ways_out(const TriangleSoup& mesh, const PointPlaces& pl
 
 // In steps of the spacing.
 constexpr std::array kDistances = {2.0, 8.0, 32.0};
+// From where one try puts a point to where another one does.
+constexpr double kReach = 128;
 // All as they should go, then all the other way, then each copy by chance: either way or not at
 // all, then in any direction.
 constexpr std::uint32_t kOrderlyTries = 6;
@@ -96,7 +98,7 @@ Vec3d move_of(const Vec3d& way_out, std::uint32_t point, std::uint32_t k) {
 
 void keep_those_at_fault(TriangleSoup& mesh, std::vector<std::uint32_t>& points,
                          std::vector<std::uint32_t>& group, ProgressObserver* progress) {
-  const PointMover all(mesh, points, group, progress);
+  const PointMover all(mesh, points, group, 0, progress);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (all.faults_of(group[i]) == 0) continue;
@@ -130,7 +132,7 @@ void separate_copies(TriangleSoup& mesh, double spacing, Precision precision, To
     mesh.points[p] = moved(p, 0);
   }
   keep_those_at_fault(mesh, copies, group, progress);
-  PointMover mover(mesh, copies, group, progress);
+  PointMover mover(mesh, copies, group, kReach * spacing, progress);
   const std::uint32_t tries = mover.triangles() <= kMostTriangles ? kTries : kOrderlyTries;
   for (std::uint32_t k = 1; k < tries && mover.faults() > 0; ++k) {
     mover.try_moves([&](std::size_t i) { return moved(copies[i], k); });
