@@ -200,10 +200,8 @@ class Certifier {
     }
   }
 
-  bool keep_if_better() {
-    if (current_.faults() >= best_.faults()) return false;
-    best_ = current_;
-    return true;
+  void keep_if_better() {
+    if (current_.faults() < best_.faults()) best_ = current_;
   }
 
   // Points that are not of the input have to move onto the grid, and what they move is decided

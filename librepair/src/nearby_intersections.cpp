@@ -73,7 +73,8 @@ void NearbyIntersections::add(std::uint32_t triangle) {
 std::vector<NearbyIntersections::Pair> NearbyIntersections::find(
     std::span<const std::uint32_t> among, ProgressObserver* progress) {
   if (among.empty()) return {};
-  part_ = {};
+  part_.points.clear();
+  part_.triangles.clear();
   part_triangles_.clear();
   part_points_.clear();
   for (const std::uint32_t t : among) add(t);

@@ -30,7 +30,7 @@ struct CertifyOptions {
 
 struct CertifyReport {
   bool done = false;                 // the test ran to its end
-  std::size_t pairs_at_first = 0;    // of triangles that intersected once rounded
+  std::size_t pairs_at_first = 0;    // of triangles that intersected once rounded, thin parts apart
   std::size_t pairs = 0;             // that are left
   std::size_t degenerate = 0;        // triangles without area, in the end
   std::size_t rounds = 0;            // of mending
