@@ -77,13 +77,13 @@ void PointMover::count_points_in_one_place(std::vector<std::uint32_t>& faults) c
   }
 }
 
-// Of the triangles near points that may move those with a corner that is one of these.
-std::vector<std::uint32_t> PointMover::triangles_of(const std::vector<char>& is_moved) const {
+std::vector<std::uint32_t> PointMover::triangles_of(const std::vector<char>& groups) const {
   std::vector<std::uint32_t> triangles;
   for (const std::uint32_t t : near_) {
     const auto& corners = mesh_.triangles[t];
-    if (std::any_of(corners.begin(), corners.end(),
-                    [&](std::uint32_t p) { return is_moved[p] != 0; })) {
+    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t p) {
+          return group_at_[p] != kNone && groups[group_at_[p]] != 0;
+        })) {
       triangles.push_back(t);
     }
   }
@@ -113,20 +113,19 @@ PointMover::Faults PointMover::count_faults(const Faults& before,
 
 void PointMover::try_moves(const std::function<Vec3d(std::size_t)>& moved) {
   std::vector<Vec3d> before(points_.size());
-  std::vector<char> is_moved(mesh_.points.size(), 0);
+  std::vector<char> is_moved;  // of each group
+  for (const std::uint32_t faults : faults_.of_group) is_moved.push_back(faults > 0 ? 1 : 0);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     before[i] = mesh_.points[points_[i]];
-    if (faults_of(group_[i]) == 0) continue;
-    mesh_.points[points_[i]] = moved(i);
-    is_moved[points_[i]] = 1;
+    if (is_moved[group_[i]] != 0) mesh_.points[points_[i]] = moved(i);
   }
   Faults after = count_faults(faults_, triangles_of(is_moved));
   if (total(after.of_group) >= faults()) {
-    std::fill(is_moved.begin(), is_moved.end(), 0);
+    for (std::uint32_t g = 0; g < is_moved.size(); ++g) {
+      if (after.of_group[g] < faults_of(g)) is_moved[g] = 0;
+    }
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (after.of_group[group_[i]] < faults_of(group_[i])) continue;
-      mesh_.points[points_[i]] = before[i];
-      is_moved[points_[i]] = 1;
+      if (is_moved[group_[i]] != 0) mesh_.points[points_[i]] = before[i];
     }
     after = count_faults(after, triangles_of(is_moved));
   }

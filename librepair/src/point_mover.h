@@ -44,7 +44,8 @@ class PointMover {
   // `changed` since `before` was counted.
   [[nodiscard]] Faults count_faults(const Faults& before,
                                     const std::vector<std::uint32_t>& changed);
-  [[nodiscard]] std::vector<std::uint32_t> triangles_of(const std::vector<char>& is_moved) const;
+  // With a point of a group that has a flag.
+  [[nodiscard]] std::vector<std::uint32_t> triangles_of(const std::vector<char>& groups) const;
   void blame(std::vector<std::uint32_t>& faults, std::uint32_t triangle) const;
   void count_points_in_one_place(std::vector<std::uint32_t>& faults) const;
 

@@ -71,22 +71,25 @@ class BoxTree {
   template <class Reaches, class Visit>
   void visit(Reaches reaches, Visit visit_item) const {
     if (nodes_.empty()) return;
-    std::vector<std::uint32_t> stack(1, 0);
-    while (!stack.empty()) {
-      const std::uint32_t n = stack.back();
-      stack.pop_back();
+    std::array<std::uint32_t, kMostDepth + 1> stack{};
+    std::size_t waiting = 1;
+    while (waiting > 0) {
+      const std::uint32_t n = stack[--waiting];
       const BoxNode& node = nodes_[n];
       if (!reaches(node.box)) continue;
       if (node.is_leaf()) {
         for (std::uint32_t i = 0; i < node.count; ++i) visit_item(order_[node.first + i]);
       } else {
-        stack.push_back(node.right);
-        stack.push_back(n + 1);
+        stack[waiting++] = node.right;
+        stack[waiting++] = n + 1;
       }
     }
   }
 
  private:
+  // Of 2^32 items, halved each time.
+  static constexpr std::size_t kMostDepth = 32;
+
   std::vector<BoxNode> nodes_;
   std::vector<std::uint32_t> order_;
 };
