@@ -158,6 +158,7 @@ Json section_of(const InsideReport& inside) {
           {"turned_parts", inside.turned_parts},
           {"doubtful_parts", inside.doubtful_parts},
           {"cavity_walls", inside.cavity_walls},
+          {"left_out_folds", inside.left_out_folds},
           {"filled_voids", inside.filled_voids},
           {"solid_cells", inside.solid_cells}};
 }

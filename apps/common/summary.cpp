@@ -138,6 +138,7 @@ void describe_decision(const RepairReport& repair, Lines& lines) {
   if (!inside.exact) {
     add_count(remarks, inside.contradictions, "contradiction", "left, the most likely solid taken");
   }
+  add_count(remarks, inside.left_out_folds, "fold", "the wrong way round left out");
   add_count(remarks, inside.filled_voids, "void", "filled");
   std::vector<std::string> texts = {
       fmt::format("decided by {}{}", rule_name(inside.used),

@@ -50,9 +50,15 @@ UseId CellComplex::mate(UseId use, CellId cell) const {
   throw InternalError("internal error: an edge of a cell has only one facet");
 }
 
-double facet_area(const CellComplex& complex, FacetId facet) {
+FacetMeasure measure_facet(const CellComplex& complex, FacetId facet) {
   const Position v = area_vector(complex, facet);
-  return 0.5 * std::sqrt(dot(v, v));
+  const UseId first = complex.facets[facet].first_use;
+  const Position& on_it = complex.vertices[complex.origin(complex.uses[first])].position;
+  return {0.5 * std::sqrt(dot(v, v)), dot(v, on_it) / 6};
+}
+
+double facet_area(const CellComplex& complex, FacetId facet) {
+  return measure_facet(complex, facet).area;
 }
 
 double cell_volume(const CellComplex& complex, CellId cell) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <bsp/disjoint_sets.h>
+
 namespace meshrepair::internal {
 namespace {
 
@@ -23,11 +25,28 @@ std::vector<BorderEdge> find_border(std::span<const IndexTriangle> triangles,
   return border;
 }
 
+// The fans of triangles that the corners of triangles belong to: those that share a point and are
+// joined by edges at which two meet. Corner 3 t + k of triangle t is where its side k starts.
+DisjointSets join_fans(std::span<const IndexTriangle> triangles, const EdgeTable& table) {
+  DisjointSets fans(3 * triangles.size());
+  table.for_each_edge([&](std::span<const std::uint32_t> sides) {
+    if (sides.size() != 2) return;
+    std::uint32_t start = sides[1], end = next_side(sides[1]);
+    if (side_start(triangles, start) != side_start(triangles, sides[0])) std::swap(start, end);
+    fans.join(sides[0], start);
+    fans.join(next_side(sides[0]), end);
+  });
+  return fans;
+}
+
 class LoopWalker {
  public:
-  LoopWalker(const CleanSoup& soup, std::vector<BorderEdge> border, ProgressObserver* progress)
+  LoopWalker(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
+             const EdgeTable& table, std::vector<BorderEdge> border, ProgressObserver* progress)
       : soup_(soup),
+        triangles_(triangles),
         check_(progress),
+        fans_(join_fans(triangles, table)),
         used_(border.size(), 0),
         first_(soup.points.size() + 1, 0),
         place_(soup.points.size(), kNone) {
@@ -83,7 +102,7 @@ class LoopWalker {
   }
 
   // Where several loops touch: the one that turns back most sharply, around the gap between two
-  // edges rather than across the surface.
+  // fans of triangles. Across a fan only where there is no other way.
   std::uint32_t next_edge() {
     const std::uint32_t at = path_.back().point;
     const std::uint32_t end = first_[at + 1];
@@ -93,15 +112,25 @@ class LoopWalker {
     std::uint32_t best = at_point_[free];
     if (path_.back().edge == kNone || free + 1 == end) return best;
     const Vec3d back = direction(at, path_[path_.size() - 2].point);
-    double best_cosine = back.dot(direction(at, other_end(best, at)));
+    const std::uint32_t fan = fan_at(path_.back().edge, at);
+    const auto rank = [&](std::uint32_t e) {
+      return std::pair(fan_at(e, at) != fan, back.dot(direction(at, other_end(e, at))));
+    };
+    auto best_rank = rank(best);
     for (std::uint32_t i = free + 1; i < std::min(end, free + kMostCompared); ++i) {
       if (used_[at_point_[i]] != 0) continue;
-      const double cosine = back.dot(direction(at, other_end(at_point_[i], at)));
-      if (cosine <= best_cosine) continue;
-      best_cosine = cosine;
+      const auto next = rank(at_point_[i]);
+      if (next <= best_rank) continue;
+      best_rank = next;
       best = at_point_[i];
     }
     return best;
+  }
+
+  // The fan that ends in this edge.
+  [[nodiscard]] std::uint32_t fan_at(std::uint32_t e, std::uint32_t point) {
+    const std::uint32_t side = loops_.edges[e].side;
+    return fans_.root(side_start(triangles_, side) == point ? side : next_side(side));
   }
 
   void cut_off_loop(std::uint32_t from, std::uint32_t closing_edge) {
@@ -149,8 +178,10 @@ class LoopWalker {
   };
 
   const CleanSoup& soup_;
+  std::span<const IndexTriangle> triangles_;
   CancelCheck check_;
   BoundaryLoops loops_;
+  DisjointSets fans_;
   std::vector<char> used_;               // of each edge
   std::vector<std::uint32_t> first_;     // the edges at point p are at_point_[first_[p]] ...
   std::vector<std::uint32_t> at_point_;  // ... to at_point_[first_[p + 1] - 1]
@@ -165,7 +196,7 @@ BoundaryLoops find_boundary_loops(const CleanSoup& soup, std::span<const IndexTr
                                   const EdgeTable& table, ProgressObserver* progress) {
   std::vector<BorderEdge> border = find_border(triangles, table);
   if (border.empty()) return {};
-  return LoopWalker(soup, std::move(border), progress).run();
+  return LoopWalker(soup, triangles, table, std::move(border), progress).run();
 }
 
 }  // namespace meshrepair::internal

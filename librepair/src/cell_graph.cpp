@@ -14,8 +14,13 @@ constexpr double kLeastArea = 1e-6;
 
 CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
                      ProgressObserver* progress, std::span<const CoverLayer> layers)
-    : first_(complex.cells.size() + 1, 0), unbounded_(complex.cells.size(), 0) {
+    : first_(complex.cells.size() + 1, 0),
+      volume_(complex.cells.size(), 0),
+      unbounded_(complex.cells.size(), 0) {
   CancelCheck check(progress);
+  const auto is_given = [&](TriangleId t) {
+    return complex.soup().triangles[t].source != Triangle::kNoSource;
+  };
   std::size_t next_layer = 0;
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
     check.tick();
@@ -28,10 +33,14 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
       for (; next_layer < layers.size() && layers[next_layer].facet <= f; ++next_layer) {
         layers_.push_back({static_cast<std::uint32_t>(links_.size()), layers[next_layer].triangle});
       }
+      const FacetMeasure measure = measure_facet(complex, f);
+      volume_[facet.below.index()] += measure.moment;
+      volume_[facet.above.index()] -= measure.moment;
+      // Triangles that close holes come after those of the input.
+      const TriangleId first = cover[f].triangle;
       links_.push_back({facet.below, facet.above,
-                        static_cast<float>(std::max(facet_area(complex, f), kLeastArea)),
-                        cover[f].winding, cover[f].triangle.valid() ? 1.0f : 0.0f,
-                        cover[f].triangle});
+                        static_cast<float>(std::max(measure.area, kLeastArea)), cover[f].winding,
+                        first.valid() ? 1.0f : 0.0f, first, first.valid() && is_given(first)});
       ++first_[facet.below.index() + 1];
       ++first_[facet.above.index() + 1];
     }

@@ -19,6 +19,7 @@
 #include "collars.h"
 #include "curve_patch.h"
 #include "facing_rims.h"
+#include "large_openings.h"
 #include "loop_triangulation.h"
 #include "new_points.h"
 #include "rim.h"
@@ -46,9 +47,18 @@ constexpr double kLargeOpening = 0.1;
 // in a point are a ring, too.
 constexpr double kWorthARing = 0.9;
 
+// A patch may lie on the surface where it is small beside it: there two sheets overlap by a seam.
+constexpr double kSmallPatch = 0.1;
+
 struct Sheets {
   DisjointSets sets;         // of triangles, joined where two meet at an edge
   std::vector<double> area;  // of each root, in square grid steps
+};
+
+// A ring between two loops.
+struct Ring {
+  std::size_t loop = 0;  // one of them
+  double area = 0;
 };
 
 Vec3d position(const CleanSoup& soup, PointId p) { return as_vector(soup.grid_points[p]); }
@@ -73,7 +83,8 @@ class HolePatcher {
         progress_(progress),
         triangles_(index_triangles(soup)),
         new_points_(soup),
-        sheets_{DisjointSets(triangles_.size()), {}} {}
+        sheets_{DisjointSets(triangles_.size()), {}},
+        parts_(0) {}
 
   void run() {
     {
@@ -86,10 +97,13 @@ class HolePatcher {
     }
     find_rims();
     triangulate();
+    judge_openings();
     close_rings();
+    if (!rings_.empty()) judge_openings();
     curve();
     for (std::size_t l = 0; l < patches_.size(); ++l) close_hole(l);
     drop_copies();
+    report_.rings = rings_.size();
     report_.area *= soup_.grid.unit * soup_.grid.unit;
     report_.largest_area *= soup_.grid.unit * soup_.grid.unit;
   }
@@ -102,6 +116,12 @@ class HolePatcher {
     sheets_.area.assign(triangles_.size(), 0);
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       sheets_.area[sheets_.sets.root(t)] += area_of(soup_, soup_.triangles[TriangleId(t)].corners);
+    }
+    parts_ = sheets_.sets;
+    for (std::size_t l = 0; l < loops_.loops(); ++l) {
+      for (const std::uint32_t e : loops_.edges_of(l)) {
+        parts_.join(a_triangle_at(l), triangle_at(e));
+      }
     }
   }
 
@@ -121,23 +141,48 @@ class HolePatcher {
   }
 
   void triangulate() {
-    std::vector<double> allowed(rims_.size());
-    for (std::size_t l = 0; l < rims_.size(); ++l) allowed[l] = largest_area(l, l);
+    std::vector<double> area(rims_.size());
+    for (std::size_t l = 0; l < rims_.size(); ++l) area[l] = sheet_area(l, l);
     patches_.resize(rims_.size());
     folded_.assign(rims_.size(), 0);
+    too_large_.assign(rims_.size(), 0);
+    closed_.assign(rims_.size(), 0);
     SharedProgress shared(progress_, rims_.size());
     tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
-      patches_[l].too_large = internal::least_area(rims_[l]) > allowed[l];
-      if (patches_[l].too_large) return;
       LoopTriangulationOptions options;
       options.most_edges = options_.most_edges;
-      options.largest_area = allowed[l];
       options.poll = [&shared] { shared.poll(); };
       patches_[l] = internal::triangulate_loop(rims_[l], options);
-      folded_[l] = !patches_[l].too_large && lies_on_surface(l) ? 1 : 0;
-      if (folded_[l] != 0) patches_[l].too_large = true;
+      folded_[l] = patches_[l].area > kSmallPatch * area[l] && lies_on_surface(l) ? 1 : 0;
       shared.done();
     });
+  }
+
+  // The rims that a sheet ends at, and the rings between two, make one part of sheets.
+  void judge_openings() {
+    std::vector<double> area(triangles_.size(), 0);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      area[parts_.root(t)] += area_of(soup_, soup_.triangles[TriangleId(t)].corners);
+    }
+    for (const Ring& ring : rings_) area[parts_.root(a_triangle_at(ring.loop))] += ring.area;
+    std::vector<std::size_t> loops;
+    std::vector<internal::Opening> openings;
+    for (std::size_t l = 0; l < rims_.size(); ++l) {
+      if (closed_[l] != 0 || folded_[l] != 0) continue;
+      loops.push_back(l);
+      openings.push_back({parts_.root(a_triangle_at(l)), patches_[l].area});
+    }
+    const auto large =
+        internal::find_large_openings(openings, std::move(area), options_.largest_share);
+    for (std::size_t i = 0; i < loops.size(); ++i) too_large_[loops[i]] = large[i];
+  }
+
+  [[nodiscard]] std::uint32_t triangle_at(std::uint32_t border_edge) const {
+    return loops_.edges[border_edge].side / 3;
+  }
+
+  [[nodiscard]] std::uint32_t a_triangle_at(std::size_t loop) const {
+    return triangle_at(loops_.edges_of(loop)[0]);
   }
 
   // Whether the patch is folded back at most of the open edges: it would be a copy of an open
@@ -159,37 +204,36 @@ class HolePatcher {
     return 2 * sharp > open;
   }
 
-  // That a patch between two loops may have, or over one that is given twice: a share of the sheets
-  // that end there.
-  double largest_area(std::size_t loop, std::size_t other) {
+  // Of the sheets that end at two loops, or at one that is given twice.
+  double sheet_area(std::size_t loop, std::size_t other) {
     roots_.clear();
     for (const std::size_t l : {loop, other}) {
       for (const std::uint32_t e : loops_.edges_of(l)) {
-        roots_.push_back(sheets_.sets.root(loops_.edges[e].side / 3));
+        roots_.push_back(sheets_.sets.root(triangle_at(e)));
       }
     }
     std::sort(roots_.begin(), roots_.end());
     roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
     double area = 0;
     for (const std::uint32_t root : roots_) area += sheets_.area[root];
-    return options_.largest_share * area;
+    return area;
   }
 
   // Joins two rims by a ring where that takes less area than to close each of them.
   void close_rings() {
-    closed_.assign(rims_.size(), 0);
     for (const auto& pair : internal::find_facing_rims(rims_, progress_)) {
       const std::size_t a = pair.first, b = pair.second;
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
       if (!is_large_opening(a) && !is_large_opening(b)) continue;
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
-      if (ring.folded || ring.area > largest_area(a, b)) continue;
-      const bool known = has_known_area(a) && has_known_area(b);
+      if (ring.folded || ring.area > options_.largest_share * sheet_area(a, b)) continue;
+      const bool patched = too_large_[a] == 0 && too_large_[b] == 0;
       const double one_by_one = patches_[a].area + patches_[b].area;
-      if (known && ring.area >= kWorthARing * one_by_one) continue;
+      if (patched && ring.area >= kWorthARing * one_by_one) continue;
       closed_[a] = closed_[b] = 1;
-      ++report_.rings;
+      parts_.join(a_triangle_at(a), a_triangle_at(b));
+      rings_.push_back({a, ring.area});
       note_patch(2, ring.area, std::max(rims_[a].size(), rims_[b].size()));
       const auto id = [&](std::uint32_t i) {
         return PointId(i < rims_[a].size() ? loops_.points_of(a)[i]
@@ -200,15 +244,8 @@ class HolePatcher {
     }
   }
 
-  // Triangles are missing where a patch is too large, but not where it lies on the surface.
-  [[nodiscard]] bool has_known_area(std::size_t loop) const {
-    return !patches_[loop].too_large || folded_[loop] != 0;
-  }
-
   bool is_large_opening(std::size_t loop) {
-    const double allowed = largest_area(loop, loop);
-    if (!has_known_area(loop)) return allowed > 0;
-    return patches_[loop].area * options_.largest_share > kLargeOpening * allowed;
+    return too_large_[loop] != 0 || patches_[loop].area > kLargeOpening * sheet_area(loop, loop);
   }
 
   void curve() {
@@ -217,7 +254,7 @@ class HolePatcher {
     const std::vector<internal::Collar> collars = internal::find_collars(soup_, triangles_, loops_);
     SharedProgress shared(progress_, rims_.size());
     tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
-      if (closed_[l] == 0 && !patches_[l].too_large) {
+      if (closed_[l] == 0 && is_patched(l)) {
         curved_[l] =
             internal::curve_patch(rims_[l], patches_[l], collars[l], [&] { shared.poll(); });
       }
@@ -225,11 +262,15 @@ class HolePatcher {
     });
   }
 
+  [[nodiscard]] bool is_patched(std::size_t loop) const {
+    return too_large_[loop] == 0 && folded_[loop] == 0;
+  }
+
   void close_hole(std::size_t loop) {
     if (closed_[loop] != 0) return;
     if (curved_[loop]) return close_curved(loop);
     const LoopTriangulation& patch = patches_[loop];
-    if (patch.too_large) {
+    if (!is_patched(loop)) {
       ++report_.too_large;
       return;
     }
@@ -331,10 +372,13 @@ class HolePatcher {
   std::vector<IndexTriangle> triangles_;
   internal::NewPoints new_points_;
   Sheets sheets_;
+  DisjointSets parts_;  // of triangles: sheets that are joined by rims and rings
+  std::vector<Ring> rings_;
   BoundaryLoops loops_;
   std::vector<Rim> rims_;                                   // of each loop
   std::vector<LoopTriangulation> patches_;                  // of each loop
   std::vector<char> folded_;                                // of each loop: onto the surface
+  std::vector<char> too_large_;                             // of each loop: its patch
   std::vector<char> closed_;                                // of each loop: by a ring
   std::vector<std::optional<internal::PatchMesh>> curved_;  // of each loop
   std::vector<std::uint32_t> roots_;                        // scratch

@@ -6,12 +6,17 @@
 #include <repair/inside_rule.h>
 #include <repair/walk.h>
 
+#include "outer_pockets.h"
 #include "turn_parts.h"
 #include "voids.h"
 #include "winding_field.h"
 
 namespace meshrepair {
 namespace {
+
+// Solidity has to explain the mesh clearly better than the winding numbers do, by this factor: what
+// it adds are often slivers.
+constexpr double kClearlyBetter = 0.95;
 
 std::string count_of(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -108,14 +113,20 @@ class InsideDecider {
     const std::vector<double> given = w;
     const InsideReport before = report_;
     w = internal::turn_parts(graph_, orientation_, std::move(w), options_, report_);
-    turn_outer_pockets(w);
+    const internal::OuterPockets pockets =
+        internal::turn_outer_pockets(graph_, orientation_.part_of, w);
+    report_.left_out_folds = pockets.left_out;
     CellLabels labels = by_winding(w);
     if (!report_.exact) {
       const InsideReport by_winding_numbers = report_;
       report_ = before;
       CellLabels others = by_solidity(options_.cavities);
-      if (price(others, given) < price(labels, given)) {
+      for (std::size_t i = 0; i < pockets.is_left_out.size(); ++i) {
+        if (pockets.is_left_out[i] != 0) others.solid[i] = 0;
+      }
+      if (price(others, given) < kClearlyBetter * price(labels, given)) {
         report_.used = InsideRule::solidity;
+        report_.left_out_folds = pockets.left_out;
         report_.reason =
             "it takes less made-up surface, and leaves out less of what is there, than the winding "
             "numbers";
@@ -128,48 +139,22 @@ class InsideDecider {
     return labels;
   }
 
-  // The area of the solid's boundary that no triangle covers, and that of the triangles which do
-  // not bound it and are not inside it as the winding numbers say: what Murali and Funkhouser keep
-  // small.
+  // The area of the solid's boundary that no triangle of the input covers, and that of those which
+  // do not bound it and are not inside it as the winding numbers say: what Murali and Funkhouser
+  // keep small.
   [[nodiscard]] double price(const CellLabels& labels, const std::vector<double>& w) const {
     double sum = 0;
     for (const Link& link : graph_.links()) {
       const std::size_t below = link.below.index(), above = link.above.index();
       const bool bounds = labels.solid[below] != labels.solid[above];
-      const double share = bounds ? 1 - link.opacity : link.opacity;
+      const double opacity = link.given ? link.opacity : 0;
+      const double share = bounds ? 1 - opacity : opacity;
       if (share == 0) continue;
       const bool explained = link.opaque() && labels.solid[below] != 0 &&
                              std::abs(w[below] - w[above] - link.winding) <= 0.5;
       if (!explained) sum += share * link.area;
     }
     return sum;
-  }
-
-  // A surface that crosses itself may wind the wrong way around a piece of space, like one half of
-  // a bow tie. What so borders the outside is solid as well; in a cavity it is not.
-  void turn_outer_pockets(std::vector<double>& w) const {
-    if (std::none_of(w.begin(), w.end(), [](double x) { return x < -0.5; })) return;
-    std::vector<char> seen(graph_.cells(), 0);
-    std::vector<CellId> queue;
-    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
-      if (!graph_.unbounded(c)) continue;
-      seen[c.index()] = 1;
-      queue.push_back(c);
-    }
-    // From empty cells into empty and negative ones, from those into negative ones only.
-    while (!queue.empty()) {
-      const CellId cell = queue.back();
-      queue.pop_back();
-      const bool in_pocket = w[cell.index()] > 0.5;
-      for (const std::uint32_t l : graph_.links_of(cell)) {
-        const CellId next = other_end(graph_.links()[l], cell);
-        double& x = w[next.index()];
-        if (seen[next.index()] != 0 || x > 0.5 || (in_pocket && x >= -0.5)) continue;
-        seen[next.index()] = 1;
-        if (x < -0.5) x = -x;
-        queue.push_back(next);
-      }
-    }
   }
 
   [[nodiscard]] std::string why_winding() const {

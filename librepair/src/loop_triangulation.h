@@ -15,15 +15,12 @@ struct LoopTriangulation {
   // Positions in the loop, ascending: all triangles have the direction of the loop.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   double area = 0;
-  bool too_large = false;  // more than `largest_area`: triangles are missing
 };
 
 struct LoopTriangulationOptions {
   // Loops of up to so many edges get the optimum, which takes the cube of it; larger ones are first
   // cut along short chords.
   std::size_t most_edges = 200;
-  // No use in going on beyond that.
-  double largest_area = 0;
   std::function<void()> poll;  // may throw; unless empty
 };
 
@@ -33,8 +30,5 @@ struct LoopTriangulationOptions {
 // weighted, instead of the largest angle first and then the area.
 [[nodiscard]] LoopTriangulation triangulate_loop(const Rim& rim,
                                                  const LoopTriangulationOptions& options);
-
-// No surface with this border has less area.
-[[nodiscard]] double least_area(const Rim& rim);
 
 }  // namespace meshrepair::internal

@@ -287,15 +287,75 @@ TEST(PatchHoles, ABowlOfTwoSheetsGetsARim) {
   EXPECT_NEAR(repaired_volume(bowl), half_shell, 0.05 * half_shell);
 }
 
+// A dish in two pieces, with a gap between them: the wide one is closed as it is one with the
+// other.
+TEST(PatchHoles, ADishOfTwoPiecesIsClosedAtItsWideRim) {
+  const auto ring = [](double from, double to, double radius) {
+    return without_where(sphere(6000, radius), [=](const Vec3d& p) {
+      const double across = std::hypot(p.x(), p.y()) / radius;
+      return p.z() > 0 || across < from || across > to;
+    });
+  };
+  TriangleSoup dish = ring(0, 0.5, 1);
+  append(dish, ring(0.65, 0.85, 1));
+  const Patched p = patched(dish);
+  EXPECT_EQ(p.report.rings, 1u);
+  EXPECT_EQ(p.report.closed, 3u);
+  EXPECT_TRUE(p.topology.closed() && p.topology.oriented());
+}
+
+// A height field on a flat rim.
+TEST(PatchHoles, AHillIsClosedBelow) {
+  constexpr int kSteps = 20;
+  TriangleSoup hill;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const double x = 2.0 * i / kSteps - 1, y = 2.0 * j / kSteps - 1;
+      hill.points.emplace_back(x, y, 0.5 * (1 - x * x) * (1 - y * y));
+    }
+  }
+  const auto at = [](int i, int j) { return static_cast<std::uint32_t>(i * (kSteps + 1) + j); };
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      hill.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      hill.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  EXPECT_NEAR(repaired_volume(hill), 0.5 * 16 / 9, 0.01);
+}
+
+// Two sheets that overlap by a narrow seam, with the ends in common: the patch lies on them.
+TEST(PatchHoles, ASeamThatOverlapsIsClosed) {
+  TriangleSoup soup = without(box({0, 0, 0}, {4, 4, 4}), {});
+  const auto corner = [&](double x, double y, double z) {
+    const auto found = std::find(soup.points.begin(), soup.points.end(), Vec3d(x, y, z));
+    return static_cast<std::uint32_t>(found - soup.points.begin());
+  };
+  soup = without_where(soup, [](const Vec3d& p) { return p.z() == 4; });
+  const std::uint32_t a = corner(0, 0, 4), b = corner(4, 0, 4), c = corner(4, 4, 4),
+                      d = corner(0, 4, 4);
+  soup.points.emplace_back(2.0, 2.0, 4.0);
+  soup.points.emplace_back(2.0, -0.1, 4.01);
+  const auto middle = static_cast<std::uint32_t>(soup.points.size() - 2);
+  const std::uint32_t over = middle + 1;
+  // The edge from a to b is that of the wall, above it the lid comes over it.
+  for (const auto& t : std::vector<std::array<std::uint32_t, 3>>{
+           {a, over, middle}, {over, b, middle}, {b, c, middle}, {c, d, middle}, {d, a, middle}}) {
+    soup.triangles.push_back(t);
+  }
+  const Patched p = patched(soup);
+  EXPECT_EQ(p.report.loops, 1u);
+  EXPECT_EQ(p.report.closed, 1u);
+  EXPECT_TRUE(p.topology.closed() && p.topology.manifold() && p.topology.oriented());
+}
+
 TEST(PatchHoles, AShortTubeIsClosedByTwoLids) {
   // A ring between its rims would be the tube itself.
   TriangleSoup tube = box({0, 0, 0}, {4, 4, 0.5});
   tube = without_where(tube, [](const Vec3d& p) { return p.z() == 0; });
   tube = without_where(tube, [](const Vec3d& p) { return p.z() == 0.5; });
   ASSERT_EQ(tube.triangles.size(), 8u);
-  HoleOptions options;
-  options.largest_share = 4;
-  const Patched p = patched(tube, options);
+  const Patched p = patched(tube);
   EXPECT_EQ(p.report.rings, 0u);
   EXPECT_EQ(p.report.closed, 2u);
   EXPECT_DOUBLE_EQ(p.report.area, 32);

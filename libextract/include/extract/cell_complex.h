@@ -126,6 +126,16 @@ class CellComplex {
 // decisions.
 [[nodiscard]] double facet_area(const CellComplex& complex, FacetId facet);
 
+struct FacetMeasure {
+  double area = 0;
+  // The volume between the facet and the origin, on the side below it: summed over the facets of a
+  // cell, those that it is above negative, its volume.
+  double moment = 0;
+};
+
+// As facet_area().
+[[nodiscard]] FacetMeasure measure_facet(const CellComplex& complex, FacetId facet);
+
 // Volume of a cell in grid units, from rounded coordinates.
 [[nodiscard]] double cell_volume(const CellComplex& complex, CellId cell);
 

@@ -18,6 +18,7 @@ struct Link {
   std::int32_t winding = 0;  // of the cover, against the direction from below to above
   float opacity = 0;         // 0 where no triangle covers it, up to 1
   TriangleId triangle;       // the lowest id of those that cover it; invalid: none
+  bool given = false;        // one of these is of the input, and not there to close a hole
 
   [[nodiscard]] bool opaque() const { return triangle.valid(); }
 };
@@ -44,6 +45,8 @@ class CellGraph {
     return {of_cell_.data() + first, first_[cell.index() + 1] - first};
   }
   // Whether a facet of the cell lies on the outer box: such cells are empty by definition.
+  // In cubic grid steps, rounded; of an unbounded cell without meaning.
+  [[nodiscard]] double volume(CellId cell) const { return volume_[cell.index()]; }
   [[nodiscard]] bool unbounded(CellId cell) const { return unbounded_[cell.index()] != 0; }
 
  private:
@@ -57,6 +60,7 @@ class CellGraph {
   std::vector<Layer> layers_;
   std::vector<std::uint32_t> first_;
   std::vector<std::uint32_t> of_cell_;
+  std::vector<double> volume_;
   std::vector<char> unbounded_;
 };
 

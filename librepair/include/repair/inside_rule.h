@@ -58,6 +58,7 @@ struct InsideReport {
   std::size_t turned_parts = 0;    // inside out by their own triangles, and turned
   std::size_t doubtful_parts = 0;  // whose triangles do not tell which way is out ...
   std::size_t cavity_walls = 0;    // ... and that were found to be walls of cavities
+  std::size_t left_out_folds = 0;  // that wind the wrong way: slivers, and what a patch cuts off
   std::size_t filled_voids = 0;    // made solid because of the rule or the option
   std::size_t solid_cells = 0;
 };

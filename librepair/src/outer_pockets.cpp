@@ -1,0 +1,143 @@
+#include "outer_pockets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshrepair::internal {
+namespace {
+
+// Thinner than this share of its width, a pocket is a sliver: about what is left where one strip of
+// a surface is laid over the next. A cube has 0.14, a plate ten times as wide as thick 0.06 ...
+constexpr double kSliver = 0.01;
+// ... and a fold has less than this share of the area that its part bounds solid with.
+constexpr double kSmall = 0.01;
+
+// A patch that closes a hole is smaller than the surface around it; with this share of that and
+// more, a pocket is what a patch cuts off.
+constexpr double kMostPatched = 0.75;
+
+using PartOf = IdVector<TriangleId, std::uint32_t>;
+
+struct Pocket {
+  std::vector<CellId> cells;
+  double area = 0, volume = 0;
+  double given = 0, closing = 0;  // area of its outside: of the input, and of anything else
+  double solid_area = 0;          // of the parts around it, that of the largest: see PocketFinder
+};
+
+bool is_negative(double x) { return x < -0.5; }
+bool is_solid(double x) { return x > 0.5; }
+
+class PocketFinder {
+ public:
+  PocketFinder(const CellGraph& graph, const PartOf& part_of, const std::vector<double>& w)
+      : graph_(graph), part_of_(part_of), w_(w), is_in_one_(graph.cells(), 0) {
+    find_cells();
+    measure_parts();
+    remaining_ = is_in_one_;
+  }
+
+  [[nodiscard]] bool is_new(CellId cell) const { return remaining_[cell.index()] != 0; }
+
+  // The one with this cell.
+  Pocket take(CellId first) {
+    Pocket pocket;
+    pocket.cells.push_back(first);
+    remaining_[first.index()] = 0;
+    for (std::size_t i = 0; i < pocket.cells.size(); ++i) {
+      const CellId cell = pocket.cells[i];
+      pocket.volume += graph_.volume(cell);
+      for (const std::uint32_t l : graph_.links_of(cell)) look_at(graph_.links()[l], cell, pocket);
+    }
+    return pocket;
+  }
+
+ private:
+  // The cells of negative winding that are reached from outside through empty ones and each other.
+  void find_cells() {
+    std::vector<char> seen(graph_.cells(), 0);
+    std::vector<CellId> queue;
+    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
+      if (!graph_.unbounded(c)) continue;
+      seen[c.index()] = 1;
+      queue.push_back(c);
+    }
+    // From empty cells into empty and negative ones, from those into negative ones only.
+    while (!queue.empty()) {
+      const CellId cell = queue.back();
+      queue.pop_back();
+      for (const std::uint32_t l : graph_.links_of(cell)) {
+        const CellId next = other_end(graph_.links()[l], cell);
+        const double x = w_[next.index()];
+        if (seen[next.index()] != 0 || is_solid(x)) continue;
+        if (is_in_one_[cell.index()] != 0 && !is_negative(x)) continue;
+        seen[next.index()] = 1;
+        is_in_one_[next.index()] = is_negative(x) ? 1 : 0;
+        queue.push_back(next);
+      }
+    }
+  }
+
+  void measure_parts() {
+    for (const std::uint32_t part : part_of_) {
+      if (part >= solid_area_.size()) solid_area_.resize(part + 1, 0);
+    }
+    for (const Link& link : graph_.links()) {
+      const bool bounds = is_solid(w_[link.below.index()]) != is_solid(w_[link.above.index()]);
+      if (link.given && bounds) solid_area_[part_of_[link.triangle]] += link.area;
+    }
+  }
+
+  void look_at(const Link& link, CellId cell, Pocket& pocket) {
+    const CellId next = other_end(link, cell);
+    if (is_in_one_[next.index()] != 0) {
+      if (remaining_[next.index()] != 0) pocket.cells.push_back(next);
+      remaining_[next.index()] = 0;
+      return;
+    }
+    pocket.area += link.area;
+    if (is_solid(w_[next.index()])) return;
+    (link.given ? pocket.given : pocket.closing) += link.area;
+    if (link.given) {
+      pocket.solid_area = std::max(pocket.solid_area, solid_area_[part_of_[link.triangle]]);
+    }
+  }
+
+  const CellGraph& graph_;
+  const PartOf& part_of_;
+  const std::vector<double>& w_;
+  std::vector<char> is_in_one_;     // of each cell
+  std::vector<char> remaining_;     // of each cell: in a pocket that was not taken yet
+  std::vector<double> solid_area_;  // that a part bounds solid with
+};
+
+bool is_to_be_left_out(const Pocket& pocket) {
+  if (pocket.area >= kSmall * pocket.solid_area) return false;
+  const double thickness = 2 * pocket.volume / pocket.area;
+  return thickness < kSliver * std::sqrt(pocket.area) ||
+         pocket.closing > kMostPatched * pocket.given;
+}
+
+}  // namespace
+
+OuterPockets turn_outer_pockets(const CellGraph& graph, const PartOf& part_of,
+                                std::vector<double>& w) {
+  OuterPockets pockets;
+  if (std::none_of(w.begin(), w.end(), is_negative)) return pockets;
+  pockets.is_left_out.assign(graph.cells(), 0);
+  const std::vector<double> given = w;
+  PocketFinder finder(graph, part_of, given);
+  for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
+    if (!finder.is_new(c)) continue;
+    const Pocket pocket = finder.take(c);
+    const bool left_out = is_to_be_left_out(pocket);
+    ++(left_out ? pockets.left_out : pockets.turned);
+    for (const CellId cell : pocket.cells) {
+      w[cell.index()] = left_out ? 0 : -w[cell.index()];
+      pockets.is_left_out[cell.index()] = left_out ? 1 : 0;
+    }
+  }
+  return pockets;
+}
+
+}  // namespace meshrepair::internal

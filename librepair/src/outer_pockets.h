@@ -1,0 +1,29 @@
+// Pieces of space that the surface winds around the wrong way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <bsp/ids.h>
+#include <repair/cell_graph.h>
+
+namespace meshrepair::internal {
+
+struct OuterPockets {
+  std::size_t turned = 0;
+  std::size_t left_out = 0;
+  std::vector<char> is_left_out;  // of each cell; empty: none is
+};
+
+// A surface that crosses itself may wind the wrong way around a piece of space, like one half of a
+// bow tie: the winding numbers w are negative there. What so borders the outside is solid as well,
+// in a cavity it is not. Such pockets are given the opposite sign, but for two kinds, which are
+// given 0: folds of a part of the surface, thin like slivers, and what lies between a patch over a
+// hole and the surface under it, if they are small beside the solid that the part bounds. Linear in
+// the number of links.
+[[nodiscard]] OuterPockets turn_outer_pockets(const CellGraph& graph,
+                                              const IdVector<TriangleId, std::uint32_t>& part_of,
+                                              std::vector<double>& w);
+
+}  // namespace meshrepair::internal
