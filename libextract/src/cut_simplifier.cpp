@@ -24,7 +24,7 @@ bool CutSimplifier::Move::operator<(const Move& other) const {
 }
 
 CutSimplifier::CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays,
-                             double within, ProgressObserver* progress)
+                             const std::vector<double>& within, ProgressObserver* progress)
     : points_(mesh.points),
       stays_(stays),
       within_(within),
@@ -68,6 +68,7 @@ void CutSimplifier::consider(std::uint32_t point) {
   best.point = point;
   best.version = version_[point];
   if (!mesh_.find_star(point, star_)) return;
+  const double within = within_[point];
   double before = 0;
   for (const std::uint32_t t : star_.triangles) before = std::max(before, distance_[t]);
   link_.clear();
@@ -77,9 +78,9 @@ void CutSimplifier::consider(std::uint32_t point) {
     Move move = best;
     move.target = star_.link[i];
     move.length = (link_[i] - points_[point]).stableNorm();
-    move.distance = before + std::min(star_distance_.bound(i, within_ - before), move.length);
-    if (!(move.distance <= within_)) continue;
-    move.cost = std::max(move.distance, kSmallShare * within_);
+    move.distance = before + std::min(star_distance_.bound(i, within - before), move.length);
+    if (!(move.distance <= within)) continue;
+    move.cost = std::max(move.distance, kSmallShare * within);
     if (best < move && may_move(i)) best = move;
   }
   if (best.target != kNone) queue_.push(best);

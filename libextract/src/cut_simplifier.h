@@ -20,9 +20,10 @@ class CutSimplifier {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  // `stays` has a flag for each point; the two are not owned.
-  CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays, double within,
-                ProgressObserver* progress);
+  // `stays` has a flag for each point, `within` how far the surface around it may be moved; the
+  // three are not owned.
+  CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays,
+                const std::vector<double>& within, ProgressObserver* progress);
 
   // Until nothing can be moved any more. Throws Cancelled.
   void run();
@@ -60,7 +61,7 @@ class CutSimplifier {
 
   const std::vector<Vec3d>& points_;
   const std::vector<char>& stays_;
-  double within_;
+  const std::vector<double>& within_;
   CancelCheck cancel_;
   CollapsibleMesh mesh_;
   std::vector<std::uint32_t> version_;

@@ -17,8 +17,8 @@ namespace {
 
 using internal::CutSimplifier;
 
-// Parts that are not thicker than this times the bound stay: what is little for the surface is much
-// for them.
+// What is little for the surface is much for a thin part: the bound for its points is its thickness
+// divided by this, if that is less.
 constexpr double kThinParts = 7;
 
 // No part becomes larger or smaller by more than this share of its volume.
@@ -45,14 +45,19 @@ struct Original {
         sizes(part_sizes(original.mesh.points, original.mesh.triangles, parts.of_triangle,
                          parts.count, scale)) {}
 
-  [[nodiscard]] std::vector<char> in_thin_parts(double thickness) const {
-    std::vector<char> thin;
-    thin.reserve(parts.of_triangle.size());
-    for (const std::uint32_t part : parts.of_triangle) {
-      const PartSize& size = sizes[part];
-      thin.push_back(2 * std::abs(size.volume) < scale(thickness) * size.area ? 1 : 0);
+  // How far the surface around each point may be moved.
+  [[nodiscard]] std::vector<double> bounds(double within) const {
+    std::vector<double> bounds(surface.mesh.points.size(), within);
+    for (std::size_t t = 0; t < parts.of_triangle.size(); ++t) {
+      const PartSize& size = sizes[parts.of_triangle[t]];
+      // Not divided by the area, which may be 0.
+      const double share = kThinParts * scale(within) * size.area;
+      if (!(2 * std::abs(size.volume) < share)) continue;
+      const double bound = within * (2 * std::abs(size.volume) / share);
+      for (const std::uint32_t p : surface.mesh.triangles[t])
+        bounds[p] = std::min(bounds[p], bound);
     }
-    return thin;
+    return bounds;
   }
 };
 
@@ -71,11 +76,23 @@ void keep_points(const TriangleSoup& mesh, const std::vector<char>& of, std::vec
 }
 
 // Where parts touch, they have points in the same place. To move one of those would leave gaps that
-// no other program can tell from none.
+// no other program can tell from none. Two ends of an edge that rounding brought to one place are
+// no contact, but may become one.
 void keep_contacts(const TriangleSoup& mesh, std::vector<char>& stays) {
   const PointPlaces places = find_places(mesh.points);
+  std::vector<std::uint8_t> points_at(places.place.size(), 0);  // 3: three or more
+  for (const std::uint32_t place : places.place) {
+    points_at[place] = static_cast<std::uint8_t>(std::min(points_at[place] + 1, 3));
+  }
+  std::vector<char> is_edge(places.place.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t place = places.place[t[k]];
+      if (place == places.place[t[(k + 1) % 3]] && points_at[place] == 2) is_edge[place] = 1;
+    }
+  }
   for (std::size_t p = 0; p < stays.size(); ++p) {
-    if (places.is_copy[p] != 0) stays[p] = 1;
+    if (places.is_copy[p] != 0 && is_edge[places.place[p]] == 0) stays[p] = 1;
   }
 }
 
@@ -199,12 +216,12 @@ std::optional<Surface> simplify_cuts(const Surface& surface, const std::vector<c
   keep_points(surface.mesh, whole, stays);
   if (!(options.within > 0) || count_of(stays) == stays.size()) return std::nullopt;
   const Original original(surface);
-  keep_points(surface.mesh, original.in_thin_parts(kThinParts * options.within), stays);
+  const std::vector<double> within = original.bounds(options.within);
   keep_contacts(surface.mesh, stays);
   const std::size_t to_stay = count_of(stays);
   while (report.rounds < kMostRounds) {
     ++report.rounds;
-    CutSimplifier simplifier(surface.mesh, stays, options.within, options.progress);
+    CutSimplifier simplifier(surface.mesh, stays, within, options.progress);
     simplifier.run();
     Candidate candidate = make_candidate(surface, simplifier);
     if (candidate.changed.empty()) return std::nullopt;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <bsp/error.h>
+#include <extract/join_ends.h>
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
 
@@ -106,6 +107,7 @@ class Certifier {
     if (before.empty()) before = attempt.surface.mesh.points;
     round_points(attempt.surface.mesh, options_.precision);
     attempt.dropped_parts += internal::drop_turned_parts(attempt.surface, before);
+    join_ends(attempt.surface);
     SelfIntersectionOptions options;
     options.most_pairs = kMostPairs;
     options.progress = progress_;

@@ -117,6 +117,25 @@ TEST(SimplifyCuts, FlatSidesNeedTwoTrianglesEach) {
   expect_same_solid(cube, result);
 }
 
+// A block with a roof on four sides whose top is two points in one place.
+TEST(SimplifyCuts, TwoEndsOfAnEdgeInOnePlaceBecomeOne) {
+  TriangleSoup house;
+  house.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},     {0, 0, 1},
+                  {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 2}, {0.5, 0.5, 2}};
+  house.triangles = {{0, 2, 1}, {0, 3, 2}};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    house.triangles.push_back({i, j, j + 4});
+    house.triangles.push_back({i, j + 4, i + 4});
+    house.triangles.push_back({i + 4, j + 4, i < 2 ? 8u : 9u});
+  }
+  house.triangles.push_back({6, 9, 8});
+  house.triangles.push_back({4, 8, 9});
+  const Simplified result = simplify(house, 1e-6);
+  EXPECT_EQ(result.surface.mesh.triangles.size(), 14u);
+  EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
+}
+
 TEST(SimplifyCuts, WithoutABoundNothingChanges) {
   const TriangleSoup cube = squared_cube(4);
   const Simplified result = simplify(cube, 0);

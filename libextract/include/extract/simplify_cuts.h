@@ -30,12 +30,12 @@ struct SimplifyReport {
 // Simplifying polygonal models using successive mappings, 1997).
 //
 // Points of triangles with a flag in `whole` (one for each) stay, so that what was never cut is as
-// it was; and those in which parts touch, and parts that are hardly thicker than the bound. There
-// are no new points and no degenerate triangles. The surface stays closed and manifold, of the same
-// genus; changed triangles meet no others (exactly tested, with equal points as one); no part faces
-// another way, or changes its volume by over a tenth. Sources and flags of points go along. Returns
-// nothing where nothing can go, or where all that takes too many rounds. Throws Cancelled. n log n;
-// stars of very many triangles stay.
+// it was; and those in which parts touch. A part that is hardly thicker than the bound has a bound
+// of a share of its thickness. There are no new points and no degenerate triangles. The surface
+// stays closed and manifold, of the same genus; changed triangles meet no others (exactly tested,
+// with equal points as one); no part faces another way, or changes its volume by over a tenth.
+// Sources and flags of points go along. Returns nothing where nothing can go, or where all that
+// takes too many rounds. Throws Cancelled. n log n; stars of very many triangles stay.
 [[nodiscard]] std::optional<Surface> simplify_cuts(const Surface& surface,
                                                    const std::vector<char>& whole,
                                                    const SimplifyOptions& options,
