@@ -16,11 +16,12 @@
 #include <numeric>
 #include <utility>
 
+#include <bsp/ids.h>
+
 namespace meshrepair::internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // A set of numbers below a bound, to be gone through in ascending order: a bit for each, a bit for
 // each word of those that is not 0, and so on.

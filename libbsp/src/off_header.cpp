@@ -5,9 +5,9 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-class HeaderReader {
+class OffHeaderReader {
  public:
-  explicit HeaderReader(const MeshSource& source)
+  explicit OffHeaderReader(const MeshSource& source)
       : source_(source), text_(source.bytes, kOffText) {}
 
   OffHeader run() {
@@ -78,6 +78,6 @@ std::size_t parse_off_keyword(std::string_view token, OffHeader& header) {
   return at;
 }
 
-OffHeader read_off_header(const MeshSource& source) { return HeaderReader(source).run(); }
+OffHeader read_off_header(const MeshSource& source) { return OffHeaderReader(source).run(); }
 
 }  // namespace meshrepair

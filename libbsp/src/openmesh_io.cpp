@@ -66,12 +66,12 @@ class ManifoldCheck {
   }
 
   void check_fans() {
-    constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> fan_of_point(soup_.points.size(), kNone);
+    constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> fan_of_point(soup_.points.size(), kNowhere);
     for (std::size_t corner = 0; corner < fan_.size(); ++corner) {
       const std::uint32_t point = soup_.triangles[corner / 3][corner % 3];
       const std::size_t fan = root(corner);
-      if (fan_of_point[point] == kNone) fan_of_point[point] = fan;
+      if (fan_of_point[point] == kNowhere) fan_of_point[point] = fan;
       if (fan_of_point[point] != fan) {
         refuse(corner / 3, "touches triangles before it only in point " + std::to_string(point));
       }

@@ -37,9 +37,9 @@ std::optional<PlyType> type_of(char letter, std::size_t size) {
   }
 }
 
-class HeaderReader {
+class PcdHeaderReader {
  public:
-  explicit HeaderReader(const MeshSource& source)
+  explicit PcdHeaderReader(const MeshSource& source)
       : source_(source), text_(source.bytes, {.comment = '#'}) {}
 
   PcdHeader run() {
@@ -171,6 +171,6 @@ bool begins_with_pcd(std::string_view bytes) {
   return word == "VERSION" || word == "FIELDS" || word == "COLUMNS";
 }
 
-PcdHeader read_pcd_header(const MeshSource& source) { return HeaderReader(source).run(); }
+PcdHeader read_pcd_header(const MeshSource& source) { return PcdHeaderReader(source).run(); }
 
 }  // namespace meshrepair

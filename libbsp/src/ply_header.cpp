@@ -36,9 +36,9 @@ std::optional<PlyType> parse_type(std::string_view word) {
   return std::nullopt;
 }
 
-class HeaderReader {
+class PlyHeaderReader {
  public:
-  explicit HeaderReader(const MeshSource& source) : source_(source), text_(source.bytes) {}
+  explicit PlyHeaderReader(const MeshSource& source) : source_(source), text_(source.bytes) {}
 
   PlyHeader run() {
     text_.skip_line();
@@ -165,6 +165,6 @@ bool begins_with_ply(std::string_view bytes) {
   return text.position() == 3 && !text.next_on_line() && text.remaining() > 0;
 }
 
-PlyHeader read_ply_header(const MeshSource& source) { return HeaderReader(source).run(); }
+PlyHeader read_ply_header(const MeshSource& source) { return PlyHeaderReader(source).run(); }
 
 }  // namespace meshrepair

@@ -17,25 +17,25 @@ namespace meshrepair {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoProperty = std::numeric_limits<std::size_t>::max();
 
 std::size_t find_property(const PlyElement& element, std::string_view name, bool is_list) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
     if (property.is_list == is_list && property.name == name) return i;
   }
-  return kNone;
+  return kNoProperty;
 }
 
 // The property that holds the corners of a face or the points of a strip.
 std::size_t find_indices(const PlyElement& element) {
   for (const std::string_view name : {"vertex_indices", "vertex_index"}) {
     const std::size_t found = find_property(element, name, true);
-    if (found != kNone) return found;
+    if (found != kNoProperty) return found;
   }
   const auto is_list = [](const PlyProperty& property) { return property.is_list; };
   const auto& all = element.properties;
-  if (std::count_if(all.begin(), all.end(), is_list) != 1) return kNone;
+  if (std::count_if(all.begin(), all.end(), is_list) != 1) return kNoProperty;
   return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), is_list) - all.begin());
 }
 
@@ -109,7 +109,7 @@ class PlyBody {
       const std::array<std::string_view, 3> names = {"x", "y", "z"};
       const std::size_t found =
           find_property(element, names[static_cast<std::size_t>(axis)], false);
-      if (found == kNone) source_.fail("the vertices of the PLY file have no x, y and z");
+      if (found == kNoProperty) source_.fail("the vertices of the PLY file have no x, y and z");
       axes[found] = axis;
     }
     // Three numbers take at least three bytes.
@@ -153,7 +153,7 @@ class PlyBody {
 
   void read_faces(const PlyElement& element) {
     const std::size_t indices = find_indices(element);
-    if (indices == kNone) source_.fail("the faces of the PLY file have no vertex_indices");
+    if (indices == kNoProperty) source_.fail("the faces of the PLY file have no vertex_indices");
     std::size_t unreadable = 0;
     bool ends_file = false;
     const std::size_t found = read_items(element, [&] {
@@ -191,7 +191,7 @@ class PlyBody {
   // of these is turned round. A negative value ends the strip and begins another.
   void read_strips(const PlyElement& element) {
     const std::size_t indices = find_indices(element);
-    if (indices == kNone) source_.fail("the strips of the PLY file have no vertex_indices");
+    if (indices == kNoProperty) source_.fail("the strips of the PLY file have no vertex_indices");
     read_items(element, [&] {
       std::array<std::int64_t, 2> before = {};
       std::size_t length = 0;

@@ -21,9 +21,9 @@ namespace meshrepair {
 namespace {
 
 constexpr std::size_t kBoxPlanes = 6;
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoBound = std::numeric_limits<std::size_t>::max();
 // Within this reach signed_distance() is as near as it says.
-constexpr double kReach = 0x1p26;
+constexpr double kGridReach = 0x1p26;
 // Of a determinant of three unit vectors, see meet_approximately().
 constexpr double kTurnError = 0x1p-46;
 
@@ -91,24 +91,24 @@ bool RegionVolume::start_on_plane(Index h, Vertex& found) {
 
 // With the planes before g, on the common line of h and g.
 bool RegionVolume::solve_on_line(Index h, Index g, Vertex& found) {
-  Index lower = kNone, upper = kNone;
+  Index lower = kNoBound, upper = kNoBound;
   Vertex low, high;
   for (Index k = 0; k < g; ++k) {
     const int direction = turn(h, g, k);
     if (direction == 0) {
       if (!passes_parallel(h, g, k)) return false;
     } else if (direction > 0) {
-      if (lower != kNone && is_inside(low, k)) continue;
+      if (lower != kNoBound && is_inside(low, k)) continue;
       lower = k;
       low = vertex(h, g, k);
     } else {
-      if (upper != kNone && is_inside(high, k)) continue;
+      if (upper != kNoBound && is_inside(high, k)) continue;
       upper = k;
       high = vertex(h, g, k);
     }
   }
   // The box bounds every line at both ends; if there is none, h and g are parallel.
-  if (lower == kNone || upper == kNone || !is_inside(low, upper)) return false;
+  if (lower == kNoBound || upper == kNoBound || !is_inside(low, upper)) return false;
   found = high;
   return true;
 }
@@ -125,7 +125,7 @@ RegionVolume::Vertex RegionVolume::vertex(Index a, Index b, Index c) const {
   const auto near = internal::meet_approximately(planes_[a], planes_[b], planes_[c]);
   Vertex made{{a, b, c}, near.position, near.error};
   for (const double x : made.position) {
-    if (!(std::abs(x) < kReach)) made.error = std::numeric_limits<double>::infinity();
+    if (!(std::abs(x) < kGridReach)) made.error = std::numeric_limits<double>::infinity();
   }
   return made;
 }
@@ -146,7 +146,7 @@ bool RegionVolume::is_inside(const Vertex& at, Index plane) {
   ++looked_at_;
   const auto& [a, b, c] = at.planes;
   if (plane == a || plane == b || plane == c) return true;
-  if (at.error < kReach) {
+  if (at.error < kGridReach) {
     const double distance = signed_distance(at.position, planes_[plane]);
     const double bound = kDistanceError + 1.7321 * at.error;
     if (distance > bound) return true;

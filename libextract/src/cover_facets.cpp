@@ -40,7 +40,7 @@ constexpr std::size_t kOffers = 6;
 constexpr std::size_t kJudged = 24;
 // Up to here every triangle is asked what it covers before the facet is cut.
 constexpr std::size_t kFew = 8;
-constexpr std::size_t kTicksPerProgress = 8192;
+constexpr std::size_t kFacetsPerProgress = 8192;
 constexpr std::size_t kTicksPerQuestion = 256;
 
 class FacetCoverer {
@@ -336,7 +336,7 @@ class FacetCoverer {
   }
 
   void tell_progress(std::size_t done, std::size_t all) {
-    if (progress_ == nullptr || done % kTicksPerProgress != 0) return;
+    if (progress_ == nullptr || done % kFacetsPerProgress != 0) return;
     if (progress_->cancelled()) throw Cancelled();
     progress_->advance(static_cast<double>(done) / static_cast<double>(all));
   }

@@ -8,11 +8,10 @@
 #include <utility>
 
 #include <bsp/double_predicates.h>
+#include <bsp/ids.h>
 
 namespace meshrepair::internal {
 namespace {
-
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 // A triangle at an edge.
 struct Wing {

@@ -11,12 +11,11 @@
 #include <bsp/assert.h>
 #include <bsp/disjoint_sets.h>
 #include <bsp/error.h>
+#include <bsp/ids.h>
 #include <extract/cut_nonmanifold.h>
 
 namespace meshrepair {
 namespace {
-
-constexpr std::uint32_t kNone = ManifoldCorners::kNone;
 
 // The sides of polygons, listed by the edge of the complex that they run along.
 class SidesByEdge {

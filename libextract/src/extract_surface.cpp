@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <bsp/ids.h>
 #include <bsp/topology.h>
 #include <extract/boundary.h>
 #include <extract/cut_nonmanifold.h>
@@ -20,8 +21,6 @@ namespace {
 
 using internal::InputPoints;
 using internal::RegionTriangle;
-
-constexpr std::uint32_t kNone = ManifoldCorners::kNone;
 
 // All that is combinatorial.
 struct MergedBoundary {

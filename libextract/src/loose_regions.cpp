@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
+#include <bsp/ids.h>
+
 namespace meshrepair::internal {
 namespace {
-
-constexpr std::uint32_t kNone = ManifoldCorners::kNone;
 
 // Of each region whether it has an outline of three corners and more, and no outline of less.
 std::vector<char> sound_regions(const Boundary& boundary, const ManifoldCorners& corners,

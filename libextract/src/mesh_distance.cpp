@@ -14,6 +14,7 @@
 
 #include <bsp/error.h>
 #include <bsp/hash_index.h>
+#include <bsp/ids.h>
 #include <bsp/shared_progress.h>
 #include <extract/mesh_distance.h>
 
@@ -63,7 +64,6 @@ struct FiniteMesh {
 FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
   FiniteMesh mesh;
   mesh.triangles.reserve(soup.triangles.size());
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::vector<std::uint32_t> place(soup.points.size(), kNone);
   double area = 0;
   for (const auto& t : soup.triangles) {

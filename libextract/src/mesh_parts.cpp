@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 
 #include <bsp/disjoint_sets.h>
+#include <bsp/ids.h>
 #include <extract/mesh_parts.h>
 
 namespace meshrepair {
 
 MeshParts find_parts(const TriangleSoup& mesh) {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
   DisjointSets joined(mesh.points.size());
   for (const auto& t : mesh.triangles) {
     joined.join(t[0], t[1]);

@@ -10,10 +10,11 @@
 #include <Eigen/Geometry>
 #include <tbb/parallel_sort.h>
 
+#include <bsp/ids.h>
+
 namespace meshrepair {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kTurn = 2 * std::numbers::pi;
 
 // Directions from a point, counter-clockwise from `from`; less than half a turn wide.

@@ -4,11 +4,10 @@
 #include <utility>
 
 #include <bsp/disjoint_sets.h>
+#include <bsp/ids.h>
 
 namespace meshrepair::internal {
 namespace {
-
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 // Where more border edges meet in a point, any of them will do as the next one.
 constexpr std::uint32_t kMostCompared = 32;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kSamples = 16;
 // About a second.
 constexpr std::size_t kMostSteps = 200'000'000;
-constexpr std::size_t kNone = ~std::size_t{0};
+constexpr std::size_t kNowhere = ~std::size_t{0};
 
 struct RimPoint {
   Vec3d at;
@@ -36,7 +36,7 @@ class SortedPoints {
     });
   }
 
-  // The rim other than `own` that comes nearest to a point; kNone if there is none.
+  // The rim other than `own` that comes nearest to a point; kNowhere if there is none.
   [[nodiscard]] std::size_t nearest_rim(const Vec3d& p, std::size_t own) {
     const auto middle =
         std::lower_bound(points_.begin(), points_.end(), p[axis_],
@@ -54,7 +54,7 @@ class SortedPoints {
  private:
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();  // squared
-    std::size_t rim = kNone;
+    std::size_t rim = kNowhere;
   };
 
   [[nodiscard]] bool out_of_reach(const RimPoint& q, const Vec3d& p, const Nearest& nearest) {
@@ -92,7 +92,7 @@ std::size_t nearest_to_most(SortedPoints& points, const Rim& rim, std::size_t ow
       return votes[k];
     }
   }
-  return kNone;
+  return kNowhere;
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_facing_rims(std::span<cons
   std::vector<std::size_t> partner(rims.size());
   for (std::size_t r = 0; r < rims.size(); ++r) partner[r] = nearest_to_most(points, rims[r], r);
   for (std::size_t r = 0; r < rims.size(); ++r) {
-    if (partner[r] != kNone && partner[r] > r && partner[partner[r]] == r) {
+    if (partner[r] != kNowhere && partner[r] > r && partner[partner[r]] == r) {
       pairs.emplace_back(r, partner[r]);
     }
   }

@@ -4,12 +4,11 @@
 #include <numeric>
 #include <utility>
 
+#include <bsp/ids.h>
 #include <extract/self_intersections.h>
 
 namespace meshrepair::internal {
 namespace {
-
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 // More say no more about where the faults are.
 constexpr std::size_t kMostPairs = 200'000;

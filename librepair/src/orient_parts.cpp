@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <bsp/edge_table.h>
+#include <bsp/ids.h>
 #include <repair/orient_parts.h>
 
 #include "edge_fan.h"
@@ -159,7 +160,6 @@ class PartOrienter {
   // Makes a part of each set of patches.
   void gather(TurnSets& sets) {
     const auto& patches = patches_.patches;
-    constexpr std::uint32_t kNone = ~std::uint32_t{0};
     std::vector<std::uint32_t> part_of_root(patches.size(), kNone);
     for (std::uint32_t p = 0; p < patches.size(); ++p) {
       const TurnSets::Place place = sets.find(p);

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include <bsp/double_predicates.h>
+#include <bsp/ids.h>
 
 namespace meshrepair::internal {
 namespace {
-
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 bool is_degenerate(const TriangleSoup& mesh, std::uint32_t t) {
   const auto& c = mesh.triangles[t];

@@ -6,12 +6,13 @@
 #include <unordered_set>
 #include <utility>
 
+#include <bsp/ids.h>
+
 #include "rim.h"
 
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
 constexpr int kMostPasses = 20;  // of turning edges, after each pass of splitting
 
 // Points are this much denser than where a triangle's middle is as far from its corners as the

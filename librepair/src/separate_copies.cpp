@@ -74,14 +74,14 @@ std::vector<Vec3d> find_ways_out(const TriangleSoup& mesh, const PointPlaces& pl
 // In steps of the spacing.
 constexpr std::array kDistances = {2.0, 8.0, 32.0};
 // From where one try puts a point to where another one does.
-constexpr double kReach = 128;
+constexpr double kCopyReach = 128;
 // All as they should go, then all the other way, then each copy by chance: either way or not at
 // all, then in any direction.
 constexpr std::uint32_t kOrderlyTries = 6;
 constexpr std::uint32_t kEitherWayTries = 18;
-constexpr std::uint32_t kTries = 30;
+constexpr std::uint32_t kCopyTries = 30;
 // Beyond this there are too many faults for chance to be a remedy.
-constexpr std::size_t kMostTriangles = 20'000;
+constexpr std::size_t kMostNear = 20'000;
 
 // How far and where to for try k.
 Vec3d move_of(const Vec3d& way_out, std::uint32_t point, std::uint32_t k) {
@@ -132,8 +132,8 @@ void separate_copies(TriangleSoup& mesh, double spacing, Precision precision, To
     mesh.points[p] = moved(p, 0);
   }
   keep_those_at_fault(mesh, copies, group, progress);
-  PointMover mover(mesh, copies, group, kReach * spacing, progress);
-  const std::uint32_t tries = mover.triangles() <= kMostTriangles ? kTries : kOrderlyTries;
+  PointMover mover(mesh, copies, group, kCopyReach * spacing, progress);
+  const std::uint32_t tries = mover.triangles() <= kMostNear ? kCopyTries : kOrderlyTries;
   for (std::uint32_t k = 1; k < tries && mover.faults() > 0; ++k) {
     mover.try_moves([&](std::size_t i) { return moved(copies[i], k); });
   }

@@ -22,14 +22,14 @@ constexpr std::size_t kDensityNeighbours = 12;
 // Neighbours whose spacings an outlier is held against.
 constexpr std::size_t kWitnesses = 6;
 
-struct Box {
+struct Extent {
   Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
   Vec3d high = -low;
 };
 
 // Halved before they are subtracted: the difference may be beyond the range of doubles.
 void set_frame(const PointCloud& cloud, SiftedCloud& sifted) {
-  Box box;
+  Extent box;
   for (const std::uint32_t p : sifted.original) {
     box.low = box.low.cwiseMin(cloud.points[p]);
     box.high = box.high.cwiseMax(cloud.points[p]);

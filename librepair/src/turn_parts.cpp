@@ -21,13 +21,13 @@
 #include <span>
 
 #include <bsp/disjoint_sets.h>
+#include <bsp/ids.h>
 
 #include "winding_field.h"
 
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
 // A shell that pokes out of the solid around it with no more than this share of its area lies in it
 // all the same: the wall of a cavity that comes through somewhere.
 constexpr double kPokingShare = 0.05;

@@ -6,8 +6,6 @@
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
 // Regions of cells: those that `belongs(cell)`, connected through links that are open(link).
 struct Regions {
   std::vector<std::uint32_t> of;  // of each cell; kNone where it does not belong

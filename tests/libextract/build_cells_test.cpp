@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/build_tree.h>
 #include <bsp/error.h>
 #include <extract/build_cells.h>
 #include <extract/check_complex.h>
 
 #include "shapes.h"
+#include "trees.h"
 #include "unreliable_engine.h"
 
 namespace meshrepair {
@@ -21,11 +21,6 @@ struct Case {
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
-
-Tree tree_of(const TriangleSoup& soup, BuildTreeReport& report) {
-  CleanReport clean;
-  return build_tree(clean_soup(soup, clean), {}, report);
-}
 
 double box_volume(const GridBox& b) {
   return (static_cast<double>(b.high.x) - b.low.x) * (static_cast<double>(b.high.y) - b.low.y) *

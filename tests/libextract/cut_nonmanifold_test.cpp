@@ -17,7 +17,7 @@ using namespace testing;
 // Unit cubes of a 3 x 3 x 3 grid, named by their lowest corner.
 using Cube = std::array<int, 3>;
 
-struct Extracted {
+struct ExtractedCells {
   Surface surface;
   ExtractReport report;
 };
@@ -25,8 +25,8 @@ struct Extracted {
 constexpr std::array<Touching, 2> kBothWays = {Touching::separate, Touching::join};
 
 // The complex has all the planes x, y, z = 0, 1, 2, 3; the solid is just these cubes.
-Extracted extract_cubes(const std::vector<Cube>& solid_cubes,
-                        Touching touching = Touching::separate) {
+ExtractedCells extract_cubes(const std::vector<Cube>& solid_cubes,
+                             Touching touching = Touching::separate) {
   TriangleSoup soup;
   for (int x = 0; x < 3; ++x) {
     append(soup, box(Vec3d(x, 0, 0), Vec3d(x + 1, 3, 3)));
@@ -42,7 +42,7 @@ Extracted extract_cubes(const std::vector<Cube>& solid_cubes,
     }
     return false;
   });
-  Extracted result;
+  ExtractedCells result;
   result.surface = extract_surface(cells.complex, cover, solid, result.report, {touching});
   expect_closed_manifold(result.surface.mesh);
   EXPECT_EQ(self_intersections(result.surface.mesh).count, 0u);
@@ -55,14 +55,14 @@ std::size_t parts_of(const Surface& surface) {
 }
 
 TEST(CutNonmanifold, ACubeHasNoSingularities) {
-  const Extracted e = extract_cubes({{1, 1, 1}});
+  const ExtractedCells e = extract_cubes({{1, 1, 1}});
   EXPECT_EQ(e.report.singular_edges, 0u);
   EXPECT_EQ(e.report.singular_vertices, 0u);
   EXPECT_EQ(e.report.middle_vertices, 0u);
 }
 
 TEST(CutNonmanifold, CubesThatShareAnEdgeAreSeparated) {
-  const Extracted e = extract_cubes({{0, 0, 1}, {1, 1, 1}});
+  const ExtractedCells e = extract_cubes({{0, 0, 1}, {1, 1, 1}});
   EXPECT_EQ(e.report.singular_edges, 1u);
   EXPECT_EQ(e.report.singular_vertices, 2u);
   EXPECT_EQ(e.report.middle_vertices, 0u);
@@ -70,20 +70,20 @@ TEST(CutNonmanifold, CubesThatShareAnEdgeAreSeparated) {
 }
 
 TEST(CutNonmanifold, CubesThatShareAVertexAreSeparated) {
-  const Extracted e = extract_cubes({{0, 0, 0}, {1, 1, 1}});
+  const ExtractedCells e = extract_cubes({{0, 0, 0}, {1, 1, 1}});
   EXPECT_EQ(e.report.singular_edges, 0u);
   EXPECT_EQ(e.report.singular_vertices, 1u);
   EXPECT_EQ(parts_of(e.surface), 2u);
 }
 
 TEST(CutNonmanifold, FourCubesAroundAVertexAreFourParts) {
-  const Extracted e = extract_cubes({{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}});
+  const ExtractedCells e = extract_cubes({{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}});
   EXPECT_EQ(e.report.singular_edges, 6u);
   EXPECT_EQ(parts_of(e.surface), 4u);
 }
 
 TEST(CutNonmanifold, CubesThatShareAnEdgeAreJoined) {
-  const Extracted e = extract_cubes({{0, 0, 1}, {1, 1, 1}}, Touching::join);
+  const ExtractedCells e = extract_cubes({{0, 0, 1}, {1, 1, 1}}, Touching::join);
   EXPECT_EQ(e.report.singular_edges, 1u);
   EXPECT_EQ(e.report.singular_vertices, 0u);
   EXPECT_EQ(e.report.middle_vertices, 2u);
@@ -91,13 +91,14 @@ TEST(CutNonmanifold, CubesThatShareAnEdgeAreJoined) {
 }
 
 TEST(CutNonmanifold, CubesThatShareAVertexAreNotJoined) {
-  const Extracted e = extract_cubes({{0, 0, 0}, {1, 1, 1}}, Touching::join);
+  const ExtractedCells e = extract_cubes({{0, 0, 0}, {1, 1, 1}}, Touching::join);
   EXPECT_EQ(e.report.singular_vertices, 1u);
   EXPECT_EQ(parts_of(e.surface), 2u);
 }
 
 TEST(CutNonmanifold, FourCubesAroundAVertexAreJoinedToOnePart) {
-  const Extracted e = extract_cubes({{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}, Touching::join);
+  const ExtractedCells e =
+      extract_cubes({{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}, Touching::join);
   EXPECT_EQ(e.report.singular_edges, 6u);
   EXPECT_EQ(e.report.singular_vertices, 1u);
   EXPECT_EQ(parts_of(e.surface), 1u);
@@ -106,9 +107,9 @@ TEST(CutNonmanifold, FourCubesAroundAVertexAreJoinedToOnePart) {
 TEST(CutNonmanifold, CheckerboardIsSeparatedOrJoined) {
   std::vector<Cube> cubes;
   for (int k = 0; k < 27; k += 2) cubes.push_back({k % 3, k / 3 % 3, k / 9});
-  const Extracted apart = extract_cubes(cubes, Touching::separate);
+  const ExtractedCells apart = extract_cubes(cubes, Touching::separate);
   EXPECT_EQ(parts_of(apart.surface), 14u);
-  const Extracted joined = extract_cubes(cubes, Touching::join);
+  const ExtractedCells joined = extract_cubes(cubes, Touching::join);
   EXPECT_LT(parts_of(joined.surface), 14u);
   EXPECT_EQ(joined.report.singular_edges, apart.report.singular_edges);
 }
@@ -122,13 +123,13 @@ TEST(CutNonmanifold, AnEdgeWithBothEndsInOneFanGetsAMiddleVertex) {
     cubes.push_back({0, 1, z});
     cubes.push_back({1, 1, z});
   }
-  const Extracted e = extract_cubes(cubes);
+  const ExtractedCells e = extract_cubes(cubes);
   EXPECT_EQ(e.report.singular_edges, 1u);
   EXPECT_EQ(e.report.singular_vertices, 0u);
   EXPECT_EQ(e.report.middle_vertices, 2u);  // one for each copy, so that none lies inside an edge
   EXPECT_EQ(parts_of(e.surface), 1u);
   // To be joined it needs none: the empty wedges have ends of their own.
-  const Extracted joined = extract_cubes(cubes, Touching::join);
+  const ExtractedCells joined = extract_cubes(cubes, Touching::join);
   EXPECT_EQ(joined.report.singular_vertices, 2u);
   EXPECT_EQ(joined.report.middle_vertices, 0u);
 }

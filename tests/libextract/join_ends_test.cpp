@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -7,19 +6,12 @@
 #include <extract/join_ends.h>
 
 #include "shapes.h"
+#include "surfaces.h"
 
 namespace meshrepair {
 namespace {
 
 using namespace testing;
-
-Surface as_surface(TriangleSoup soup) {
-  Surface surface;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) surface.source.push_back(t);
-  surface.input_point.assign(soup.points.size(), 1);
-  surface.mesh = std::move(soup);
-  return surface;
-}
 
 // A block with a roof on four sides whose top is two points.
 TriangleSoup house(const Vec3d& top, const Vec3d& other_top) {

@@ -18,6 +18,7 @@
 #include "../../libextract/src/star_distance.h"
 #include "random_geometry.h"
 #include "shapes.h"
+#include "surfaces.h"
 
 namespace meshrepair {
 namespace {
@@ -56,14 +57,6 @@ TriangleSoup squared_cube(std::uint32_t n) {
     }
   }
   return soup;
-}
-
-Surface as_surface(TriangleSoup soup) {
-  Surface surface;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) surface.source.push_back(t);
-  surface.input_point.assign(soup.points.size(), 1);
-  surface.mesh = std::move(soup);
-  return surface;
 }
 
 // Of a closed surface: with the number of parts it tells the genus.

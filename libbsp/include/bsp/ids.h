@@ -15,6 +15,9 @@
 
 namespace meshrepair {
 
+// An index into an array where there is none.
+inline constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
 template <class Tag>
 struct Id {
   static constexpr std::uint32_t kInvalidValue = std::numeric_limits<std::uint32_t>::max();
