@@ -189,6 +189,7 @@ Surface repair_any(const AnySoup& input, const PointOptions& points, const Repai
   point_options.opacity = input.opacity;
   if (findings.scan_base) {
     point_options.holes.largest_share = std::numeric_limits<double>::max();
+    point_options.holes.largest_flat_share = std::numeric_limits<double>::max();
   } else {
     point_options.examine = require_enclosure;
   }

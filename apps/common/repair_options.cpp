@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include <spdlog/fmt/fmt.h>
+
 #include <bsp/error.h>
 
 #include "common/choice_option.h"
@@ -90,11 +92,14 @@ void add_holes_option(CLI::App& app, HoleOptions& holes) {
 }
 
 void add_max_hole_option(CLI::App& app, HoleOptions& holes) {
-  app.add_option("--max-hole", holes.largest_share,
-                 "Patch holes of at most this share of the area of their part")
+  app.add_option_function<double>(
+         "--max-hole",
+         [&holes](double share) { holes.largest_share = holes.largest_flat_share = share; },
+         "Patch holes of at most this share of the area of their part")
       ->check(why_no_share)
       ->type_name("SHARE")
-      ->capture_default_str()
+      ->default_str(
+          fmt::format("{}, or {} in a plane", holes.largest_share, holes.largest_flat_share))
       ->group("Repair");
 }
 

@@ -13,7 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <bsp/error.h>
+#include <bsp/topology.h>
 #include <extract/join_ends.h>
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
@@ -28,6 +31,10 @@ namespace {
 
 // More are counted but not mended in one round.
 constexpr std::size_t kMostPairs = 1'000'000;
+
+// A coarser grid may take the solid away instead of its faults: nothing is better whose volume
+// differs by more than this share.
+constexpr double kMostLost = 0.1;
 
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
@@ -65,6 +72,7 @@ class Certifier {
     spacing_ = internal::number_spacing(surface.mesh, options.precision);
     step_ = options.precision == Precision::float32 ? std::max(grid.unit, spacing_) : grid.unit;
     current_.surface = std::move(surface);
+    volume_ = volume_of(current_.surface);
   }
 
   Surface run() {
@@ -156,7 +164,7 @@ class Certifier {
     while (is_of_use) {
       const std::size_t faults = moved.faults();
       if (faults > 0) move_points(moved);
-      if (moved.faults() < best_.faults()) best_ = moved;
+      if (moved.faults() < best_.faults() && is_whole(moved)) best_ = moved;
       is_of_use = moved.faults() + faults / 4 < faults;
     }
   }
@@ -203,7 +211,23 @@ class Certifier {
   }
 
   void keep_if_better() {
-    if (current_.faults() < best_.faults()) best_ = current_;
+    if (current_.faults() < best_.faults() && is_whole(current_)) best_ = current_;
+  }
+
+  // Measured from the middle of the surface: far from the origin, volumes are differences of large
+  // numbers.
+  static double volume_of(const Surface& surface) {
+    TriangleSoup mesh = surface.mesh;
+    Eigen::AlignedBox3d box;
+    for (const Vec3d& p : mesh.points) box.extend(p);
+    const Vec3d middle = box.center();
+    for (Vec3d& p : mesh.points) p -= middle;
+    return signed_volume(mesh);
+  }
+
+  [[nodiscard]] bool is_whole(const Attempt& attempt) const {
+    const double lost = std::abs(volume_of(attempt.surface) - volume_);
+    return !(lost > kMostLost * std::abs(volume_));
   }
 
   // Points that are not of the input have to move onto the grid, and what they move is decided
@@ -253,6 +277,7 @@ class Certifier {
   CertifyReport& report_;
   double spacing_ = 0;  // of the numbers that can be written
   double step_ = 0;     // of the finest grid
+  double volume_ = 0;   // as given
   Attempt current_, best_;
 };
 

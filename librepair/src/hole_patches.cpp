@@ -47,6 +47,9 @@ constexpr double kLargeOpening = 0.1;
 // in a point are a ring, too.
 constexpr double kWorthARing = 0.9;
 
+// A patch lies in a plane if its area is hardly larger than that of its projection onto one.
+constexpr double kFlat = 0.999;
+
 // A patch may lie on the surface where it is small beside it: there two sheets overlap by a seam.
 constexpr double kSmallPatch = 0.1;
 
@@ -145,6 +148,7 @@ class HolePatcher {
     for (std::size_t l = 0; l < rims_.size(); ++l) area[l] = sheet_area(l, l);
     patches_.resize(rims_.size());
     folded_.assign(rims_.size(), 0);
+    flat_.assign(rims_.size(), 0);
     too_large_.assign(rims_.size(), 0);
     closed_.assign(rims_.size(), 0);
     SharedProgress shared(progress_, rims_.size());
@@ -153,7 +157,9 @@ class HolePatcher {
       options.most_edges = options_.most_edges;
       options.poll = [&shared] { shared.poll(); };
       patches_[l] = internal::triangulate_loop(rims_[l], options);
-      folded_[l] = patches_[l].area > kSmallPatch * area[l] && lies_on_surface(l) ? 1 : 0;
+      flat_[l] = internal::least_area(rims_[l]) >= kFlat * patches_[l].area ? 1 : 0;
+      const bool is_large = patches_[l].area > (flat_[l] != 0 ? most(l) : kSmallPatch) * area[l];
+      folded_[l] = is_large && lies_on_surface(l) ? 1 : 0;
       shared.done();
     });
   }
@@ -170,11 +176,15 @@ class HolePatcher {
     for (std::size_t l = 0; l < rims_.size(); ++l) {
       if (closed_[l] != 0 || folded_[l] != 0) continue;
       loops.push_back(l);
-      openings.push_back({parts_.root(a_triangle_at(l)), patches_[l].area});
+      openings.push_back({parts_.root(a_triangle_at(l)), patches_[l].area, most(l)});
     }
-    const auto large =
-        internal::find_large_openings(openings, std::move(area), options_.largest_share);
+    const auto large = internal::find_large_openings(openings, std::move(area));
     for (std::size_t i = 0; i < loops.size(); ++i) too_large_[loops[i]] = large[i];
+  }
+
+  // That a patch may have of the area of its part.
+  [[nodiscard]] double most(std::size_t loop) const {
+    return flat_[loop] != 0 ? options_.largest_flat_share : options_.largest_share;
   }
 
   [[nodiscard]] std::uint32_t triangle_at(std::uint32_t border_edge) const {
@@ -228,7 +238,7 @@ class HolePatcher {
       if (!is_large_opening(a) && !is_large_opening(b)) continue;
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
       if (ring.folded || ring.area > options_.largest_share * sheet_area(a, b)) continue;
-      const bool patched = too_large_[a] == 0 && too_large_[b] == 0;
+      const bool patched = !is_most_of_its_sheets(a) && !is_most_of_its_sheets(b);
       const double one_by_one = patches_[a].area + patches_[b].area;
       if (patched && ring.area >= kWorthARing * one_by_one) continue;
       closed_[a] = closed_[b] = 1;
@@ -245,7 +255,12 @@ class HolePatcher {
   }
 
   bool is_large_opening(std::size_t loop) {
-    return too_large_[loop] != 0 || patches_[loop].area > kLargeOpening * sheet_area(loop, loop);
+    return patches_[loop].area > kLargeOpening * sheet_area(loop, loop);
+  }
+
+  // Pieces of a surface, which are to be joined rather than closed one by one.
+  bool is_most_of_its_sheets(std::size_t loop) {
+    return patches_[loop].area > options_.largest_share * sheet_area(loop, loop);
   }
 
   void curve() {
@@ -378,6 +393,7 @@ class HolePatcher {
   std::vector<Rim> rims_;                                   // of each loop
   std::vector<LoopTriangulation> patches_;                  // of each loop
   std::vector<char> folded_;                                // of each loop: onto the surface
+  std::vector<char> flat_;                                  // of each loop: its patch
   std::vector<char> too_large_;                             // of each loop: its patch
   std::vector<char> closed_;                                // of each loop: by a ring
   std::vector<std::optional<internal::PatchMesh>> curved_;  // of each loop
@@ -403,7 +419,8 @@ std::string_view hole_mode_name(HoleMode mode) {
 void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report,
                  ProgressObserver* progress) {
   report = {};
-  if (!(options.largest_share >= 0)) throw UsageError("the largest hole is to be 0 or more");
+  if (!(options.largest_share >= 0 && options.largest_flat_share >= 0))
+    throw UsageError("the largest hole is to be 0 or more");
   if (options.mode != HoleMode::patch && options.mode != HoleMode::flat) return;
   HolePatcher(soup, options, report, progress).run();
 }

@@ -6,7 +6,7 @@
 namespace meshrepair::internal {
 
 std::vector<char> find_large_openings(std::span<const Opening> openings,
-                                      std::vector<double> part_area, double largest_share) {
+                                      std::vector<double> part_area) {
   std::vector<std::size_t> by_size(openings.size());
   std::iota(by_size.begin(), by_size.end(), std::size_t{0});
   std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t a, std::size_t b) {
@@ -17,7 +17,7 @@ std::vector<char> find_large_openings(std::span<const Opening> openings,
   for (const std::size_t i : by_size) {
     const Opening& opening = openings[i];
     const double rest = part_area[opening.part] - opening.area;
-    if (opening.area <= largest_share * rest) continue;
+    if (opening.area <= opening.most * rest) continue;
     large[i] = 1;
     part_area[opening.part] = rest;
   }

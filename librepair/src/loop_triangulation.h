@@ -31,4 +31,7 @@ struct LoopTriangulationOptions {
 [[nodiscard]] LoopTriangulation triangulate_loop(const Rim& rim,
                                                  const LoopTriangulationOptions& options);
 
+// No surface with this border has less area; one in a plane may have it.
+[[nodiscard]] double least_area(const Rim& rim);
+
 }  // namespace meshrepair::internal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace meshrepair::internal {
 namespace {
@@ -9,8 +10,10 @@ namespace {
 // Thinner than this share of its width, a pocket is a sliver: about what is left where one strip of
 // a surface is laid over the next. A cube has 0.14, a plate ten times as wide as thick 0.06 ...
 constexpr double kSliver = 0.01;
-// ... and a fold has less than this share of the area that its part bounds solid with.
+// ... and a fold has less than this share of the area that its part bounds solid with, all folds of
+// a part together less than that one.
 constexpr double kSmall = 0.01;
+constexpr double kFew = 0.05;
 
 // A patch that closes a hole is smaller than the surface around it; with this share of that and
 // more, a pocket is what a patch cuts off.
@@ -22,7 +25,9 @@ struct Pocket {
   std::vector<CellId> cells;
   double area = 0, volume = 0;
   double given = 0, closing = 0;  // area of its outside: of the input, and of anything else
-  double solid_area = 0;          // of the parts around it, that of the largest: see PocketFinder
+  // Of the parts around it, the one that bounds most solid, and the area that it does so with.
+  std::uint32_t part = 0;
+  double solid_area = 0;
 };
 
 bool is_negative(double x) { return x < -0.5; }
@@ -98,9 +103,11 @@ class PocketFinder {
     pocket.area += link.area;
     if (is_solid(w_[next.index()])) return;
     (link.given ? pocket.given : pocket.closing) += link.area;
-    if (link.given) {
-      pocket.solid_area = std::max(pocket.solid_area, solid_area_[part_of_[link.triangle]]);
-    }
+    if (!link.given) return;
+    const std::uint32_t part = part_of_[link.triangle];
+    if (solid_area_[part] <= pocket.solid_area) return;
+    pocket.part = part;
+    pocket.solid_area = solid_area_[part];
   }
 
   const CellGraph& graph_;
@@ -111,11 +118,26 @@ class PocketFinder {
   std::vector<double> solid_area_;  // that a part bounds solid with
 };
 
-bool is_to_be_left_out(const Pocket& pocket) {
+bool is_fold(const Pocket& pocket) {
   if (pocket.area >= kSmall * pocket.solid_area) return false;
   const double thickness = 2 * pocket.volume / pocket.area;
   return thickness < kSliver * std::sqrt(pocket.area) ||
          pocket.closing > kMostPatched * pocket.given;
+}
+
+// Of each pocket: many folds are no accident, but what the part consists of.
+std::vector<char> find_folds(const std::vector<Pocket>& pockets) {
+  std::vector<char> is_one;
+  std::map<std::uint32_t, double> area;  // of all folds of a part
+  for (const Pocket& pocket : pockets) {
+    is_one.push_back(is_fold(pocket) ? 1 : 0);
+    if (is_one.back() != 0) area[pocket.part] += pocket.area;
+  }
+  for (std::size_t i = 0; i < pockets.size(); ++i) {
+    if (is_one[i] == 0) continue;
+    is_one[i] = area[pockets[i].part] < kFew * pockets[i].solid_area ? 1 : 0;
+  }
+  return is_one;
 }
 
 }  // namespace
@@ -125,14 +147,16 @@ OuterPockets turn_outer_pockets(const CellGraph& graph, const PartOf& part_of,
   OuterPockets pockets;
   if (std::none_of(w.begin(), w.end(), is_negative)) return pockets;
   pockets.is_left_out.assign(graph.cells(), 0);
-  const std::vector<double> given = w;
-  PocketFinder finder(graph, part_of, given);
+  PocketFinder finder(graph, part_of, w);
+  std::vector<Pocket> found;
   for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
-    if (!finder.is_new(c)) continue;
-    const Pocket pocket = finder.take(c);
-    const bool left_out = is_to_be_left_out(pocket);
+    if (finder.is_new(c)) found.push_back(finder.take(c));
+  }
+  const std::vector<char> is_fold = find_folds(found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool left_out = is_fold[i] != 0;
     ++(left_out ? pockets.left_out : pockets.turned);
-    for (const CellId cell : pocket.cells) {
+    for (const CellId cell : found[i].cells) {
       w[cell.index()] = left_out ? 0 : -w[cell.index()];
       pockets.is_left_out[cell.index()] = left_out ? 1 : 0;
     }

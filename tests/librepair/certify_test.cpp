@@ -54,6 +54,18 @@ TEST(Certify, SaysWhatItCannotMend) {
   EXPECT_EQ(report.pairs, self_intersections(result.mesh).count);
 }
 
+TEST(Certify, LosesNoSolidToACoarserGrid) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {0.5, 0.25, 0.125}));
+  CleanReport cleaned;
+  const Grid grid = clean_soup(soup, cleaned).grid;
+  CertifyReport report;
+  const auto scrap = [](const TriangleSoup&) { return surface_of(scaled(cube(), 0.01)); };
+  const Surface result = certify(surface_of(soup), grid, {}, scrap, nullptr, report);
+  EXPECT_FALSE(report.passed());
+  EXPECT_NEAR(signed_volume(result.mesh), 2, 1e-6);
+}
+
 TEST(Certify, MovesNothingWhenNoRoundsAreAllowed) {
   TriangleSoup soup = box({-1, -1, -1}, {1, 1, 1.0 / 3});
   append(soup, moved(cube(), {0.5, 0.25, 1.0 / 3}));

@@ -187,11 +187,11 @@ TEST(PatchHoles, AnOpenSheetIsLeftOpen) {
 TEST(PatchHoles, TheShareSaysWhichHolesAreClosed) {
   // The lid that is missing is a fifth of the area that is there.
   HoleOptions options;
-  options.largest_share = 0.21;
+  options.largest_share = options.largest_flat_share = 0.21;
   EXPECT_EQ(patched(without(cube(), {4, 5}), options).report.closed, 1u);
-  options.largest_share = 0.19;
+  options.largest_share = options.largest_flat_share = 0.19;
   EXPECT_EQ(patched(without(cube(), {4, 5}), options).report.too_large, 1u);
-  options.largest_share = -1;
+  options.largest_share = options.largest_flat_share = -1;
   EXPECT_THROW((void)patched(cube(), options), UsageError);
 }
 
@@ -213,7 +213,7 @@ TEST(PatchHoles, DegenerateSoupsKeepTheirInvariants) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       SCOPED_TRACE(std::string(family.name) + " " + std::to_string(seed));
       HoleOptions options;
-      options.largest_share = 100;
+      options.largest_share = options.largest_flat_share = 100;
       const Patched p = patched(family.make(seed), options);
       for (const Triangle& t : p.soup.triangles) {
         for (const PointId c : t.corners) {
@@ -324,6 +324,15 @@ TEST(PatchHoles, AHillIsClosedBelow) {
   EXPECT_NEAR(repaired_volume(hill), 0.5 * 16 / 9, 0.01);
 }
 
+// The rim is no flat one: the planes of the faces that are there close it better than a patch.
+TEST(PatchHoles, AFlatBoxWithoutTwoFacesThatMeetIsWholeAgain) {
+  TriangleSoup soup = box({0, 0, 0}, {2, 1, 0.2});
+  soup = without_where(soup, [](const Vec3d& p) { return p.z() == 0.2; });
+  soup = without_where(soup, [](const Vec3d& p) { return p.x() == 2; });
+  ASSERT_EQ(soup.triangles.size(), 8u);
+  EXPECT_DOUBLE_EQ(repaired_volume(soup), 0.4);
+}
+
 // Two sheets that overlap by a narrow seam, with the ends in common: the patch lies on them.
 TEST(PatchHoles, ASeamThatOverlapsIsClosed) {
   TriangleSoup soup = without(box({0, 0, 0}, {4, 4, 4}), {});
@@ -397,7 +406,7 @@ TEST(PatchHoles, AFinIsNotDoubled) {
   const auto& t = soup.triangles[10];
   soup.triangles.push_back({t[0], t[2], 8});
   HoleOptions options;
-  options.largest_share = 10;
+  options.largest_share = options.largest_flat_share = 10;
   const Patched p = patched(soup, options);
   EXPECT_EQ(p.report.loops, 1u);
   EXPECT_EQ(p.report.triangles, 0u);

@@ -69,6 +69,22 @@ TEST(OuterPockets, ALargeSliverIsSolid) {
   EXPECT_EQ(report.output.parts, 2u);
 }
 
+TEST(OuterPockets, ManyFoldsArePartOfTheThing) {
+  std::vector<Vec3d> outline = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}};
+  for (int i = 0; i < 15; ++i) {
+    const double from = 9.3 - 0.6 * i, to = from + 0.2;
+    for (const Vec3d& p :
+         {Vec3d(from, 10, 0), Vec3d(from, 10.004, 0), Vec3d(to, 10.004, 0), Vec3d(to, 9.99, 0),
+          Vec3d(from - 0.1, 9.99, 0), Vec3d(from - 0.1, 10, 0)}) {
+      outline.push_back(p);
+    }
+  }
+  outline.emplace_back(0, 10, 0);
+  const RepairReport report = report_of(prism(outline, {5, 5, 0}, 5));
+  EXPECT_EQ(report.inside.left_out_folds, 0u);
+  EXPECT_EQ(report.output.parts, 16u);
+}
+
 // A thin tray, open and inside out, is nothing but a pocket of a patch: it is a part of its own.
 TEST(OuterPockets, AThinPartOfItsOwnThatIsInsideOutIsNoFold) {
   TriangleSoup soup = box({0, 0, 0}, {100, 100, 100});

@@ -41,7 +41,8 @@ bool nowhere(std::uint32_t, std::uint32_t) { return false; }
 Surface solid_on_base(const TriangleSoup& soup, RepairReport& report) {
   ScanBaseReport base;
   RepairOptions options;
-  options.holes.largest_share = std::numeric_limits<double>::max();
+  options.holes.largest_share = options.holes.largest_flat_share =
+      std::numeric_limits<double>::max();
   return repair(with_base(soup, {}, base), options, report);
 }
 

@@ -22,9 +22,10 @@ struct HoleOptions {
   HoleMode mode = HoleMode::patch;
   // A patch is at most this share of the area of all else of its part, other patches and rings
   // included: an open sheet is not a solid with a hole. A half-ball without its disk has 1/2, a
-  // cone of 45 degrees without its base 0.71, one of 18 degrees 0.95; the patch of a flat sheet has
-  // the sheet's area.
-  double largest_share = 0.95;
+  // cone of 45 degrees without its base 0.71; the patch of a flat sheet has the sheet's area.
+  double largest_share = 0.75;
+  // The same for patches that lie in a plane: hills and dishes have them.
+  double largest_flat_share = 0.95;
   // Loops of more edges than this are cut along short chords before they are triangulated.
   std::size_t most_edges = 200;
 };
