@@ -94,10 +94,10 @@ std::string name_of(const std::filesystem::path& path) {
 }  // namespace
 
 std::string_view format_name(PointFormat format) {
-  constexpr std::array<std::string_view, 10> kNames = {
+  constexpr std::array<std::string_view, 10> kFormats = {
       "XYZ",       "PTS",        "ASCII PCD", "binary PCD", "compressed PCD",
       "ASCII PLY", "binary PLY", "OBJ",       "OFF",        "STL"};
-  return kNames[static_cast<std::size_t>(format)];
+  return kFormats[static_cast<std::size_t>(format)];
 }
 
 PointReadResult read_points(const std::filesystem::path& path, const PointReadOptions& options) {
