@@ -54,8 +54,9 @@ struct Original {
       const double share = kThinParts * scale(within) * size.area;
       if (!(2 * std::abs(size.volume) < share)) continue;
       const double bound = within * (2 * std::abs(size.volume) / share);
-      for (const std::uint32_t p : surface.mesh.triangles[t])
+      for (const std::uint32_t p : surface.mesh.triangles[t]) {
         bounds[p] = std::min(bounds[p], bound);
+      }
     }
     return bounds;
   }

@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <bsp/error.h>
 #include <bsp/topology.h>
 #include <extract/join_ends.h>
@@ -33,8 +31,10 @@ namespace {
 constexpr std::size_t kMostPairs = 1'000'000;
 
 // A coarser grid may take the solid away instead of its faults: nothing is better whose volume
-// differs by more than this share.
+// differs by more than this share, and what the surface encloses when it is moved by so many steps
+// of the numbers.
 constexpr double kMostLost = 0.1;
+constexpr double kMostSteps = 4;
 
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
@@ -72,7 +72,9 @@ class Certifier {
     spacing_ = internal::number_spacing(surface.mesh, options.precision);
     step_ = options.precision == Precision::float32 ? std::max(grid.unit, spacing_) : grid.unit;
     current_.surface = std::move(surface);
-    volume_ = volume_of(current_.surface);
+    const TriangleSoup& mesh = current_.surface.mesh;
+    volume_ = signed_volume(mesh);
+    most_lost_ = kMostLost * std::abs(volume_) + kMostSteps * spacing_ * surface_area(mesh);
   }
 
   Surface run() {
@@ -214,20 +216,9 @@ class Certifier {
     if (current_.faults() < best_.faults() && is_whole(current_)) best_ = current_;
   }
 
-  // Measured from the middle of the surface: far from the origin, volumes are differences of large
-  // numbers.
-  static double volume_of(const Surface& surface) {
-    TriangleSoup mesh = surface.mesh;
-    Eigen::AlignedBox3d box;
-    for (const Vec3d& p : mesh.points) box.extend(p);
-    const Vec3d middle = box.center();
-    for (Vec3d& p : mesh.points) p -= middle;
-    return signed_volume(mesh);
-  }
-
+  // Also where volumes are beyond the range of doubles.
   [[nodiscard]] bool is_whole(const Attempt& attempt) const {
-    const double lost = std::abs(volume_of(attempt.surface) - volume_);
-    return !(lost > kMostLost * std::abs(volume_));
+    return !(std::abs(signed_volume(attempt.surface.mesh) - volume_) > most_lost_);
   }
 
   // Points that are not of the input have to move onto the grid, and what they move is decided
@@ -278,6 +269,7 @@ class Certifier {
   double spacing_ = 0;  // of the numbers that can be written
   double step_ = 0;     // of the finest grid
   double volume_ = 0;   // as given
+  double most_lost_ = 0;
   Attempt current_, best_;
 };
 

@@ -419,8 +419,8 @@ std::string_view hole_mode_name(HoleMode mode) {
 void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report,
                  ProgressObserver* progress) {
   report = {};
-  if (!(options.largest_share >= 0 && options.largest_flat_share >= 0))
-    throw UsageError("the largest hole is to be 0 or more");
+  const bool is_share = options.largest_share >= 0 && options.largest_flat_share >= 0;
+  if (!is_share) throw UsageError("the largest hole is to be 0 or more");
   if (options.mode != HoleMode::patch && options.mode != HoleMode::flat) return;
   HolePatcher(soup, options, report, progress).run();
 }

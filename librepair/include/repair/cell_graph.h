@@ -44,9 +44,9 @@ class CellGraph {
     const std::uint32_t first = first_[cell.index()];
     return {of_cell_.data() + first, first_[cell.index() + 1] - first};
   }
-  // Whether a facet of the cell lies on the outer box: such cells are empty by definition.
   // In cubic grid steps, rounded; of an unbounded cell without meaning.
   [[nodiscard]] double volume(CellId cell) const { return volume_[cell.index()]; }
+  // Whether a facet of the cell lies on the outer box: such cells are empty by definition.
   [[nodiscard]] bool unbounded(CellId cell) const { return unbounded_[cell.index()] != 0; }
 
  private:
