@@ -138,7 +138,7 @@ class FacetMerger {
   // Each edge between regions that starts at a vertex opens one sector of a region there.
   void count_sectors() {
     sectors_.assign(corners_.vertices(), 0);
-    opening_.assign(corners_.vertices(), ManifoldCorners::kNone);
+    opening_.assign(corners_.vertices(), kNone);
     for (std::uint32_t s = 0; s < boundary_.sides(); ++s) {
       if (result_.dissolved[s] != 0) continue;
       char& count = sectors_[corners_.vertex[s]];

@@ -155,7 +155,7 @@ OuterPockets turn_outer_pockets(const CellGraph& graph, const PartOf& part_of,
   const std::vector<char> is_fold = find_folds(found);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const bool left_out = is_fold[i] != 0;
-    ++(left_out ? pockets.left_out : pockets.turned);
+    if (left_out) ++pockets.left_out;
     for (const CellId cell : found[i].cells) {
       w[cell.index()] = left_out ? 0 : -w[cell.index()];
       pockets.is_left_out[cell.index()] = left_out ? 1 : 0;

@@ -11,7 +11,6 @@
 namespace meshrepair::internal {
 
 struct OuterPockets {
-  std::size_t turned = 0;
   std::size_t left_out = 0;
   std::vector<char> is_left_out;  // of each cell; empty: none is
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <bsp/ids.h>
 #include <bsp/progress.h>
 #include <extract/boundary.h>
 
@@ -15,7 +16,6 @@ namespace meshrepair {
 enum class Touching { separate, join };
 
 struct ManifoldCorners {
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::vector<std::uint32_t> mate;    // for each side the one it is joined to
   std::vector<std::uint32_t> vertex;  // output vertex of the corner at the start of each side
   std::vector<std::uint32_t> vertex_corner;  // for each output vertex a side that starts at it
