@@ -185,11 +185,13 @@ Json section_of(const PartsAndArea& parts) {
   return {{"parts", parts.parts}, {"area", parts.area}};
 }
 
-Json section_of(const PartFates& parts) {
+Json removed_of(const RepairReport& repair) {
+  const PartFates& parts = repair.parts;
   return {{"enclosing_nothing", section_of(parts.enclosing_nothing)},
           {"inside_solid", section_of(parts.inside_solid)},
           {"triangles_inside", parts.inside_triangles},
-          {"triangles_outside", parts.outside_triangles}};
+          {"triangles_outside", parts.outside_triangles},
+          {"crumbs", repair.crumbs}};
 }
 
 const char* verdict(bool holds) { return holds ? "PASS" : "FAIL"; }
@@ -264,7 +266,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));
   if (was_begun(repair, "inside")) report.set_section("inside", section_of(repair.inside));
   if (was_begun(repair, "extract")) {
-    report.set_section("removed", section_of(repair.parts));
+    report.set_section("removed", removed_of(repair));
     report.set_section("extract", section_of(repair.extract));
   }
   if (was_begun(repair, "simplify")) {

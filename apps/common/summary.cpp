@@ -206,6 +206,7 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   };
   add(repair.parts.enclosing_nothing, "no wall of the solid");
   add(repair.parts.inside_solid, "inside the solid");
+  add_count(texts, repair.crumbs, "part", "thinner than a step of the working grid");
   add_count(texts, repair.certify.dropped_parts, "part", "too thin for the numbers of the format");
   return texts;
 }

@@ -11,13 +11,6 @@ constexpr int kNoAxis = -1;
 
 }  // namespace
 
-void widen(Box& box) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] -= kClipMargin;
-    box.high[k] += kClipMargin;
-  }
-}
-
 ClippedTriangle::ClippedTriangle(const std::array<Vec3d, 3>& corners, const Box& box) {
   std::copy(corners.begin(), corners.end(), corners_.begin());
   for (int axis = 0; axis < 3; ++axis) {
@@ -35,7 +28,7 @@ void ClippedTriangle::clip(const Wall& wall) {
 Box ClippedTriangle::box() const {
   Box box;
   for (const Vec3d& corner : corners()) box.add(corner);
-  widen(box);
+  box.widen(kClipMargin);
   return box;
 }
 

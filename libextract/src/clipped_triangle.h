@@ -24,8 +24,6 @@ struct Wall {
   [[nodiscard]] double height(const Vec3d& point) const { return normal.dot(point) - offset; }
 };
 
-void widen(Box& box);
-
 // A convex polygon of at most nine corners, ten beyond a wall.
 class ClippedTriangle {
  public:

@@ -1,8 +1,11 @@
 #include "cut_simplifier.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
+
+#include <Eigen/Geometry>
 
 #include <bsp/double_predicates.h>
 
@@ -16,6 +19,20 @@ constexpr double kSmallShare = 1.0 / 64;
 // The work for a star grows with the cube of its size, so larger ones are not looked at again after
 // each move around them.
 constexpr std::uint32_t kLargeStar = 10;
+
+// Of the bound: how high triangles should be that are not flatter than those before.
+constexpr double kNeedle = 0x1p-10;
+
+// Of a triangle, above its longest side; in any unit.
+double height_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  Vec3d ab = b - a, ac = c - a;
+  const double unit = std::max(ab.cwiseAbs().maxCoeff(), ac.cwiseAbs().maxCoeff());
+  if (!(unit > 0)) return 0;
+  ab /= unit;
+  ac /= unit;
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  return unit * (ab.cross(ac).norm() / std::sqrt(longest));
+}
 
 }  // namespace
 
@@ -74,6 +91,7 @@ void CutSimplifier::consider(std::uint32_t point) {
   link_.clear();
   for (const std::uint32_t p : star_.link) link_.push_back(points_[p]);
   star_distance_.set_star(points_[point], link_);
+  double least_height = -1;
   for (std::size_t i = 0; i < link_.size(); ++i) {
     Move move = best;
     move.target = star_.link[i];
@@ -81,7 +99,9 @@ void CutSimplifier::consider(std::uint32_t point) {
     move.distance = before + std::min(star_distance_.bound(i, within - before), move.length);
     if (!(move.distance <= within)) continue;
     move.cost = std::max(move.distance, kSmallShare * within);
-    if (best < move && may_move(i)) best = move;
+    if (!(best < move)) continue;
+    if (least_height < 0) least_height = this->least_height(within);
+    if (may_move(i, least_height)) best = move;
   }
   if (best.target != kNone) queue_.push(best);
 }
@@ -94,12 +114,25 @@ void CutSimplifier::postpone(std::uint32_t point) {
   queue_.push(later);
 }
 
-bool CutSimplifier::may_move(std::size_t to) {
+bool CutSimplifier::may_move(std::size_t to, double least_height) {
   if (!mesh_.may_collapse(star_, to)) return false;
   for (std::size_t i = star_.after(to); star_.after(i) != to; i = star_.after(i)) {
-    if (projection_axis(link_[to], link_[i], link_[star_.after(i)]) < 0) return false;
+    const Vec3d& a = link_[to];
+    const Vec3d& b = link_[i];
+    const Vec3d& c = link_[star_.after(i)];
+    if (height_of(a, b, c) < least_height || projection_axis(a, b, c) < 0) return false;
   }
   return true;
+}
+
+// A triangle that is flatter than the bound, and than all that were there, is a needle that
+// rounding may turn.
+double CutSimplifier::least_height(double within) const {
+  double least = kNeedle * within;
+  for (std::size_t i = 0; i < link_.size() && least > 0; ++i) {
+    least = std::min(least, height_of(points_[star_.point], link_[i], link_[star_.after(i)]));
+  }
+  return least;
 }
 
 void CutSimplifier::make(const Move& move) {

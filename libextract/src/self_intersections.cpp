@@ -221,8 +221,13 @@ class TreeComparison {
 // Looks up triangles in a tree of others. The tree is not empty.
 class LookUp {
  public:
-  LookUp(const SortedTriangles& sorted, SharedProgress& progress, Findings& findings)
-      : sorted_(sorted), nodes_(sorted.tree.nodes()), progress_(progress), findings_(findings) {}
+  LookUp(const SortedTriangles& sorted, double nearness, SharedProgress& progress,
+         Findings& findings)
+      : sorted_(sorted),
+        nodes_(sorted.tree.nodes()),
+        nearness_(nearness),
+        progress_(progress),
+        findings_(findings) {}
 
   [[nodiscard]] bool may_meet_any(const Box& box) const { return nodes_[0].box.meets(box); }
 
@@ -243,15 +248,22 @@ class LookUp {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         const std::uint32_t other = sorted_.ids[i];
         if (other == id || (is_in_tree && other < id) || !sorted_.boxes[i].meets(box)) continue;
-        const Meeting meeting = meeting_of(triangle, sorted_.triangles[i]);
+        const Meeting meeting = meeting_with(triangle, sorted_.triangles[i]);
         if (meeting != Meeting::apart) findings_.add(id, other, meeting);
       }
     }
   }
 
  private:
+  [[nodiscard]] Meeting meeting_with(const CornerTriangle& a, const CornerTriangle& b) const {
+    const Meeting meeting = meeting_of(a, b);
+    if (meeting != Meeting::apart || nearness_ == 0) return meeting;
+    return nearly_overlap(a, b, nearness_) ? Meeting::coplanar : Meeting::apart;
+  }
+
   const SortedTriangles& sorted_;
   std::span<const BoxNode> nodes_;
+  double nearness_;
   SharedProgress& progress_;
   Findings& findings_;
   std::vector<std::uint32_t> stack_;
@@ -367,11 +379,12 @@ SelfIntersections compare_with(const TriangleSoup& soup, const internal::SoupCor
   std::vector<Findings> findings(tasks, Findings(options.most_pairs));
   SharedProgress progress(options.progress, tasks);
   tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-    LookUp look_up(sorted, progress, findings[task]);
+    LookUp look_up(sorted, options.nearness, progress, findings[task]);
     const std::size_t end = std::min(count, (task + 1) * kLookUpsPerTask);
     for (std::size_t t = task * kLookUpsPerTask; t < end; ++t) {
       const auto id = static_cast<std::uint32_t>(t);
-      const Box box = internal::box_of(soup, id);
+      Box box = internal::box_of(soup, id);
+      box.widen(options.nearness);
       if (!look_up.may_meet_any(box)) continue;
       CornerTriangle triangle;
       if (corners.fetch(id, triangle) != internal::Fetched::usable) continue;

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
+#include <bsp/ids.h>
 #include <bsp/weld_points.h>
 #include <extract/box_tree.h>
 #include <extract/mesh_parts.h>
@@ -23,6 +25,9 @@ constexpr double kThinParts = 7;
 
 // No part becomes larger or smaller by more than this share of its volume.
 constexpr double kMostChange = 0.1;
+
+// Of the bound: sheets are not to come nearer than this, even if doubles still tell them apart.
+constexpr double kNearness = 0x1p-10;
 
 // Rounds in which as few points as may be are told to stay; and those after which all do.
 constexpr std::size_t kPatientRounds = 2;
@@ -69,13 +74,6 @@ struct Candidate {
   std::vector<std::uint32_t> changed;  // triangles that are not as they were
 };
 
-void keep_points(const TriangleSoup& mesh, const std::vector<char>& of, std::vector<char>& stays) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (of[t] == 0) continue;
-    for (const std::uint32_t p : mesh.triangles[t]) stays[p] = 1;
-  }
-}
-
 // Where parts touch, they have points in the same place. To move one of those would leave gaps that
 // no other program can tell from none. Two ends of an edge that rounding brought to one place are
 // no contact, but may become one.
@@ -116,18 +114,51 @@ Candidate make_candidate(const Surface& original, const CutSimplifier& simplifie
   return candidate;
 }
 
-// The triangles that moves have brought where they meet others.
-std::vector<std::uint32_t> meeting_triangles(const Candidate& candidate,
-                                             ProgressObserver* progress) {
-  SelfIntersectionOptions options;
-  options.most_pairs = kMostPairs;
-  options.progress = progress;
-  std::vector<std::uint32_t> blamed;
-  const SelfIntersections found =
-      self_intersections(candidate.surface.mesh, candidate.changed, options);
-  for (const auto& pair : found.pairs) blamed.insert(blamed.end(), pair.begin(), pair.end());
-  return blamed;
-}
+// Where moves have brought triangles to meet others. Rounds differ in few places, so each looks
+// only at what is not as it was in the last.
+class MeetingTest {
+ public:
+  MeetingTest(const TriangleSoup& original, const SimplifyOptions& options)
+      : known_(original.triangles) {
+    options_.most_pairs = kMostPairs;
+    options_.nearness = kNearness * options.within;
+    options_.progress = options.progress;
+  }
+
+  // The triangles of pairs that meet, but for pairs that are as in the original.
+  std::vector<std::uint32_t> run(const Candidate& candidate,
+                                 const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    std::vector<std::uint32_t> to_test;
+    for (std::uint32_t t = 0; t < candidate.was.size(); ++t) {
+      const std::uint32_t was = candidate.was[t];
+      if (known_[was] != triangles[was]) to_test.push_back(t);
+    }
+    const SelfIntersections found = self_intersections(candidate.surface.mesh, to_test, options_);
+    known_.assign(known_.size(), kUnknown);
+    for (const std::uint32_t was : candidate.was) known_[was] = triangles[was];
+    if (found.count > found.pairs.size()) forget(candidate, to_test);
+    std::vector<char> is_changed(candidate.was.size(), 0);
+    for (const std::uint32_t t : candidate.changed) is_changed[t] = 1;
+    std::vector<std::uint32_t> blamed;
+    for (const auto& [t, u] : found.pairs) {
+      if (is_changed[t] != 0 || is_changed[u] != 0) blamed.insert(blamed.end(), {t, u});
+    }
+    forget(candidate, blamed);
+    return blamed;
+  }
+
+ private:
+  static constexpr std::array<std::uint32_t, 3> kUnknown{kNone, kNone, kNone};
+
+  void forget(const Candidate& candidate, const std::vector<std::uint32_t>& triangles) {
+    for (const std::uint32_t t : triangles) known_[candidate.was[t]] = kUnknown;
+  }
+
+  SelfIntersectionOptions options_;
+  // Corners of each triangle in the last round, if it met no other one then. At first the
+  // original's: what meets there is not to blame on moves.
+  std::vector<std::array<std::uint32_t, 3>> known_;
+};
 
 // The changed triangles of parts that are not as large as they were.
 std::vector<std::uint32_t> resizing_triangles(const Original& original,
@@ -163,10 +194,8 @@ std::vector<std::uint32_t> turning_triangles(const Candidate& candidate, double 
   std::vector<std::uint32_t> blamed;
   for (const std::uint32_t t : candidate.changed) {
     Box reach;
-    for (const std::uint32_t p : mesh.triangles[t]) {
-      reach.add(mesh.points[p] - Vec3d::Constant(within));
-      reach.add(mesh.points[p] + Vec3d::Constant(within));
-    }
+    for (const std::uint32_t p : mesh.triangles[t]) reach.add(mesh.points[p]);
+    reach.widen(within);
     bool is_near = false;
     tree.visit([&](const Box& box) { return !is_near && box.meets(reach); },
                [&](std::uint32_t i) { is_near = is_near || boxes[i].meets(reach); });
@@ -195,8 +224,9 @@ void take_back(const CutSimplifier& simplifier, const Candidate& candidate,
 
 // Whether the candidate is as good as the original; if not, what is to blame for it stays.
 bool passes(const Original& original, const CutSimplifier& simplifier, const Candidate& candidate,
-            const SimplifyOptions& options, bool patient, std::vector<char>& stays) {
-  std::vector<std::uint32_t> blamed = meeting_triangles(candidate, options.progress);
+            const SimplifyOptions& options, bool patient, MeetingTest& meeting,
+            std::vector<char>& stays) {
+  std::vector<std::uint32_t> blamed = meeting.run(candidate, simplifier.mesh().triangles());
   const bool meet = !blamed.empty();
   if (!meet) blamed = resizing_triangles(original, candidate);
   if (blamed.empty()) blamed = turning_triangles(candidate, options.within, options.progress);
@@ -210,16 +240,15 @@ std::size_t count_of(const std::vector<char>& flags) {
 
 }  // namespace
 
-std::optional<Surface> simplify_cuts(const Surface& surface, const std::vector<char>& whole,
+std::optional<Surface> simplify_cuts(const Surface& surface, std::vector<char>& stays,
                                      const SimplifyOptions& options, SimplifyReport& report) {
   report = {};
-  std::vector<char> stays(surface.mesh.points.size(), 0);
-  keep_points(surface.mesh, whole, stays);
   if (!(options.within > 0) || count_of(stays) == stays.size()) return std::nullopt;
   const Original original(surface);
   const std::vector<double> within = original.bounds(options.within);
   keep_contacts(surface.mesh, stays);
   const std::size_t to_stay = count_of(stays);
+  MeetingTest meeting(surface.mesh, options);
   while (report.rounds < kMostRounds) {
     ++report.rounds;
     CutSimplifier simplifier(surface.mesh, stays, within, options.progress);
@@ -227,7 +256,7 @@ std::optional<Surface> simplify_cuts(const Surface& surface, const std::vector<c
     Candidate candidate = make_candidate(surface, simplifier);
     if (candidate.changed.empty()) return std::nullopt;
     const bool patient = report.rounds <= kPatientRounds;
-    if (!passes(original, simplifier, candidate, options, patient, stays)) continue;
+    if (!passes(original, simplifier, candidate, options, patient, meeting, stays)) continue;
     report.removed_points = surface.mesh.points.size() - candidate.surface.mesh.points.size();
     report.removed_triangles = surface.mesh.triangles.size() - candidate.was.size();
     report.distance = simplifier.distance();

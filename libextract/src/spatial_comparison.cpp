@@ -71,7 +71,7 @@ class SpatialComparison {
     for (std::uint32_t i = 0; i < scaled_.size(); ++i) {
       Box box;
       for (const Vec3d& p : scaled_[i]) box.add(p);
-      widen(box);
+      box.widen(kClipMargin);
       parts.push_back({i, box});
     }
     cells_.push_back({std::move(parts), 0});

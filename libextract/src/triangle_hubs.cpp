@@ -55,13 +55,6 @@ Vec3d direction(const Vec3d& from, const Vec3d& to) {
   return difference.normalized();
 }
 
-void widen(Box& box, double margin) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] -= margin;
-    box.high[axis] += margin;
-  }
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> find_hubs(std::span<const CornerTriangle> triangles) {
@@ -91,7 +84,7 @@ Box directions_from(std::uint32_t hub, const CornerTriangle& triangle) {
   Box box;
   box.add(a);
   box.add(b);
-  widen(box, std::max(0.0, 1 - 0.5 * (a + b).norm()) + kDirectionMargin);
+  box.widen(std::max(0.0, 1 - 0.5 * (a + b).norm()) + kDirectionMargin);
   return box;
 }
 
@@ -126,10 +119,10 @@ Box direction_across(std::array<std::uint32_t, 2> edge, const CornerTriangle& tr
   Box box;
   if (share < 1e-12) {
     box.add(Vec3d::Zero());
-    widen(box, 2);
+    box.widen(2);
   } else {
     box.add(Vec3d(across / share));
-    widen(box, kDirectionMargin + 0x1p-46 / share);
+    box.widen(kDirectionMargin + 0x1p-46 / share);
   }
   return box;
 }

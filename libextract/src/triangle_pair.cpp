@@ -12,6 +12,11 @@
 //   side. 3  They are equal.
 #include "triangle_pair.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
 #include <bsp/double_predicates.h>
 
 namespace meshrepair::internal {
@@ -158,6 +163,26 @@ Meeting meeting_at_edge(const CornerTriangle& a, const CornerTriangle& b,
   return orientation(p, q, tip_a, tip_b) == 0 ? Meeting::coplanar : Meeting::apart;
 }
 
+bool is_near_plane(const CornerTriangle& a, const CornerTriangle& b, double distance) {
+  const Vec3d first = b.at[1] - b.at[0], second = b.at[2] - b.at[0];
+  const double unit = std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
+  const Vec3d normal = (first / unit).cross(second / unit).normalized();
+  return std::all_of(a.at.begin(), a.at.end(),
+                     [&](const Vec3d& p) { return std::abs(normal.dot(p - b.at[0])) <= distance; });
+}
+
+// Seen along the axis: has a side of b all of a on or beyond it?
+bool is_outside_a_side(const CornerTriangle& a, const CornerTriangle& b, int axis) {
+  const int inward = orientation_along(axis, b.at[0], b.at[1], b.at[2]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool outside = std::all_of(a.at.begin(), a.at.end(), [&](const Vec3d& p) {
+      return orientation_along(axis, b.at[k], b.at[next(k)], p) != inward;
+    });
+    if (outside) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Meeting meeting_of(const CornerTriangle& a, const CornerTriangle& b) {
@@ -166,6 +191,11 @@ Meeting meeting_of(const CornerTriangle& a, const CornerTriangle& b) {
   if (shared.count == 1) return meeting_across(a, shared.in_a[0], b, shared.in_b[0]);
   if (shared.count == 2) return meeting_at_edge(a, b, shared);
   return Meeting::coplanar;
+}
+
+bool nearly_overlap(const CornerTriangle& a, const CornerTriangle& b, double distance) {
+  if (!is_near_plane(a, b, distance) && !is_near_plane(b, a, distance)) return false;
+  return !is_outside_a_side(a, b, b.axis) && !is_outside_a_side(b, a, b.axis);
 }
 
 }  // namespace meshrepair::internal

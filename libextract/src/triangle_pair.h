@@ -25,4 +25,9 @@ enum class Meeting {
 // Symmetric.
 [[nodiscard]] Meeting meeting_of(const CornerTriangle& a, const CornerTriangle& b);
 
+// Whether all corners of one are within this distance of the other's plane, and the two overlap as
+// seen along an axis, not only at their sides. The distances are rounded. Symmetric.
+[[nodiscard]] bool nearly_overlap(const CornerTriangle& a, const CornerTriangle& b,
+                                  double distance);
+
 }  // namespace meshrepair::internal

@@ -19,10 +19,11 @@
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
 
-#include "drop_turned_parts.h"
+#include "drop_thin_parts.h"
 #include "nudge_points.h"
 #include "number_spacing.h"
 #include "separate_copies.h"
+#include "settle_points.h"
 
 namespace meshrepair {
 namespace {
@@ -67,8 +68,8 @@ GridCell cell_of(const Vec3d& p, double step) {
 class Certifier {
  public:
   Certifier(Surface surface, const Grid& grid, const CertifyOptions& options,
-            const RepairAgain& repair_again, ProgressObserver* progress, CertifyReport& report)
-      : options_(options), repair_again_(repair_again), progress_(progress), report_(report) {
+            const CertifyHelp& help, ProgressObserver* progress, CertifyReport& report)
+      : grid_(grid), options_(options), help_(help), progress_(progress), report_(report) {
     spacing_ = internal::number_spacing(surface.mesh, options.precision);
     step_ = options.precision == Precision::float32 ? std::max(grid.unit, spacing_) : grid.unit;
     current_.surface = std::move(surface);
@@ -150,9 +151,13 @@ class Certifier {
     return 256 * spacing_ + std::ldexp(step_, 2 * static_cast<int>(report_.rounds));
   }
 
-  // Often all that is wrong is that input points closer than a step of the grid were joined.
+  // Often all that is wrong is that input points are written with their own coordinates.
   void move_to_grid() {
-    snap_concerned(current_, step_);
+    if (help_.settle_again) {
+      current_.surface = help_.settle_again();
+    } else {
+      internal::settle_input_points(current_.surface, grid_, progress_);
+    }
     test(current_);
     keep_if_better();
     improve();
@@ -197,7 +202,7 @@ class Certifier {
       snap_cut_triangles();
       Surface again;
       try {
-        again = repair_again_(current_.surface.mesh);
+        again = help_.repair_again(current_.surface.mesh);
       } catch (const NoSolidError&) {
         return;
       }
@@ -262,8 +267,9 @@ class Certifier {
     return moved;
   }
 
+  const Grid& grid_;
   const CertifyOptions& options_;
-  const RepairAgain& repair_again_;
+  const CertifyHelp& help_;
   ProgressObserver* progress_;
   CertifyReport& report_;
   double spacing_ = 0;  // of the numbers that can be written
@@ -276,10 +282,9 @@ class Certifier {
 }  // namespace
 
 Surface certify(Surface surface, const Grid& grid, const CertifyOptions& options,
-                const RepairAgain& repair_again, ProgressObserver* progress,
-                CertifyReport& report) {
+                const CertifyHelp& help, ProgressObserver* progress, CertifyReport& report) {
   report = {};
-  return Certifier(std::move(surface), grid, options, repair_again, progress, report).run();
+  return Certifier(std::move(surface), grid, options, help, progress, report).run();
 }
 
 }  // namespace meshrepair

@@ -13,12 +13,6 @@ namespace {
 // More say no more about where the faults are.
 constexpr std::size_t kMostPairs = 200'000;
 
-Box widened(Box box, double reach) {
-  for (double& x : box.low) x -= reach;
-  for (double& x : box.high) x += reach;
-  return box;
-}
-
 }  // namespace
 
 NearbyIntersections::NearbyIntersections(const TriangleSoup& mesh,
@@ -29,23 +23,24 @@ NearbyIntersections::NearbyIntersections(const TriangleSoup& mesh,
       is_in_part_(mesh.triangles.size(), 0) {
   find_around(moving, reach);
   boxes_.reserve(around_.size());
-  for (const std::uint32_t t : around_) boxes_.push_back(widened(box_of(t), reach));
+  for (const std::uint32_t t : around_) boxes_.push_back(box_around(t, reach));
   tree_ = BoxTree(boxes_);
 }
 
-Box NearbyIntersections::box_of(std::uint32_t triangle) const {
+Box NearbyIntersections::box_around(std::uint32_t triangle, double reach) const {
   Box box;
   for (const std::uint32_t p : mesh_.triangles[triangle]) box.add(mesh_.points[p]);
+  box.widen(reach);
   return box;
 }
 
 void NearbyIntersections::find_around(std::span<const std::uint32_t> moving, double reach) {
   std::vector<Box> boxes;
   boxes.reserve(moving.size());
-  for (const std::uint32_t t : moving) boxes.push_back(widened(box_of(t), reach));
+  for (const std::uint32_t t : moving) boxes.push_back(box_around(t, reach));
   const BoxTree tree(boxes);
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const Box box = widened(box_of(t), reach);
+    const Box box = box_around(t, reach);
     bool is_near = false;
     tree.visit([&](const Box& other) { return !is_near && other.meets(box); },
                [&](std::uint32_t i) { is_near = is_near || boxes[i].meets(box); });
@@ -80,7 +75,7 @@ std::vector<NearbyIntersections::Pair> NearbyIntersections::find(
   std::vector<std::uint32_t> asked(part_triangles_.size());
   std::iota(asked.begin(), asked.end(), 0u);
   for (const std::uint32_t t : among) {
-    const Box box = box_of(t);
+    const Box box = box_around(t, 0);
     tree_.visit([&](const Box& other) { return other.meets(box); },
                 [&](std::uint32_t i) {
                   if (boxes_[i].meets(box)) add(around_[i]);

@@ -28,7 +28,7 @@ class NearbyIntersections {
                                        ProgressObserver* progress);
 
  private:
-  [[nodiscard]] Box box_of(std::uint32_t triangle) const;
+  [[nodiscard]] Box box_around(std::uint32_t triangle, double reach) const;
   void find_around(std::span<const std::uint32_t> moving, double reach);
   void add(std::uint32_t triangle);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include <repair/cell_graph.h>
 #include <repair/flood.h>
 #include <repair/repair.h>
+
+#include "drop_thin_parts.h"
+#include "settle_points.h"
 
 namespace meshrepair {
 namespace {
@@ -250,34 +254,62 @@ void describe(const CleanSoup& input, const Surface& surface, RepairReport& repo
   report.closing_area = closing_area(surface);
 }
 
-std::optional<Surface> simplify(const CleanSoup& input, const RepairOptions& options,
-                                const Surface& surface, SimplifyReport& report) {
+// What is thinner than a step of the grid says nothing about the input, whose points were put
+// there.
+void drop_crumbs(const CleanSoup& input, Surface& surface, RepairReport& report) {
+  const std::vector<char> whole = find_whole_triangles(input, surface);
+  report.crumbs = internal::drop_thin_crumbs(surface, whole, input.grid.unit);
+}
+
+// What was never cut is to stay as it was.
+std::vector<char> whole_points(const CleanSoup& input, const Surface& surface) {
+  std::vector<char> points(surface.mesh.points.size(), 0);
+  const std::vector<char> whole = find_whole_triangles(input, surface);
+  for (std::size_t t = 0; t < whole.size(); ++t) {
+    if (whole[t] == 0) continue;
+    for (const std::uint32_t p : surface.mesh.triangles[t]) points[p] = 1;
+  }
+  return points;
+}
+
+std::optional<Surface> simplify(const Surface& surface, std::vector<char>& stays,
+                                const RepairOptions& options, SimplifyReport& report) {
   Eigen::AlignedBox3d box;
   for (const Vec3d& p : surface.mesh.points) box.extend(p);
   SimplifyOptions simplify_options;
   simplify_options.within = options.simplify * (box.max() - box.min()).stableNorm();
   simplify_options.progress = options.progress;
-  return simplify_cuts(surface, find_whole_triangles(input, surface), simplify_options, report);
+  return simplify_cuts(surface, stays, simplify_options, report);
 }
 
 Surface certify(Surface surface, const Grid& grid, const RepairOptions& options,
-                CertifyReport& report) {
+                CertifyReport& report, std::function<Surface()> settle_again = {}) {
   CertifyOptions certify_options = options.certify;
   certify_options.touching = options.extract.touching;
   if (options.predicates != Predicates::exact) certify_options.most_rounds = 0;
-  return certify(
-      std::move(surface), grid, certify_options,
-      [&](const TriangleSoup& soup) { return repair_again(soup, options); }, options.progress,
-      report);
+  const CertifyHelp help{[&](const TriangleSoup& soup) { return repair_again(soup, options); },
+                         std::move(settle_again)};
+  return certify(std::move(surface), grid, certify_options, help, options.progress, report);
 }
 
 // Where few faults are left after all rounds of mending, the surface with all its triangles may
 // have none. Many are left where the surface is finer than the numbers, and would be again.
-Surface certify(Surface surface, std::optional<Surface> simpler, const Grid& grid,
-                const RepairOptions& options, RepairReport& report, StageMeter& meter) {
+// `stays`: points that were not simplified away.
+Surface certify(Surface surface, std::optional<Surface> simpler, std::vector<char> stays,
+                const Grid& grid, const RepairOptions& options, RepairReport& report,
+                StageMeter& meter) {
   meter.begin("certify");
   if (!simpler) return certify(std::move(surface), grid, options, report.certify);
-  Surface first = certify(std::move(*simpler), grid, options, report.certify);
+  const auto settle_again = [&] {
+    Surface settled = surface;
+    internal::settle_input_points(settled, grid, options.progress);
+    const SimplifyReport before = report.simplify;
+    std::optional<Surface> again = simplify(settled, stays, options, report.simplify);
+    report.simplify.rounds += before.rounds;
+    report.simplify.points_to_stay += before.points_to_stay;
+    return again ? std::move(*again) : settled;
+  };
+  Surface first = certify(std::move(*simpler), grid, options, report.certify, settle_again);
   if (report.certify.passed() || report.certify.faults() > kFewFaults) return first;
   RepairOptions plain = options;
   plain.simplify = 0;
@@ -293,17 +325,21 @@ Surface certify(Surface surface, std::optional<Surface> simpler, const Grid& gri
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   require_range(surface, options.certify.precision);
+  drop_crumbs(input, surface, report);
   if (options.examine) {
     describe(input, surface, report);
     options.examine(report);
   }
   std::optional<Surface> simpler;
+  std::vector<char> stays;
   if (options.simplify > 0) {
     meter.begin("simplify");
-    simpler = simplify(input, options, surface, report.simplify);
+    stays = whole_points(input, surface);
+    simpler = simplify(surface, stays, options, report.simplify);
   }
   if (options.certify.wanted) {
-    surface = certify(std::move(surface), std::move(simpler), input.grid, options, report, meter);
+    surface = certify(std::move(surface), std::move(simpler), std::move(stays), input.grid, options,
+                      report, meter);
   } else if (simpler) {
     surface = std::move(*simpler);
   }

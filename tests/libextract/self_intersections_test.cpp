@@ -52,6 +52,38 @@ TEST(SelfIntersections, OfCrossingSpheresLieInBothParts) {
   }
 }
 
+// Of the last triangle of the soup with all others.
+std::size_t near_the_last(const TriangleSoup& soup, double nearness) {
+  SelfIntersectionOptions options;
+  options.nearness = nearness;
+  const std::array last = {static_cast<std::uint32_t>(soup.triangles.size() - 1)};
+  return self_intersections(soup, last, options).coplanar;
+}
+
+TEST(SelfIntersections, OfSheetsThatNearlyLieOnEachOther) {
+  const TriangleSoup apart = {
+      {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {1, 1, 1e-9}, {1, -2, 1e-9}, {-2, 1, 1e-9}},
+      {{{0, 1, 2}}, {{3, 4, 5}}}};
+  EXPECT_EQ(near_the_last(apart, 0), 0u);
+  EXPECT_EQ(near_the_last(apart, 1e-10), 0u);
+  EXPECT_EQ(near_the_last(apart, 2e-9), 1u);
+  const TriangleSoup folded = {{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.4, 2, 1e-9}},
+                               {{{0, 1, 2}}, {{1, 0, 3}}}};
+  EXPECT_EQ(near_the_last(folded, 1e-10), 0u);
+  EXPECT_EQ(near_the_last(folded, 2e-9), 1u);
+  const TriangleSoup wedge = {{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 0.5, 1e-9}, {2, 0.25, 1e-9}},
+                              {{{0, 1, 2}}, {{0, 3, 4}}}};
+  EXPECT_EQ(near_the_last(wedge, 1e-10), 0u);
+  EXPECT_EQ(near_the_last(wedge, 2e-9), 1u);
+}
+
+// In a flat sheet all lie beside each other.
+TEST(SelfIntersections, OfNeighboursThatLieInOnePlane) {
+  const TriangleSoup fan = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 1e-12}},
+                            {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 4}}, {{0, 4, 1}}}};
+  EXPECT_EQ(near_the_last(fan, 1e-9), 0u);
+}
+
 // Around a vertex with very many triangles these are told apart by their directions.
 TEST(SelfIntersections, OfFansWithVeryManyTriangles) {
   EXPECT_EQ(self_intersections(testing::cone(2000)).count, 0u);

@@ -73,12 +73,17 @@ struct Simplified {
   SimplifyReport report;
 };
 
+// The points of triangles with a flag in `whole` stay.
 Simplified simplify(const TriangleSoup& soup, double within, std::vector<char> whole = {}) {
   Simplified result{as_surface(soup), {}};
   whole.resize(soup.triangles.size(), 0);
+  std::vector<char> stays(soup.points.size(), 0);
+  for (std::size_t t = 0; t < whole.size(); ++t) {
+    for (const std::uint32_t p : soup.triangles[t]) stays[p] |= whole[t];
+  }
   SimplifyOptions options;
   options.within = within;
-  auto simpler = simplify_cuts(result.surface, whole, options, result.report);
+  auto simpler = simplify_cuts(result.surface, stays, options, result.report);
   if (simpler) result.surface = std::move(*simpler);
   EXPECT_EQ(result.surface.source.size(), result.surface.mesh.triangles.size());
   EXPECT_EQ(result.surface.input_point.size(), result.surface.mesh.points.size());
@@ -192,6 +197,32 @@ TEST(SimplifyCuts, StaysWithinTheBoundOnNoisySurfaces) {
   }
 }
 
+double least_height(const TriangleSoup& soup) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& t : soup.triangles) {
+    const Vec3d& a = soup.points[t[0]];
+    const Vec3d ab = soup.points[t[1]] - a, ac = soup.points[t[2]] - a;
+    least =
+        std::min(least, ab.cross(ac).norm() / std::max({ab.norm(), ac.norm(), (ac - ab).norm()}));
+  }
+  return least;
+}
+
+// Once turned, no three points of an edge are on a line in doubles.
+TEST(SimplifyCuts, LeavesNoNeedlesAlongEdges) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Random random(seed);
+    const Eigen::Matrix3d turn = random_rotation(random);
+    TriangleSoup cube = squared_cube(6);
+    for (Vec3d& p : cube.points) p = turn * p;
+    const double within = 1e-6;
+    const Simplified result = simplify(cube, within);
+    EXPECT_LE(result.surface.mesh.triangles.size(), 24u) << seed;
+    EXPECT_GT(least_height(result.surface.mesh), 1e-4 * within) << seed;
+    expect_same_solid(cube, result);
+  }
+}
+
 // Two skins nearer than what each may move: a thin shell, the inner one turned.
 TEST(SimplifyCuts, KeepsNearSkinsApart) {
   TriangleSoup shell = sphere(3000, 1);
@@ -202,6 +233,27 @@ TEST(SimplifyCuts, KeepsNearSkinsApart) {
   EXPECT_GT(result.report.points_to_stay, 0u);
   EXPECT_GT(result.report.removed_points, 0u);
   expect_same_solid(shell, result);
+}
+
+TEST(SimplifyCuts, TakesOneRoundWithThePointsThatHadToStay) {
+  TriangleSoup shell = sphere(3000, 1);
+  append(shell, flipped(sphere(3000, 0.9999)));
+  const Surface surface = as_surface(shell);
+  SimplifyOptions options;
+  options.within = 1e-2;
+  std::vector<char> stays(shell.points.size(), 0);
+  SimplifyReport report;
+  const auto first = simplify_cuts(surface, stays, options, report);
+  ASSERT_TRUE(first);
+  EXPECT_GT(report.rounds, 1u);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(stays.begin(), stays.end(), 1)),
+            report.points_to_stay);
+  const auto second = simplify_cuts(surface, stays, options, report);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(report.rounds, 1u);
+  EXPECT_EQ(report.points_to_stay, 0u);
+  EXPECT_EQ(second->mesh.points, first->mesh.points);
+  EXPECT_EQ(second->mesh.triangles, first->mesh.triangles);
 }
 
 // A void in a bump that is lower than the bound: without the bump it would lie outside.

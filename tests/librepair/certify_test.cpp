@@ -30,7 +30,7 @@ Surface no_repair(const TriangleSoup& soup) { return surface_of(soup); }
 Surface certified(const Surface& surface, const CertifyOptions& options, CertifyReport& report) {
   CleanReport cleaned;
   const Grid grid = clean_soup(surface.mesh, cleaned).grid;
-  return certify(surface, grid, options, no_repair, nullptr, report);
+  return certify(surface, grid, options, {no_repair}, nullptr, report);
 }
 
 TEST(Certify, LeavesASoundSurfaceAsItIs) {
@@ -61,7 +61,7 @@ TEST(Certify, LosesNoSolidToACoarserGrid) {
   const Grid grid = clean_soup(soup, cleaned).grid;
   CertifyReport report;
   const auto scrap = [](const TriangleSoup&) { return surface_of(scaled(cube(), 0.01)); };
-  const Surface result = certify(surface_of(soup), grid, {}, scrap, nullptr, report);
+  const Surface result = certify(surface_of(soup), grid, {}, {scrap}, nullptr, report);
   EXPECT_FALSE(report.passed());
   EXPECT_NEAR(signed_volume(result.mesh), 2, 1e-6);
 }
@@ -172,13 +172,12 @@ TEST(Certify, DoesNotRepairAgainBecauseAPartFacesTheWrongWay) {
   CleanReport cleaned;
   CertifyReport report;
   std::size_t repairs = 0;
-  (void)certify(
-      surface_of(soup), clean_soup(soup, cleaned).grid, {},
-      [&](const TriangleSoup& again) {
-        ++repairs;
-        return surface_of(again);
-      },
-      nullptr, report);
+  (void)certify(surface_of(soup), clean_soup(soup, cleaned).grid, {},
+                {[&](const TriangleSoup& again) {
+                  ++repairs;
+                  return surface_of(again);
+                }},
+                nullptr, report);
   EXPECT_EQ(repairs, 0u);
   EXPECT_EQ(report.inside_out_parts, 1u);
   EXPECT_FALSE(report.passed());

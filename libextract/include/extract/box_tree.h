@@ -35,6 +35,11 @@ struct Box {
       high[k] = box.high[k] > high[k] ? box.high[k] : high[k];
     }
   }
+  // Larger by so much on all sides.
+  void widen(double by) {
+    for (double& x : low) x -= by;
+    for (double& x : high) x += by;
+  }
   // Have the two a point in common?
   [[nodiscard]] bool meets(const Box& other) const {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&

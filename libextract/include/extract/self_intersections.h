@@ -16,6 +16,9 @@ struct SelfIntersectionOptions {
   // Corners are shared if their coordinates are equal, as for a reader of STL. Otherwise if their
   // indices are: then triangles that touch in different points with equal coordinates intersect.
   bool weld = true;
+  // Of listed triangles alone: those, too, that lie on each other in nearly one plane, no further
+  // apart than this, as far as doubles tell. They count as coplanar. 0: none.
+  double nearness = 0;
   std::size_t most_pairs = 1000;         // that are kept; all are counted
   ProgressObserver* progress = nullptr;  // not owned; no stage is begun
 };

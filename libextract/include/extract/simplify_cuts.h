@@ -21,7 +21,7 @@ struct SimplifyReport {
   std::size_t removed_triangles = 0;
   double distance = 0;             // no point of the surface is farther from the one before
   std::size_t rounds = 0;          // until no triangles met that did not before
-  std::size_t points_to_stay = 0;  // as they would have made triangles meet
+  std::size_t points_to_stay = 0;  // more than at first, as they would have made triangles meet
 };
 
 // Moves points of a closed manifold surface onto neighbours, the nearest first, as long as every
@@ -29,15 +29,15 @@ struct SimplifyReport {
 // between the stars before and after, one over the other (J. Cohen, D. Manocha and M. Olano:
 // Simplifying polygonal models using successive mappings, 1997).
 //
-// Points of triangles with a flag in `whole` (one for each) stay, so that what was never cut is as
-// it was; and those in which parts touch. A part that is hardly thicker than the bound has a bound
-// of a share of its thickness. There are no new points and no degenerate triangles. The surface
-// stays closed and manifold, of the same genus; changed triangles meet no others (exactly tested,
-// with equal points as one); no part faces another way, or changes its volume by over a tenth.
-// Sources and flags of points go along. Returns nothing where nothing can go, or where all that
-// takes too many rounds. Throws Cancelled. n log n; stars of very many triangles stay.
-[[nodiscard]] std::optional<Surface> simplify_cuts(const Surface& surface,
-                                                   const std::vector<char>& whole,
+// Points with a flag in `stays` (one for each) stay, and those in which parts touch; they get a
+// flag too, as do those whose moves would make triangles meet. With these a surface that differs
+// little takes fewer rounds. A part that is hardly thicker than the bound has a bound of a share of
+// its thickness. There are no new points and no degenerate triangles. The surface stays closed and
+// manifold, of the same genus; changed triangles meet no others (exactly tested, with equal points
+// as one); no part faces another way, or changes its volume by over a tenth. Sources and flags of
+// points go along. Returns nothing where nothing can go, or where all that takes too many rounds.
+// Throws Cancelled. n log n; stars of very many triangles stay.
+[[nodiscard]] std::optional<Surface> simplify_cuts(const Surface& surface, std::vector<char>& stays,
                                                    const SimplifyOptions& options,
                                                    SimplifyReport& report);
 

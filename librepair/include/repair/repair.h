@@ -81,6 +81,7 @@ struct RepairReport {
   InsideReport inside;
   PartFates parts;
   ExtractReport extract;
+  std::size_t crumbs = 0;   // parts of cut pieces alone, thinner than a step of the grid: dropped
   SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;
   TriangleFates triangles;

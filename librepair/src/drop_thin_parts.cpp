@@ -1,4 +1,4 @@
-#include "drop_turned_parts.h"
+#include "drop_thin_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,23 @@ std::vector<char> thin_parts(const TriangleSoup& mesh, const std::vector<std::ui
   return thin;
 }
 
+std::vector<char> flags_of_triangles(const std::vector<std::uint32_t>& part_of,
+                                     const std::vector<char>& of_part) {
+  std::vector<char> flags;
+  flags.reserve(part_of.size());
+  for (const std::uint32_t part : part_of) flags.push_back(of_part[part]);
+  return flags;
+}
+
+// None if all would go. Returns how many went.
+std::size_t drop_parts(Surface& surface, const MeshParts& parts, std::vector<char> drop) {
+  const auto dropped = static_cast<std::size_t>(std::count(drop.begin(), drop.end(), 1));
+  if (dropped == 0 || dropped == drop.size()) return 0;
+  for (char& flag : drop) flag = flag == 0 ? 1 : 0;
+  keep_triangles(surface, flags_of_triangles(parts.of_triangle, drop));
+  return dropped;
+}
+
 // As drop_inside_out_parts(), without a look at what then is around the others.
 InsideOutParts drop_once(Surface& surface, double reach, ProgressObserver* progress) {
   TriangleSoup& mesh = surface.mesh;
@@ -41,12 +58,11 @@ InsideOutParts drop_once(Surface& surface, double reach, ProgressObserver* progr
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     return {};
   }
-  std::vector<char> keep;
-  keep.reserve(parts.part_of.size());
-  for (const std::uint32_t part : parts.part_of) {
-    keep.push_back(parts.inside_out[part] == 0 || thin[part] == 0 ? 1 : 0);
+  std::vector<char> keep(thin.size(), 1);
+  for (std::size_t part = 0; part < thin.size(); ++part) {
+    if (parts.inside_out[part] != 0 && thin[part] != 0) keep[part] = 0;
   }
-  if (result.dropped > 0) keep_triangles(surface, keep);
+  if (result.dropped > 0) keep_triangles(surface, flags_of_triangles(parts.part_of, keep));
   return result;
 }
 
@@ -70,18 +86,12 @@ std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before
     return part_sizes(points, mesh.triangles, parts.of_triangle, parts.count, scale);
   };
   const std::vector<PartSize> was = sizes_by(before), is = sizes_by(mesh.points);
-  std::vector<char> keeps(parts.count, 0);
+  std::vector<char> drop(parts.count, 1);
   for (std::uint32_t part = 0; part < parts.count; ++part) {
     const double first = was[part].volume, now = is[part].volume;
-    keeps[part] = (first > 0 && now > 0) || (first < 0 && now < 0) ? 1 : 0;
+    if ((first > 0 && now > 0) || (first < 0 && now < 0)) drop[part] = 0;
   }
-  const auto dropped = static_cast<std::size_t>(std::count(keeps.begin(), keeps.end(), 0));
-  if (dropped == 0 || dropped == keeps.size()) return 0;
-  std::vector<char> keep;
-  keep.reserve(parts.of_triangle.size());
-  for (const std::uint32_t part : parts.of_triangle) keep.push_back(keeps[part]);
-  keep_triangles(surface, keep);
-  return dropped;
+  return drop_parts(surface, parts, std::move(drop));
 }
 
 std::size_t drop_thin_parts(Surface& surface, std::span<const std::uint32_t> among,
@@ -91,13 +101,17 @@ std::size_t drop_thin_parts(Surface& surface, std::span<const std::uint32_t> amo
       thin_parts(surface.mesh, parts.of_triangle, parts.count, thickness);
   std::vector<char> drop(parts.count, 0);
   for (const std::uint32_t t : among) drop[parts.of_triangle[t]] = thin[parts.of_triangle[t]];
-  const auto dropped = static_cast<std::size_t>(std::count(drop.begin(), drop.end(), 1));
-  if (dropped == 0 || dropped == drop.size()) return 0;
-  std::vector<char> keep;
-  keep.reserve(parts.of_triangle.size());
-  for (const std::uint32_t part : parts.of_triangle) keep.push_back(drop[part] == 0 ? 1 : 0);
-  keep_triangles(surface, keep);
-  return dropped;
+  return drop_parts(surface, parts, std::move(drop));
+}
+
+std::size_t drop_thin_crumbs(Surface& surface, const std::vector<char>& whole, double thickness) {
+  const MeshParts parts = find_parts(surface.mesh);
+  if (parts.count == 1) return 0;
+  std::vector<char> drop = thin_parts(surface.mesh, parts.of_triangle, parts.count, thickness);
+  for (std::size_t t = 0; t < whole.size(); ++t) {
+    if (whole[t] != 0) drop[parts.of_triangle[t]] = 0;
+  }
+  return drop_parts(surface, parts, std::move(drop));
 }
 
 }  // namespace meshrepair::internal

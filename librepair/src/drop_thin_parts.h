@@ -1,4 +1,4 @@
-// Taking away parts that rounding turned inside out or flattened, or may flatten.
+// Taking away parts that are too thin, or that rounding turned inside out.
 #pragma once
 
 #include <cstddef>
@@ -32,5 +32,8 @@ struct InsideOutParts {
 // this, on average; none if all parts would go. Returns how many.
 std::size_t drop_thin_parts(Surface& surface, std::span<const std::uint32_t> among,
                             double thickness);
+
+// The same of the parts of which no triangle has a flag in `whole`, one for each.
+std::size_t drop_thin_crumbs(Surface& surface, const std::vector<char>& whole, double thickness);
 
 }  // namespace meshrepair::internal
