@@ -50,6 +50,10 @@ constexpr double kWorthARing = 0.9;
 // A patch lies in a plane if its area is hardly larger than that of its projection onto one.
 constexpr double kFlat = 0.999;
 
+// A patch of more than this share of its part is rather the floor of a hill than a hole in
+// something round.
+constexpr double kLargestCurved = 0.45;
+
 // A patch may lie on the surface where it is small beside it: there two sheets overlap by a seam.
 constexpr double kSmallPatch = 0.1;
 
@@ -164,8 +168,13 @@ class HolePatcher {
     });
   }
 
-  // The rims that a sheet ends at, and the rings between two, make one part of sheets.
   void judge_openings() {
+    too_large_ = find_large(options_.largest_share, options_.largest_flat_share);
+  }
+
+  // Patches of more than these shares of their parts, but for those that are closed or folded. The
+  // rims that a sheet ends at, and the rings between two, make one part of sheets.
+  std::vector<char> find_large(double most, double most_of_flat) {
     std::vector<double> area(triangles_.size(), 0);
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       area[parts_.root(t)] += area_of(soup_, soup_.triangles[TriangleId(t)].corners);
@@ -176,10 +185,13 @@ class HolePatcher {
     for (std::size_t l = 0; l < rims_.size(); ++l) {
       if (closed_[l] != 0 || folded_[l] != 0) continue;
       loops.push_back(l);
-      openings.push_back({parts_.root(a_triangle_at(l)), patches_[l].area, most(l)});
+      openings.push_back(
+          {parts_.root(a_triangle_at(l)), patches_[l].area, flat_[l] != 0 ? most_of_flat : most});
     }
-    const auto large = internal::find_large_openings(openings, std::move(area));
-    for (std::size_t i = 0; i < loops.size(); ++i) too_large_[loops[i]] = large[i];
+    const auto found = internal::find_large_openings(openings, std::move(area));
+    std::vector<char> large(rims_.size(), 0);
+    for (std::size_t i = 0; i < loops.size(); ++i) large[loops[i]] = found[i];
+    return large;
   }
 
   // That a patch may have of the area of its part.
@@ -266,10 +278,11 @@ class HolePatcher {
   void curve() {
     curved_.resize(rims_.size());
     if (options_.mode == HoleMode::flat) return;
+    const std::vector<char> too_large = find_large(kLargestCurved, kLargestCurved);
     const std::vector<internal::Collar> collars = internal::find_collars(soup_, triangles_, loops_);
     SharedProgress shared(progress_, rims_.size());
     tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
-      if (closed_[l] == 0 && is_patched(l)) {
+      if (closed_[l] == 0 && is_patched(l) && too_large[l] == 0) {
         curved_[l] =
             internal::curve_patch(rims_[l], patches_[l], collars[l], [&] { shared.poll(); });
       }
