@@ -146,7 +146,7 @@ TEST(PointSoup, IsTheSameForAnyNumberOfThreads) {
   PointSoupOptions options;
   options.project = 1;
   std::vector<PointSoup> results;
-  for (const std::size_t threads : {1, 4}) {
+  for (const std::size_t threads : {std::size_t{1}, std::size_t{4}}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     results.push_back(soup_of(cloud, options));
   }
