@@ -10,6 +10,8 @@
 #include <bsp/error.h>
 #include <bsp/hash_index.h>
 
+#include "count_layers.h"
+
 namespace meshrepair {
 namespace {
 
@@ -114,16 +116,21 @@ class TriangleCollector {
 
   // Says how those with copies are turned.
   void finish() {
+    std::vector<internal::CopiedTriangle> copied;
     std::stable_sort(copies_.begin(), copies_.end(),
                      [](const Copy& a, const Copy& b) { return a.of < b.of; });
     for (auto copy = copies_.begin(); copy != copies_.end();) {
       const TriangleId t = copy->of;
-      Triangle& triangle = clean_.triangles[t];
-      layers_.assign(1, layer_of({t, triangle.source, 1}));
-      for (; copy != copies_.end() && copy->of == t; ++copy) layers_.push_back(layer_of(*copy));
+      layers_.assign(1, layer_of({t, clean_.triangles[t].source, 1}));
+      std::int32_t all = 1;
+      for (; copy != copies_.end() && copy->of == t; ++copy) {
+        layers_.push_back(layer_of(*copy));
+        all += copy->facing;
+      }
       const int sum = sum_of_layers();
-      triangle.winding *= sum > 0 ? 1 : sum < 0 ? -1 : 0;
+      copied.push_back({t, sum > 0 ? 1 : sum < 0 ? -1 : 0, all});
     }
+    internal::count_layers(clean_, copied);
   }
 
  private:

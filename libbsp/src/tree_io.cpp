@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,9 @@ constexpr std::uint32_t kNodeBytes = 20;
 constexpr std::uint32_t kNodeTriangleBytes = 4;
 constexpr std::uint32_t kLeafBytes = 8;
 
+// Of all triangles together, so that winding numbers stay far from the end of their range.
+constexpr std::int64_t kMostLayers = std::int64_t{1} << 30;
+
 void write_grid(const Grid& grid, std::string& out) {
   SectionWriter section(out, "GRID", kGridBytes, 1);
   for (int axis = 0; axis < 3; ++axis) section.put(grid.origin[axis]);
@@ -50,7 +55,7 @@ void write_triangles(const CleanSoup& soup, std::string& out) {
   for (const Triangle& t : soup.triangles) {
     for (const PointId corner : t.corners) section.put(corner.value);
     section.put(t.plane.value);
-    section.put(t.winding);
+    section.put(t.winding * t.layers);
     section.put(t.source);
   }
   section.finish();
@@ -126,6 +131,7 @@ void read_triangles(SectionReader& in, CleanSoup& soup) {
   const std::size_t count = in.enter("TRIS", kTriangleBytes);
   in.require_at_most(count);
   soup.triangles.reserve(count);
+  std::int64_t layers = 0;
   for (std::size_t i = 0; i < count; ++i) {
     in.tick();
     Triangle t;
@@ -134,9 +140,13 @@ void read_triangles(SectionReader& in, CleanSoup& soup) {
       in.require(soup.points.contains(corner), "refers to a point that is not there");
     }
     t.plane = PlaneId(in.get<std::uint32_t>());
-    t.winding = in.get<std::int32_t>();
+    const auto winding = in.get<std::int32_t>();
+    const std::int64_t all = std::abs(std::int64_t{winding});
+    layers += all;
+    in.require(layers <= kMostLayers, "has a winding beyond all bounds");
+    t.winding = winding > 0 ? 1 : winding < 0 ? -1 : 0;
+    t.layers = static_cast<std::int32_t>(std::max(std::int64_t{1}, all));
     t.source = in.get<std::uint32_t>();
-    in.require(t.winding >= -1 && t.winding <= 1, "has a winding that is not -1, 0 or 1");
     soup.triangles.push_back(t);
   }
 }

@@ -12,11 +12,14 @@ namespace {
 // Where more border edges meet in a point, any of them will do as the next one.
 constexpr std::uint32_t kMostCompared = 32;
 
-std::vector<BorderEdge> find_border(std::span<const IndexTriangle> triangles,
+std::vector<BorderEdge> find_border(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
                                     const EdgeTable& table) {
   std::vector<BorderEdge> border;
   table.for_each_edge([&](std::span<const std::uint32_t> sides) {
     if (sides.size() % 2 == 0) return;
+    std::int64_t layers = 0;
+    for (const std::uint32_t s : sides) layers += soup.triangles[TriangleId(s / 3)].layers;
+    if (layers % 2 == 0) return;
     const std::uint32_t a = side_start(triangles, sides[0]);
     const std::uint32_t b = side_start(triangles, next_side(sides[0]));
     border.push_back({std::min(a, b), std::max(a, b), sides[0], sides.size() == 1});
@@ -193,7 +196,7 @@ class LoopWalker {
 
 BoundaryLoops find_boundary_loops(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
                                   const EdgeTable& table, ProgressObserver* progress) {
-  std::vector<BorderEdge> border = find_border(triangles, table);
+  std::vector<BorderEdge> border = find_border(soup, triangles, table);
   if (border.empty()) return {};
   return LoopWalker(soup, triangles, table, std::move(border), progress).run();
 }

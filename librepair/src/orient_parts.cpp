@@ -222,7 +222,7 @@ class PartOrienter {
           (patches_.turned[t.value] != 0) ^ (turn_[patch] != 0) ^ (turn_part_[part] != 0);
       std::int32_t winding = soup_.triangles[t].winding;
       if (wall_[patch] == 0) {
-        winding = internal::side_of_corners(soup_, t) * (turn ? -1 : 1);
+        winding = internal::side_of_corners(soup_, t) * (turn ? -1 : 1) * soup_.triangles[t].layers;
       }
       report_.turned_triangles += winding * soup_.triangles[t].winding < 0;
       result_.winding.push_back(winding);
@@ -259,7 +259,7 @@ Orientation orient_parts(const CleanSoup& soup, OrientReport& report, ProgressOb
 IdVector<TriangleId, std::int32_t> windings_of(const CleanSoup& soup) {
   IdVector<TriangleId, std::int32_t> winding;
   winding.reserve(soup.triangles.size());
-  for (const Triangle& t : soup.triangles) winding.push_back(t.winding);
+  for (const Triangle& t : soup.triangles) winding.push_back(t.winding * t.layers);
   return winding;
 }
 

@@ -226,7 +226,7 @@ TEST(TreeIo, DanglingAndRepeatedReferencesAreRefused) {
   EXPECT_NE(refusal_with(bytes, 5, 0, 1000000), "");      // a triangle at a node
   EXPECT_NE(refusal_with(bytes, 2, 0, 1000000), "");      // a corner of a triangle
   EXPECT_NE(refusal_with(bytes, 2, 12, 1000000), "");     // its plane
-  EXPECT_NE(refusal_with(bytes, 2, 16, 2), "");           // its winding
+  EXPECT_NE(refusal_with(bytes, 2, 16, 0x7FFFFFFF), "");  // its winding
   EXPECT_NE(refusal_with(bytes, 1, 24, 0x7FFFFFFF), "");  // a grid coordinate
   EXPECT_NE(refusal_with(bytes, 6, 0, 3), "");            // a label
   EXPECT_NE(refusal_with(bytes, 6, 4, 0x7FC00000), "");   // a confidence of NaN

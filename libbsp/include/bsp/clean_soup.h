@@ -18,11 +18,15 @@ struct Triangle {
   std::array<PointId, 3> corners;  // in the order of its first copy
   PlaneId plane;
   // How its copies are turned: +1 more along the plane's normal than against it, -1 fewer, 0 as
-  // many. Those at the very same place, as given, count once for each way they are turned.
+  // many. Those at the very same place, as given, count once for each way they are turned, but for
+  // `layers`.
   std::int32_t winding = 0;
   // Index of the first copy in the soup that was given; kNoSource for one that closes a hole.
   std::uint32_t source = 0;
   static constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
+  // How many surfaces it is part of, all turned so: above 1 where closed surfaces that overlap have
+  // it in common. A face that is merely listed several times is one.
+  std::int32_t layers = 1;
 };
 
 struct CleanSoup {

@@ -14,7 +14,7 @@
 //
 //   "GRID"  1 item    f64 origin x, y, z; f64 unit
 //   "PNTS"  points    f64 original x, y, z; i32 grid x, y, z, what the original is rounded to
-//   "TRIS"  triangles u32 corners a, b, c; u32 plane; i32 winding; u32 source
+//   "TRIS"  triangles u32 corners a, b, c; u32 plane; i32 winding times layers; u32 source
 //   "PLNS"  planes    i64 normal x, y, z; u64 offset low word, i64 offset high word
 //   "NODE"  nodes     u32 plane; u32 positive child, u32 negative child (top bit: a leaf);
 //                     u32 first triangle; u32 number of triangles

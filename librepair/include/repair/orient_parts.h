@@ -35,7 +35,7 @@ struct OrientedPart {
 };
 
 struct Orientation {
-  // How each triangle is turned against its plane's normal; 0 where it is both.
+  // How each triangle is turned against its plane's normal, times its layers; 0 where it is both.
   IdVector<TriangleId, std::int32_t> winding;
   IdVector<TriangleId, std::uint32_t> part_of;
   std::vector<OrientedPart> parts;
