@@ -209,6 +209,7 @@ Json certificate_of(const RepairReport& repair) {
           {"rounds", certified.rounds},
           {"snapped_points", certified.snapped_points},
           {"dropped_parts", certified.dropped_parts},
+          {"dropped_share", certified.dropped_share},
           {"inside_out_parts", certified.inside_out_parts},
           {"joined_points", certified.joined_points}};
 }

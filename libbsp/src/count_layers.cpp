@@ -1,6 +1,7 @@
 #include "count_layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <utility>
 #include <vector>
@@ -12,16 +13,25 @@
 namespace meshrepair::internal {
 namespace {
 
-// By how much edges are passed more often one way than the other.
-struct Imbalance {
+// After as many changes of single triangles nothing is left to gain, or hardly.
+constexpr int kRounds = 8;
+
+// Of an edge that copied triangles have: how much more often it is passed up than down.
+struct Balance {
+  std::uint32_t first;  // of the copied triangles
   std::int64_t as_one = 0;
   std::int64_t as_layers = 0;
+  std::int64_t now = 0;
 };
 
 class LayerCounter {
  public:
   LayerCounter(const CleanSoup& soup, std::span<const CopiedTriangle> copied)
-      : copied_(copied), place_(soup.triangles.size(), kNone), sets_(copied.size()) {
+      : copied_(copied),
+        place_(soup.triangles.size(), kNone),
+        sets_(copied.size()),
+        passes_(copied.size()),
+        counts_(copied.size(), 0) {
     triangles_.reserve(soup.triangles.size());
     for (const Triangle& t : soup.triangles) {
       triangles_.push_back({t.corners[0].value, t.corners[1].value, t.corners[2].value});
@@ -31,51 +41,74 @@ class LayerCounter {
 
   // Of each copied triangle, whether its layers count.
   std::vector<char> run() {
-    const EdgeTable table(triangles_);
-    std::vector<std::pair<std::uint32_t, Imbalance>> edges;
-    table.for_each_edge([&](std::span<const std::uint32_t> sides) {
-      std::uint32_t first = kNone;
-      for (const std::uint32_t s : sides) {
-        const std::uint32_t i = place_[s / 3];
-        if (i == kNone) continue;
-        if (first == kNone) first = i;
-        sets_.join(first, i);
-      }
-      if (first != kNone) edges.emplace_back(first, imbalance_of(sides));
-    });
-    std::vector<Imbalance> sums(copied_.size());
-    for (const auto& [i, imbalance] : edges) {
-      Imbalance& sum = sums[sets_.root(i)];
-      sum.as_one += imbalance.as_one;
-      sum.as_layers += imbalance.as_layers;
+    balance_edges();
+    choose_for_sets();
+    for (int round = 0; round < kRounds && change_single(); ++round) {
     }
-    std::vector<char> counts;
-    counts.reserve(copied_.size());
-    for (std::uint32_t i = 0; i < copied_.size(); ++i) {
-      const Imbalance& sum = sums[sets_.root(i)];
-      counts.push_back(sum.as_layers < sum.as_one ? 1 : 0);
-    }
-    return counts;
+    return std::move(counts_);
   }
 
  private:
-  [[nodiscard]] Imbalance imbalance_of(std::span<const std::uint32_t> sides) const {
-    Imbalance sum;
-    for (const std::uint32_t s : sides) {
-      const bool up = side_start(triangles_, s) < side_start(triangles_, next_side(s));
-      const std::uint32_t i = place_[s / 3];
-      const std::int64_t as_one = i == kNone ? 1 : copied_[i].facing;
-      const std::int64_t as_layers = i == kNone ? 1 : copied_[i].layers;
-      sum.as_one += up ? as_one : -as_one;
-      sum.as_layers += up ? as_layers : -as_layers;
+  struct Pass {
+    std::uint32_t edge = 0;
+    int way = 0;  // 1 up, -1 down
+  };
+
+  void balance_edges() {
+    const EdgeTable table(triangles_);
+    table.for_each_edge([&](std::span<const std::uint32_t> sides) {
+      const auto edge = static_cast<std::uint32_t>(edges_.size());
+      Balance balance{kNone};
+      for (const std::uint32_t s : sides) {
+        const int way = side_start(triangles_, s) < side_start(triangles_, next_side(s)) ? 1 : -1;
+        const std::uint32_t i = place_[s / 3];
+        balance.as_one += way * (i == kNone ? 1 : copied_[i].facing);
+        balance.as_layers += way * (i == kNone ? 1 : copied_[i].layers);
+        if (i == kNone) continue;
+        passes_[i][s % 3] = {edge, way};
+        if (balance.first == kNone) balance.first = i;
+        sets_.join(balance.first, i);
+      }
+      if (balance.first != kNone) edges_.push_back(balance);
+    });
+  }
+
+  // All that are connected through edges have the same.
+  void choose_for_sets() {
+    std::vector<std::int64_t> gain(copied_.size(), 0);
+    for (const Balance& edge : edges_) {
+      gain[sets_.root(edge.first)] += std::abs(edge.as_one) - std::abs(edge.as_layers);
     }
-    return {std::abs(sum.as_one), std::abs(sum.as_layers)};
+    for (std::uint32_t i = 0; i < copied_.size(); ++i) counts_[i] = gain[sets_.root(i)] > 0 ? 1 : 0;
+    for (Balance& edge : edges_) {
+      edge.now = counts_[edge.first] != 0 ? edge.as_layers : edge.as_one;
+    }
+  }
+
+  bool change_single() {
+    bool changed = false;
+    for (std::size_t i = 0; i < copied_.size(); ++i) {
+      const std::int64_t more = std::int64_t{copied_[i].layers} - copied_[i].facing;
+      const std::int64_t change = counts_[i] != 0 ? -more : more;
+      std::int64_t gain = 0;
+      for (const auto& [edge, way] : passes_[i]) {
+        gain += std::abs(edges_[edge].now) - std::abs(edges_[edge].now + way * change);
+      }
+      if (gain <= 0) continue;
+      for (const auto& [edge, way] : passes_[i]) edges_[edge].now += way * change;
+      counts_[i] = counts_[i] != 0 ? 0 : 1;
+      changed = true;
+    }
+    return changed;
   }
 
   std::span<const CopiedTriangle> copied_;
   std::vector<IndexTriangle> triangles_;
   std::vector<std::uint32_t> place_;  // of each triangle, in `copied_`
   DisjointSets sets_;
+  std::vector<std::array<Pass, 3>> passes_;  // of each copied triangle, its edges
+  std::vector<Balance> edges_;               // those of copied triangles
+  std::vector<char> counts_;
 };
 
 std::int32_t sign_of(std::int32_t x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }

@@ -75,7 +75,8 @@ class Certifier {
     current_.surface = std::move(surface);
     const TriangleSoup& mesh = current_.surface.mesh;
     volume_ = signed_volume(mesh);
-    most_lost_ = kMostLost * std::abs(volume_) + kMostSteps * spacing_ * surface_area(mesh);
+    area_ = surface_area(mesh);
+    most_lost_ = kMostLost * std::abs(volume_) + kMostSteps * spacing_ * area_;
   }
 
   Surface run() {
@@ -97,6 +98,9 @@ class Certifier {
     report_.joined_points = current_.joined;
     report_.inside_out_parts = current_.inside_out_parts;
     report_.dropped_parts = current_.dropped_parts;
+    if (current_.dropped_parts > 0) {
+      report_.dropped_share = std::max(0.0, 1 - surface_area(current_.surface.mesh) / area_);
+    }
     report_.done = true;
     return std::move(current_.surface);
   }
@@ -275,6 +279,7 @@ class Certifier {
   double spacing_ = 0;  // of the numbers that can be written
   double step_ = 0;     // of the finest grid
   double volume_ = 0;   // as given
+  double area_ = 0;     // as given
   double most_lost_ = 0;
   Attempt current_, best_;
 };

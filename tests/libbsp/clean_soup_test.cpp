@@ -155,6 +155,26 @@ TEST(CleanSoup, CopiesAreOneTriangle) {
   EXPECT_NE(clean.triangles[TriangleId(0u)].winding, 0);
 }
 
+// Two tetrahedra on the same side of it.
+TEST(CleanSoup, AFaceOfTwoSolidsIsTwoLayers) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 2}};
+  for (const std::uint32_t top : {3u, 4u}) {
+    soup.triangles.insert(soup.triangles.end(), {{0, 2, 1}, {0, 1, top}, {1, 2, top}, {2, 0, top}});
+  }
+  for (const bool listed_again : {false, true}) {
+    if (listed_again) soup.triangles.push_back({1, 2, 3});
+    CleanReport report;
+    const CleanSoup clean = clean_soup(soup, report);
+    EXPECT_EQ(report.duplicates, listed_again ? 2u : 1u);
+    ASSERT_EQ(clean.triangles.size(), 7u);
+    for (const Triangle& t : clean.triangles) {
+      EXPECT_EQ(t.layers, t.source == 0 ? 2 : 1) << t.source;
+      EXPECT_EQ(std::abs(t.winding), 1) << t.source;
+    }
+  }
+}
+
 // A double wall has no outside: one copy is enough to know, and more of one kind do not outweigh
 // it.
 TEST(CleanSoup, OppositeCopiesHaveNoWinding) {

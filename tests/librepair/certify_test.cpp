@@ -124,6 +124,8 @@ void expect_dropped(const TriangleSoup& soup, std::size_t parts) {
   const Surface result = certified(surface_of(soup), {}, report);
   EXPECT_TRUE(report.passed());
   EXPECT_EQ(report.dropped_parts, parts);
+  EXPECT_NEAR(report.dropped_share, 1 - surface_area(result.mesh) / surface_area(soup), 1e-12);
+  EXPECT_GT(report.dropped_share, 0);
   EXPECT_EQ(report.rounds, 0u);
   EXPECT_EQ(result.mesh.triangles.size(), soup.triangles.size() - 12 * parts);
   EXPECT_EQ(result.source.size(), result.mesh.triangles.size());

@@ -36,6 +36,7 @@ struct CertifyReport {
   std::size_t rounds = 0;            // of mending
   std::size_t snapped_points = 0;    // moved onto a grid in the last of them
   std::size_t dropped_parts = 0;     // that rounding flattened or turned
+  double dropped_share = 0;          // of the area at first, where parts were dropped
   std::size_t joined_points = 0;     // that a welding format still joins with others
   std::size_t inside_out_parts = 0;  // that are left, known where no triangles intersect
 
