@@ -111,8 +111,6 @@ class LayerCounter {
   std::vector<char> counts_;
 };
 
-std::int32_t sign_of(std::int32_t x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
 }  // namespace
 
 void count_layers(CleanSoup& soup, std::span<const CopiedTriangle> copied) {
@@ -121,7 +119,7 @@ void count_layers(CleanSoup& soup, std::span<const CopiedTriangle> copied) {
   for (std::size_t i = 0; i < copied.size(); ++i) {
     Triangle& triangle = soup.triangles[copied[i].triangle];
     const std::int32_t all = counts[i] != 0 ? copied[i].layers : copied[i].facing;
-    triangle.winding *= sign_of(all);
+    triangle.winding *= std::clamp(all, -1, 1);
     triangle.layers = std::max(1, std::abs(all));
   }
 }
