@@ -199,8 +199,7 @@ class Certifier {
   void mend() {
     double step = step_;
     const std::size_t most = kMostGrowth * current_.surface.mesh.triangles.size();
-    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds &&
-           current_.surface.mesh.triangles.size() <= most) {
+    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds) {
       ++report_.rounds;
       report_.snapped_points = snap_concerned(current_, step);
       snap_cut_triangles();
@@ -216,6 +215,7 @@ class Certifier {
       current_.surface = std::move(again);
       test(current_);
       keep_if_better();
+      if (current_.surface.mesh.triangles.size() > most) return;
       improve();
       step *= 4;
     }
