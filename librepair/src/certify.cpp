@@ -158,6 +158,7 @@ class Certifier {
   // Often all that is wrong is that input points are written with their own coordinates.
   void move_to_grid() {
     if (help_.settle_again) {
+      current_ = {};
       current_.surface = help_.settle_again();
     } else {
       internal::settle_input_points(current_.surface, grid_, progress_);
