@@ -19,7 +19,7 @@ std::vector<BorderEdge> find_border(const CleanSoup& soup, std::span<const Index
     if (sides.size() % 2 == 0) return;
     std::int64_t layers = 0;
     for (const std::uint32_t s : sides) layers += soup.triangles[TriangleId(s / 3)].layers;
-    if (layers % 2 == 0) return;
+    if (sides.size() > 1 && layers % 2 == 0) return;
     const std::uint32_t a = side_start(triangles, sides[0]);
     const std::uint32_t b = side_start(triangles, next_side(sides[0]));
     border.push_back({std::min(a, b), std::max(a, b), sides[0], sides.size() == 1});
