@@ -114,8 +114,10 @@ class LayerCounter {
 }  // namespace
 
 void count_layers(CleanSoup& soup, std::span<const CopiedTriangle> copied) {
-  if (copied.empty()) return;
-  const std::vector<char> counts = LayerCounter(soup, copied).run();
+  const bool any_choice = std::any_of(copied.begin(), copied.end(),
+                                      [](const CopiedTriangle& t) { return t.facing != t.layers; });
+  const std::vector<char> counts =
+      any_choice ? LayerCounter(soup, copied).run() : std::vector<char>(copied.size(), 0);
   for (std::size_t i = 0; i < copied.size(); ++i) {
     Triangle& triangle = soup.triangles[copied[i].triangle];
     const std::int32_t all = counts[i] != 0 ? copied[i].layers : copied[i].facing;

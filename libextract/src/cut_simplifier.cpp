@@ -100,7 +100,7 @@ void CutSimplifier::consider(std::uint32_t point) {
     if (!(move.distance <= within)) continue;
     move.cost = std::max(move.distance, kSmallShare * within);
     if (!(best < move)) continue;
-    if (least_height < 0) least_height = this->least_height(within);
+    if (least_height < 0) least_height = height_to_keep(within);
     if (may_move(i, least_height)) best = move;
   }
   if (best.target != kNone) queue_.push(best);
@@ -127,7 +127,7 @@ bool CutSimplifier::may_move(std::size_t to, double least_height) {
 
 // A triangle that is flatter than the bound, and than all that were there, is a needle that
 // rounding may turn.
-double CutSimplifier::least_height(double within) const {
+double CutSimplifier::height_to_keep(double within) const {
   double least = kNeedle * within;
   for (std::size_t i = 0; i < link_.size() && least > 0; ++i) {
     least = std::min(least, height_of(points_[star_.point], link_[i], link_[star_.after(i)]));

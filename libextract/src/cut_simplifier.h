@@ -57,7 +57,7 @@ class CutSimplifier {
   // Until all moves that are known have been made.
   void postpone(std::uint32_t point);
   [[nodiscard]] bool may_move(std::size_t to, double least_height);
-  [[nodiscard]] double least_height(double within) const;
+  [[nodiscard]] double height_to_keep(double within) const;
   void make(const Move& move);
 
   const std::vector<Vec3d>& points_;

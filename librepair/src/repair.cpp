@@ -255,16 +255,16 @@ void describe(const CleanSoup& input, const Surface& surface, RepairReport& repo
 }
 
 // What is thinner than a step of the grid says nothing about the input, whose points were put
-// there.
-void drop_crumbs(const CleanSoup& input, Surface& surface, RepairReport& report) {
-  const std::vector<char> whole = find_whole_triangles(input, surface);
+// there. Returns which of the triangles left are whole.
+std::vector<char> drop_crumbs(const CleanSoup& input, Surface& surface, RepairReport& report) {
+  std::vector<char> whole = find_whole_triangles(input, surface);
   report.crumbs = internal::drop_thin_crumbs(surface, whole, input.grid.unit);
+  return report.crumbs > 0 ? find_whole_triangles(input, surface) : std::move(whole);
 }
 
 // What was never cut is to stay as it was.
-std::vector<char> whole_points(const CleanSoup& input, const Surface& surface) {
+std::vector<char> points_of(const Surface& surface, const std::vector<char>& whole) {
   std::vector<char> points(surface.mesh.points.size(), 0);
-  const std::vector<char> whole = find_whole_triangles(input, surface);
   for (std::size_t t = 0; t < whole.size(); ++t) {
     if (whole[t] == 0) continue;
     for (const std::uint32_t p : surface.mesh.triangles[t]) points[p] = 1;
@@ -325,7 +325,7 @@ Surface certify(Surface surface, std::optional<Surface> simpler, std::vector<cha
 Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
                RepairReport& report, StageMeter& meter) {
   require_range(surface, options.certify.precision);
-  drop_crumbs(input, surface, report);
+  const std::vector<char> whole = drop_crumbs(input, surface, report);
   if (options.examine) {
     describe(input, surface, report);
     options.examine(report);
@@ -334,7 +334,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
   std::vector<char> stays;
   if (options.simplify > 0) {
     meter.begin("simplify");
-    stays = whole_points(input, surface);
+    stays = points_of(surface, whole);
     simpler = simplify(surface, stays, options, report.simplify);
   }
   if (options.certify.wanted) {

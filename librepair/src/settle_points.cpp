@@ -52,10 +52,8 @@ class Settler {
 
   void settle_point(std::size_t p) {
     Vec3d& position = surface_.mesh.points[p];
-    const GridPoint on_grid = grid_.to_grid(position);
-    const Vec3d settled =
-        grid_.from_grid({static_cast<double>(on_grid.x), static_cast<double>(on_grid.y),
-                         static_cast<double>(on_grid.z)});
+    const Vec3d on_grid = as_vector(grid_.to_grid(position));
+    const Vec3d settled = grid_.from_grid({on_grid.x(), on_grid.y(), on_grid.z()});
     if (settled == position) return;
     position = settled;
     surface_.input_point[p] = 0;
@@ -65,8 +63,9 @@ class Settler {
   // What was found, and all triangles of the points that have moved just now.
   [[nodiscard]] std::vector<std::uint32_t> to_test(const SelfIntersections& found) const {
     std::vector<std::uint32_t> triangles;
-    for (const auto& pair : found.pairs)
+    for (const auto& pair : found.pairs) {
       triangles.insert(triangles.end(), pair.begin(), pair.end());
+    }
     for (std::uint32_t t = 0; t < surface_.mesh.triangles.size(); ++t) {
       for (const std::uint32_t p : surface_.mesh.triangles[t]) {
         if (moves_[places_.place[p]] == 0) continue;

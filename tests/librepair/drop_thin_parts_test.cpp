@@ -1,5 +1,7 @@
 #include "drop_thin_parts.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "shapes.h"

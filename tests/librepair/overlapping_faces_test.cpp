@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/predicates.h>
 #include <extract/mesh_distance.h>
 #include <repair/repair.h>
 
