@@ -65,13 +65,15 @@ void warn_of_made_up_surface(const Findings& findings) {
 
 // Where that is much, other numbers would have kept it.
 void warn_of_dropped_parts(const Findings& findings) {
-  const CertifyReport& certified = findings.repair.certify;
+  const RepairReport& repair = findings.repair;
   constexpr double kWorthAWarning = 0.01;
-  if (!(certified.dropped_share > kWorthAWarning)) return;
+  const double fins = repair.fins_area / (repair.fins_area + repair.output_area);
+  const double share = repair.certify.dropped_share + (repair.fins_area > 0 ? fins : 0);
+  if (!(share > kWorthAWarning)) return;
   spdlog::warn(
       "{}: parts that are too thin for its numbers are left out, {:.0f} % of the surface: OBJ, OFF "
       "and PLY in double precision hold finer ones",
-      findings.output_name(), 100 * certified.dropped_share);
+      findings.output_name(), 100 * share);
 }
 
 template <class ErrorType>

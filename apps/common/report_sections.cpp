@@ -191,7 +191,10 @@ Json removed_of(const RepairReport& repair) {
           {"inside_solid", section_of(parts.inside_solid)},
           {"triangles_inside", parts.inside_triangles},
           {"triangles_outside", parts.outside_triangles},
-          {"crumbs", repair.crumbs}};
+          {"crumbs", repair.crumbs},
+          {"slit_cells", repair.thin_cells.filled},
+          {"fin_cells", repair.thin_cells.emptied},
+          {"fins_area", repair.fins_area}};
 }
 
 const char* verdict(bool holds) { return holds ? "PASS" : "FAIL"; }

@@ -2,10 +2,11 @@
 //
 // Every decision was exact for points on the working grid and for exact intersections of planes.
 // What may fail is the rounding of those intersections, and that input points are written with
-// their own coordinates, not with those of the grid. So a point at fault goes onto the grid; then
-// the mesh is a soup of grid points, and repairing it again makes intersections only where the
-// moves made some, fewer each time. A coarser grid keeps points further apart, which is why it
-// ends.
+// their own coordinates, not with those of the grid. So a point at fault goes onto the grid. What
+// still intersects is mended place by place, by moving points and collapsing and turning edges.
+// Where that does not do, the mesh is a soup of grid points, and repairing it again makes
+// intersections only where the moves made some, fewer each time. A coarser grid keeps points further
+// apart, which is why it ends.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include <bsp/error.h>
 #include <bsp/topology.h>
 #include <extract/join_ends.h>
+#include <extract/mend_faults.h>
 #include <extract/self_intersections.h>
 #include <repair/certify.h>
 
@@ -36,6 +38,12 @@ constexpr std::size_t kMostPairs = 1'000'000;
 // of the numbers.
 constexpr double kMostLost = 0.1;
 constexpr double kMostSteps = 4;
+
+// How far edges are collapsed or turned to mend a place, in steps of the numbers.
+constexpr double kMendSteps = 16;
+
+// Rounds of mending that bring nothing in a row, before it ends.
+constexpr std::size_t kMostVain = 3;
 
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
@@ -172,13 +180,15 @@ class Certifier {
   // before, on the grid.
   void improve() {
     Attempt moved = current_;
-    bool is_of_use = true;
-    while (is_of_use) {
-      const std::size_t faults = moved.faults();
-      if (faults > 0) move_points(moved);
-      if (moved.faults() < best_.faults() && is_whole(moved)) best_ = moved;
-      is_of_use = moved.faults() + faults / 4 < faults;
-    }
+    do {
+      bool is_of_use = true;
+      while (is_of_use) {
+        const std::size_t faults = moved.faults();
+        if (faults > 0) move_points(moved);
+        if (moved.faults() < best_.faults() && is_whole(moved)) best_ = moved;
+        is_of_use = moved.faults() + faults / 4 < faults;
+      }
+    } while (mend_places(moved));
   }
 
   void move_points(Attempt& attempt) const {
@@ -186,6 +196,23 @@ class Certifier {
     if (attempt.found.count + attempt.found.degenerate == 0) return;
     internal::nudge_points(attempt.surface, attempt.found, options_.precision, progress_);
     test(attempt);
+  }
+
+  // What chance does not mend. Whether it is of use.
+  bool mend_places(Attempt& attempt) {
+    if (attempt.found.count + attempt.found.degenerate == 0) return false;
+    MendOptions options;
+    options.step = spacing_;
+    options.reach = std::max(step_, kMendSteps * spacing_);
+    options.rounded = [&](const Vec3d& p) { return internal::rounded_to(p, options_.precision); };
+    options.progress = progress_;
+    Attempt mended = attempt;
+    if (mend_faults(mended.surface, mended.found, options) == 0) return false;
+    test(mended);
+    if (mended.faults() >= attempt.faults()) return false;
+    attempt = std::move(mended);
+    if (attempt.faults() < best_.faults() && is_whole(attempt)) best_ = attempt;
+    return true;
   }
 
   void separate(Attempt& attempt) const {
@@ -200,8 +227,10 @@ class Certifier {
   void mend() {
     double step = step_;
     const std::size_t most = kMostGrowth * current_.surface.mesh.triangles.size();
-    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds) {
+    std::size_t vain = 0;
+    while (best_.misplaced() > 0 && report_.rounds < options_.most_rounds && vain < kMostVain) {
       ++report_.rounds;
+      const std::size_t best = best_.faults();
       report_.snapped_points = snap_concerned(current_, step);
       snap_cut_triangles();
       Surface again;
@@ -218,6 +247,7 @@ class Certifier {
       keep_if_better();
       if (current_.surface.mesh.triangles.size() > most) return;
       improve();
+      vain = best_.faults() < best ? 0 : vain + 1;
       step *= 4;
     }
   }

@@ -13,8 +13,10 @@
 #include <repair/cell_graph.h>
 #include <repair/flood.h>
 #include <repair/repair.h>
+#include <repair/thin_cells.h>
 
 #include "drop_thin_parts.h"
+#include "number_spacing.h"
 #include "settle_points.h"
 
 namespace meshrepair {
@@ -22,6 +24,9 @@ namespace {
 
 // As many as this may be chance.
 constexpr std::size_t kFewFaults = 32;
+
+// Of the numbers of the format: nearer sheets are not told apart.
+constexpr double kSlitSteps = 4;
 
 struct CoveredCells {
   CellComplex complex;
@@ -215,8 +220,25 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   return repair(soup, again, report);
 }
 
-Surface extract(const CoveredCells& covered, const std::vector<char>& solid,
-                const RepairOptions& options, RepairReport& report) {
+// Sheets so near to each other would cross once they are written.
+void fill_slits(const CoveredCells& covered, const RepairOptions& options, std::vector<char>& solid,
+                RepairReport& report) {
+  report.thin_cells = {};
+  report.fins_area = 0;
+  if (options.certify.precision == Precision::float64 || covered.complex.loose) return;
+  const CleanSoup& soup = covered.complex.soup();
+  double farthest = 0;
+  for (const Vec3d& p : soup.points) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  const double spacing = internal::number_spacing(farthest, options.certify.precision);
+  const double unit = soup.grid.unit;
+  report.thin_cells = relabel_thin_cells(covered.complex, covered.cover,
+                                         kSlitSteps * spacing / unit, solid, options.progress);
+  report.fins_area = report.thin_cells.emptied_area * unit * unit;
+}
+
+Surface extract(const CoveredCells& covered, std::vector<char> solid, const RepairOptions& options,
+                RepairReport& report) {
+  fill_slits(covered, options, solid, report);
   report.parts = find_part_fates(covered.complex, covered.cover, solid);
   ExtractOptions extract_options = options.extract;
   extract_options.progress = options.progress;
@@ -313,6 +335,7 @@ Surface certify(Surface surface, std::optional<Surface> simpler, std::vector<cha
   if (report.certify.passed() || report.certify.faults() > kFewFaults) return first;
   RepairOptions plain = options;
   plain.simplify = 0;
+  plain.certify.most_rounds = std::min<std::size_t>(plain.certify.most_rounds, 1);
   CertifyReport certified;
   meter.begin("certify");
   surface = certify(std::move(surface), grid, plain, certified);

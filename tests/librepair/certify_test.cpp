@@ -302,10 +302,16 @@ TEST(Certify, DropsPartsThatRoundingFlattens) {
   EXPECT_TRUE(report.passed());
 }
 
-// Rounded to float32 the two boxes have a common face, and are repaired again.
+// Rounded to float32 two boxes each have a common face. These are too many to be mended place by
+// place, so all is repaired again.
 TEST(Certify, SourcesAreThoseOfTheFirstInput) {
-  TriangleSoup soup = moved(cube(), {1 + 5e-8, 0.25, 0.125});
-  append(soup, cube());
+  TriangleSoup soup;
+  const TriangleSoup small = box({0, 0, 0}, {1.0 / 32, 1.0 / 32, 1.0 / 32});
+  for (int i = 0; i < 512; ++i) {
+    const Vec3d at = Vec3d(i % 8 + 8, i / 8 % 8, i / 64) / 8;
+    append(soup, moved(small, at));
+    append(soup, moved(small, at + Vec3d(1.0 / 32 + 5e-8, 1.0 / 64, 1.0 / 128)));
+  }
   RepairOptions options;
   options.certify.precision = Precision::float32;
   const RepairResult result = repair(soup, options);

@@ -25,6 +25,7 @@
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
 #include <repair/stage_meter.h>
+#include <repair/thin_cells.h>
 
 namespace meshrepair {
 
@@ -81,6 +82,8 @@ struct RepairReport {
   InsideReport inside;
   PartFates parts;
   ExtractReport extract;
+  ThinCellsReport thin_cells;  // changed so that a file in single precision can hold the rest
+  double fins_area = 0;        // of the surface that went with those emptied, in the input's units
   std::size_t crumbs = 0;   // parts of cut pieces alone, thinner than a step of the grid: dropped
   SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;
