@@ -119,7 +119,9 @@ void add_point_options(CLI::App& app, PointSoupOptions& options) {
       ->type_name("N")
       ->capture_default_str()
       ->group("Points");
-  app.add_flag("!--no-normals", options.use_normals, "Do not use the normals of the points")
+  app.add_flag_callback(
+         "--no-normals", [&options] { options.use_normals = false; },
+         "Do not use the normals of the points")
       ->group("Points");
 }
 

@@ -9,7 +9,7 @@ namespace {
 // Larger stars are left alone.
 constexpr std::size_t kMostOfStar = 256;
 
-std::size_t place_of(const Corners& corners, std::uint32_t point) {
+std::size_t place_of(const TriangleCorners& corners, std::uint32_t point) {
   return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), point) -
                                   corners.begin());
 }
@@ -20,7 +20,7 @@ bool has(const std::vector<std::uint32_t>& points, std::uint32_t point) {
 
 }  // namespace
 
-EditableMesh::EditableMesh(std::vector<Corners> triangles, std::size_t points)
+EditableMesh::EditableMesh(std::vector<TriangleCorners> triangles, std::size_t points)
     : triangles_(std::move(triangles)), around_(points) {
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     for (const std::uint32_t p : triangles_[t]) around_[p].push_back(t);
@@ -61,7 +61,7 @@ bool EditableMesh::find_collapse(std::uint32_t point, std::uint32_t onto, MeshEd
   edit.triangles = around_[point];
   edit.now.clear();
   for (const std::uint32_t t : edit.triangles) {
-    Corners corners = triangles_[t];
+    TriangleCorners corners = triangles_[t];
     if (place_of(corners, onto) < 3) {
       corners = kGone;
     } else {
@@ -73,21 +73,21 @@ bool EditableMesh::find_collapse(std::uint32_t point, std::uint32_t onto, MeshEd
 }
 
 bool EditableMesh::find_flip(std::uint32_t triangle, std::size_t k, MeshEdit& edit) const {
-  const Corners& corners = triangles_[triangle];
+  const TriangleCorners& corners = triangles_[triangle];
   const std::uint32_t from = corners[k], to = corners[(k + 1) % 3], left = corners[(k + 2) % 3];
   const auto& around = around_[from];
   const auto beside = std::find_if(around.begin(), around.end(), [&](std::uint32_t t) {
-    const Corners& c = triangles_[t];
+    const TriangleCorners& c = triangles_[t];
     return c[(place_of(c, to) + 1) % 3] == from && place_of(c, to) < 3;
   });
   if (beside == around.end()) return false;
-  const Corners& other = triangles_[*beside];
+  const TriangleCorners& other = triangles_[*beside];
   const std::uint32_t right = other[(place_of(other, from) + 1) % 3];
   std::vector<std::uint32_t> link;
   if (left == right || !find_link(left, link) || has(link, right)) return false;
   if (around.size() < 4 || around_[to].size() < 4) return false;
   edit.triangles = {triangle, *beside};
-  edit.now = {Corners{right, left, from}, Corners{left, right, to}};
+  edit.now = {TriangleCorners{right, left, from}, TriangleCorners{left, right, to}};
   return true;
 }
 

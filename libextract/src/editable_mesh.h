@@ -10,23 +10,23 @@
 
 namespace meshrepair::internal {
 
-using Corners = std::array<std::uint32_t, 3>;
+using TriangleCorners = std::array<std::uint32_t, 3>;
 
-inline constexpr Corners kGone{kNone, kNone, kNone};
+inline constexpr TriangleCorners kGone{kNone, kNone, kNone};
 
 // What some triangles become; kGone: they go.
 struct MeshEdit {
   std::vector<std::uint32_t> triangles;
-  std::vector<Corners> now;
+  std::vector<TriangleCorners> now;
 };
 
 // Has the triangles of a closed manifold mesh, and stays one. Edits are found first, and may then
 // be applied as long as no other one was.
 class EditableMesh {
  public:
-  EditableMesh(std::vector<Corners> triangles, std::size_t points);
+  EditableMesh(std::vector<TriangleCorners> triangles, std::size_t points);
 
-  [[nodiscard]] const std::vector<Corners>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<TriangleCorners>& triangles() const { return triangles_; }
   [[nodiscard]] bool is_left(std::uint32_t triangle) const { return triangles_[triangle] != kGone; }
   [[nodiscard]] const std::vector<std::uint32_t>& triangles_of(std::uint32_t point) const {
     return around_[point];
@@ -47,7 +47,7 @@ class EditableMesh {
   void apply(const MeshEdit& edit);
 
  private:
-  std::vector<Corners> triangles_;
+  std::vector<TriangleCorners> triangles_;
   std::vector<std::vector<std::uint32_t>> around_;  // of each point, its triangles
 };
 

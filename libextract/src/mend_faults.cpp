@@ -20,15 +20,15 @@
 namespace meshrepair {
 namespace {
 
-using internal::Corners;
 using internal::CornerTriangle;
 using internal::EditableMesh;
 using internal::kGone;
 using internal::MeshEdit;
 using internal::StarDistance;
+using internal::TriangleCorners;
 
 // More faults than these are not of single places.
-constexpr std::size_t kMostPairs = 1'000;
+constexpr std::size_t kMostFaultyPairs = 1'000;
 
 // Points with more triangles stay: to look at all of them so often takes too long.
 constexpr std::size_t kMostAround = 48;
@@ -44,6 +44,99 @@ std::vector<Box> boxes_of(const TriangleSoup& mesh) {
   return boxes;
 }
 
+// Counts the faults of a few triangles with all others, while some points move and edges turn.
+class FaultCounter {
+ public:
+  // No point is moved by more than `reach` from where it was when counting was started.
+  FaultCounter(const TriangleSoup& mesh, double reach)
+      : points_(mesh.points), reach_(reach), boxes_(boxes_of(mesh)), tree_(boxes_) {}
+
+  // From now on these are not what they were at first.
+  void add_changed(const std::vector<std::uint32_t>& triangles) {
+    changed_.insert(changed_.end(), triangles.begin(), triangles.end());
+  }
+
+  // Faults of these triangles; finds the others that may meet them, or what becomes of them.
+  std::ptrdiff_t start(const EditableMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+    Box reach;
+    std::vector<TriangleCorners> corners;
+    for (const std::uint32_t t : triangles) {
+      corners.push_back(mesh.triangles()[t]);
+      for (const std::uint32_t p : corners.back()) reach.add(points_[p]);
+    }
+    reach.widen(reach_);
+    near_.clear();
+    tree_.visit([&](const Box& box) { return box.meets(reach); },
+                [&](std::uint32_t t) {
+                  if (boxes_[t].meets(reach)) near_.push_back(t);
+                });
+    near_.insert(near_.end(), changed_.begin(), changed_.end());
+    std::sort(near_.begin(), near_.end());
+    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+    others_.clear();
+    for (const std::uint32_t t : near_) {
+      if (!mesh.is_left(t) || std::find(triangles.begin(), triangles.end(), t) != triangles.end()) {
+        continue;
+      }
+      add(mesh.triangles()[t], others_);
+    }
+    return count(corners);
+  }
+
+  // Of these triangles, among themselves and with the others.
+  std::ptrdiff_t count(const std::vector<TriangleCorners>& triangles) {
+    std::ptrdiff_t faults = 0;
+    asked_.clear();
+    for (const TriangleCorners& corners : triangles) {
+      if (corners != kGone && !add(corners, asked_)) ++faults;
+    }
+    for (std::size_t i = 0; i < asked_.size(); ++i) {
+      asked_[i].triangle.corner = {0, 1, 2};
+      for (std::size_t k = i + 1; k < asked_.size(); ++k) {
+        faults += meet(asked_[i], asked_[k]) ? 1 : 0;
+      }
+      for (Placed& other : others_) faults += meet(asked_[i], other) ? 1 : 0;
+    }
+    return faults;
+  }
+
+ private:
+  struct Placed {
+    CornerTriangle triangle;
+    Box box;
+  };
+
+  // False for one without area.
+  bool add(const TriangleCorners& corners, std::vector<Placed>& to) const {
+    const Vec3d &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
+    const int axis = projection_axis(a, b, c);
+    if (axis < 0) return false;
+    Placed placed{{{a, b, c}, {0, 1, 2}, axis}, {}};
+    for (const Vec3d& p : placed.triangle.at) placed.box.add(p);
+    to.push_back(placed);
+    return true;
+  }
+
+  static bool meet(const Placed& a, Placed& b) {
+    if (!a.box.meets(b.box)) return false;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      std::uint32_t& corner = b.triangle.corner[k];
+      corner = 0;
+      while (corner < 3 && a.triangle.at[corner] != b.triangle.at[k]) ++corner;
+      if (corner == 3) corner += k;
+    }
+    return meeting_of(a.triangle, b.triangle) != internal::Meeting::apart;
+  }
+
+  const std::vector<Vec3d>& points_;
+  double reach_;
+  std::vector<Box> boxes_;  // of the triangles at first
+  BoxTree tree_;
+  std::vector<std::uint32_t> changed_;  // triangles
+  std::vector<std::uint32_t> near_;     // scratch
+  std::vector<Placed> others_, asked_;
+};
+
 class FaultMender {
  public:
   FaultMender(Surface& surface, const MendOptions& options)
@@ -51,8 +144,7 @@ class FaultMender {
         points_(surface.mesh.points),
         options_(options),
         cancel_(options.progress),
-        boxes_(boxes_of(surface.mesh)),
-        tree_(boxes_),
+        faults_(surface.mesh, 2 * kSteps.back() * options.step),
         mesh_(surface.mesh.triangles, points_.size()) {}
 
   // Makes the edit around the two triangles that leaves the fewest faults, if it leaves fewer.
@@ -72,11 +164,6 @@ class FaultMender {
     Vec3d to;
   };
 
-  struct Placed {
-    CornerTriangle triangle;
-    Box box;
-  };
-
   struct Edit {
     MeshEdit mesh;
     std::vector<Place> places;
@@ -93,7 +180,7 @@ class FaultMender {
     const std::array<std::optional<Vec3d>, 2> normals{normal_of(mesh_.triangles()[t]),
                                                       normal_of(mesh_.triangles()[u])};
     for (std::size_t i = 0; i < size; ++i) {
-      const Corners corners = mesh_.triangles()[pair[i]];
+      const TriangleCorners corners = mesh_.triangles()[pair[i]];
       for (std::size_t k = 0; k < 3; ++k) {
         try_to_shift({corners[k]}, normals);
         try_to_collapse(corners[k]);
@@ -102,7 +189,7 @@ class FaultMender {
     }
     if (best_.gain > 0) return true;
     for (std::size_t i = 0; i < size; ++i) {
-      const Corners corners = mesh_.triangles()[pair[i]];
+      const TriangleCorners corners = mesh_.triangles()[pair[i]];
       for (std::size_t k = 0; k < 3; ++k) {
         try_to_shift({corners[k], corners[(k + 1) % 3]}, normals);
       }
@@ -111,7 +198,7 @@ class FaultMender {
     return best_.gain > 0;
   }
 
-  [[nodiscard]] std::optional<Vec3d> normal_of(const Corners& c) const {
+  [[nodiscard]] std::optional<Vec3d> normal_of(const TriangleCorners& c) const {
     const Vec3d normal = (points_[c[1]] - points_[c[0]]).cross(points_[c[2]] - points_[c[0]]);
     const double length = normal.stableNorm();
     if (!(length > 0)) return std::nullopt;
@@ -123,7 +210,7 @@ class FaultMender {
       points_[place.point] = place.to;
       surface_.input_point[place.point] = 0;
     }
-    changed_.insert(changed_.end(), best_.mesh.triangles.begin(), best_.mesh.triangles.end());
+    faults_.add_changed(best_.mesh.triangles);
     mesh_.apply(best_.mesh);
   }
 
@@ -138,17 +225,17 @@ class FaultMender {
                     const std::array<std::optional<Vec3d>, 2>& normals) {
     Edit edit;
     if (!take_stars(points, edit)) return;
-    const std::ptrdiff_t before = start(edit.mesh.triangles);
+    const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles);
     if (before == 0) return;
-    std::vector<Vec3d> from;
-    for (const std::uint32_t p : points) from.push_back(points_[p]);
+    std::vector<Vec3d> from(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) from[i] = points_[points[i]];
     for (const auto& normal : normals) {
       if (!normal) continue;
       for (const double steps : kSteps) {
         for (const double sign : {1.0, -1.0}) {
           shift(from, points, sign * steps * options_.step * *normal, edit);
           if (edit.distance == 0) continue;
-          edit.gain = before - count_faults(edit.mesh.now);
+          edit.gain = before - faults_.count(edit.mesh.now);
           take_if_better(edit);
         }
       }
@@ -187,7 +274,7 @@ class FaultMender {
   void try_to_collapse(std::uint32_t point) {
     std::vector<std::uint32_t> link;
     if (!mesh_.find_link(point, link) || link.size() > kMostAround) return;
-    const std::ptrdiff_t before = start(mesh_.triangles_of(point));
+    const std::ptrdiff_t before = faults_.start(mesh_, mesh_.triangles_of(point));
     if (before == 0) return;
     link_.clear();
     for (const std::uint32_t p : link) link_.push_back(points_[p]);
@@ -199,7 +286,7 @@ class FaultMender {
       edit.distance = std::min(star_distance_.bound(to, options_.reach), length);
       if (!(edit.distance <= options_.reach)) continue;
       if (!mesh_.find_collapse(point, link[to], edit.mesh)) continue;
-      edit.gain = before - count_faults(edit.mesh.now);
+      edit.gain = before - faults_.count(edit.mesh.now);
       take_if_better(edit);
     }
   }
@@ -208,15 +295,15 @@ class FaultMender {
   void try_to_flip(std::uint32_t triangle, std::size_t k) {
     Edit edit;
     if (!mesh_.find_flip(triangle, k, edit.mesh)) return;
-    const Corners& one = edit.mesh.now[0];
+    const TriangleCorners& one = edit.mesh.now[0];
     const auto normal = normal_of(one), other = normal_of(edit.mesh.now[1]);
     if (!normal || !other || !(normal->dot(*other) > 0)) return;
-    const Corners& old = mesh_.triangles()[triangle];
+    const TriangleCorners& old = mesh_.triangles()[triangle];
     edit.distance = distance_of_lines(one[0], one[1], old[k], old[(k + 1) % 3]);
     if (!(edit.distance <= options_.reach)) return;
-    const std::ptrdiff_t before = start(edit.mesh.triangles);
+    const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles);
     if (before == 0) return;
-    edit.gain = before - count_faults(edit.mesh.now);
+    edit.gain = before - faults_.count(edit.mesh.now);
     take_if_better(edit);
   }
 
@@ -227,86 +314,15 @@ class FaultMender {
     return std::abs(across.dot(points_[a] - points_[c])) / across.stableNorm();
   }
 
-  // Faults of these triangles; finds the others that may meet them, or what becomes of them.
-  std::ptrdiff_t start(const std::vector<std::uint32_t>& triangles) {
-    Box reach;
-    std::vector<Corners> corners;
-    for (const std::uint32_t t : triangles) {
-      corners.push_back(mesh_.triangles()[t]);
-      for (const std::uint32_t p : corners.back()) reach.add(points_[p]);
-    }
-    reach.widen(2 * kSteps.back() * options_.step);
-    near_.clear();
-    tree_.visit([&](const Box& box) { return box.meets(reach); },
-                [&](std::uint32_t t) {
-                  if (boxes_[t].meets(reach)) near_.push_back(t);
-                });
-    near_.insert(near_.end(), changed_.begin(), changed_.end());
-    std::sort(near_.begin(), near_.end());
-    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
-    others_.clear();
-    for (const std::uint32_t t : near_) {
-      if (!mesh_.is_left(t) ||
-          std::find(triangles.begin(), triangles.end(), t) != triangles.end()) {
-        continue;
-      }
-      add(mesh_.triangles()[t], others_);
-    }
-    return count_faults(corners);
-  }
-
-  // False for one without area.
-  bool add(const Corners& corners, std::vector<Placed>& to) const {
-    const Vec3d &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
-    const int axis = projection_axis(a, b, c);
-    if (axis < 0) return false;
-    Placed placed{{{a, b, c}, {0, 1, 2}, axis}, {}};
-    for (const Vec3d& p : placed.triangle.at) placed.box.add(p);
-    to.push_back(placed);
-    return true;
-  }
-
-  static bool meet(const Placed& a, Placed& b) {
-    if (!a.box.meets(b.box)) return false;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      std::uint32_t& corner = b.triangle.corner[k];
-      corner = 0;
-      while (corner < 3 && a.triangle.at[corner] != b.triangle.at[k]) ++corner;
-      if (corner == 3) corner += k;
-    }
-    return meeting_of(a.triangle, b.triangle) != internal::Meeting::apart;
-  }
-
-  // Of these triangles, among themselves and with the others.
-  std::ptrdiff_t count_faults(const std::vector<Corners>& triangles) {
-    std::ptrdiff_t faults = 0;
-    asked_.clear();
-    for (const Corners& corners : triangles) {
-      if (corners != kGone && !add(corners, asked_)) ++faults;
-    }
-    for (std::size_t i = 0; i < asked_.size(); ++i) {
-      asked_[i].triangle.corner = {0, 1, 2};
-      for (std::size_t k = i + 1; k < asked_.size(); ++k) {
-        faults += meet(asked_[i], asked_[k]) ? 1 : 0;
-      }
-      for (Placed& other : others_) faults += meet(asked_[i], other) ? 1 : 0;
-    }
-    return faults;
-  }
-
   Surface& surface_;
   std::vector<Vec3d>& points_;
   const MendOptions& options_;
   CancelCheck cancel_;
-  std::vector<Box> boxes_;  // of the triangles at first
-  BoxTree tree_;
+  FaultCounter faults_;
   EditableMesh mesh_;
-  std::vector<std::uint32_t> changed_;  // triangles
   Edit best_;
   StarDistance star_distance_;
   std::vector<Vec3d> link_;
-  std::vector<std::uint32_t> near_;  // scratch
-  std::vector<Placed> others_, asked_;
 };
 
 // A degenerate triangle is a pair with itself.
@@ -314,7 +330,7 @@ std::vector<std::array<std::uint32_t, 2>> pairs_at_fault(const TriangleSoup& mes
                                                          const SelfIntersections& found) {
   auto pairs = found.pairs;
   for (std::uint32_t t = 0; found.degenerate > 0 && t < mesh.triangles.size(); ++t) {
-    const Corners& c = mesh.triangles[t];
+    const TriangleCorners& c = mesh.triangles[t];
     if (projection_axis(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]) < 0) {
       pairs.push_back({t, t});
     }
@@ -327,7 +343,7 @@ std::vector<std::array<std::uint32_t, 2>> pairs_at_fault(const TriangleSoup& mes
 std::size_t mend_faults(Surface& surface, const SelfIntersections& found,
                         const MendOptions& options) {
   const auto pairs = pairs_at_fault(surface.mesh, found);
-  if (pairs.empty() || pairs.size() > kMostPairs) return 0;
+  if (pairs.empty() || pairs.size() > kMostFaultyPairs) return 0;
   FaultMender mender(surface, options);
   std::size_t edits = 0;
   for (const auto& [t, u] : pairs) {

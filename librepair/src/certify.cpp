@@ -5,8 +5,8 @@
 // their own coordinates, not with those of the grid. So a point at fault goes onto the grid. What
 // still intersects is mended place by place, by moving points and collapsing and turning edges.
 // Where that does not do, the mesh is a soup of grid points, and repairing it again makes
-// intersections only where the moves made some, fewer each time. A coarser grid keeps points further
-// apart, which is why it ends.
+// intersections only where the moves made some, fewer each time. A coarser grid keeps points
+// further apart, which is why it ends.
 #include <algorithm>
 #include <array>
 #include <cmath>

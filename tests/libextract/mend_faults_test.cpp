@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/float32.h>
 #include <bsp/topology.h>
 #include <extract/mend_faults.h>
 #include <extract/self_intersections.h>
@@ -20,10 +19,10 @@ namespace meshrepair {
 namespace {
 
 using namespace testing;
-using internal::Corners;
 using internal::EditableMesh;
 using internal::kGone;
 using internal::MeshEdit;
+using internal::TriangleCorners;
 
 constexpr double kStep = 1e-7;
 
@@ -120,7 +119,7 @@ TEST(MendFaults, LeavesFewerFaultsAndTheTopologyAsItWas) {
 
 TriangleSoup left_of(const EditableMesh& mesh, const TriangleSoup& before) {
   TriangleSoup soup{before.points, {}};
-  for (const Corners& corners : mesh.triangles()) {
+  for (const TriangleCorners& corners : mesh.triangles()) {
     if (corners != kGone) soup.triangles.push_back(corners);
   }
   return soup;
@@ -136,7 +135,7 @@ TEST(EditableMesh, StaysClosedAndOfTheSameGenus) {
         static_cast<std::uint32_t>(random.integer(0, static_cast<int>(soup.triangles.size()) - 1));
     if (!mesh.is_left(t)) continue;
     const auto k = static_cast<std::size_t>(random.integer(0, 2));
-    const Corners corners = mesh.triangles()[t];
+    const TriangleCorners corners = mesh.triangles()[t];
     MeshEdit edit;
     if (i % 8 == 0 ? mesh.find_collapse(corners[k], corners[(k + 1) % 3], edit)
                    : mesh.find_flip(t, k, edit)) {

@@ -58,9 +58,8 @@ struct CertifyHelp {
 
 // Rounds the coordinates to the precision and tests exactly for triangles that intersect or have no
 // area. Where it finds some, it brings their input corners onto the working grid, where every
-// decision was exact, and mends what is left place by place (nudge_points(), mend_faults()); then it
-// brings all their corners onto this and coarser grids, and repairs what comes of that. The best
-// attempt is returned.
+// decision was exact, and mends what is left place by place; then it brings all their corners onto
+// this and coarser grids, and repairs what comes of that. The best attempt is returned.
 // Points of the input that are not concerned stay where they are. Parts that take part in faults
 // and are no thicker than two steps of the numbers are dropped, as are those so thin that rounding
 // turned them inside out; or turned where there is nothing else. Thicker ones that face the wrong
