@@ -295,9 +295,8 @@ class FaultMender {
   void try_to_flip(std::uint32_t triangle, std::size_t k) {
     Edit edit;
     if (!mesh_.find_flip(triangle, k, edit.mesh)) return;
+    if (!lie_beside_each_other(edit.mesh)) return;
     const TriangleCorners& one = edit.mesh.now[0];
-    const auto normal = normal_of(one), other = normal_of(edit.mesh.now[1]);
-    if (!normal || !other || !(normal->dot(*other) > 0)) return;
     const TriangleCorners& old = mesh_.triangles()[triangle];
     edit.distance = distance_of_lines(one[0], one[1], old[k], old[(k + 1) % 3]);
     if (!(edit.distance <= options_.reach)) return;
@@ -305,6 +304,16 @@ class FaultMender {
     if (before == 0) return;
     edit.gain = before - faults_.count(edit.mesh.now);
     take_if_better(edit);
+  }
+
+  // Before and after: no triangle is folded over the other. Without area it is no matter.
+  [[nodiscard]] bool lie_beside_each_other(const MeshEdit& flip) const {
+    const auto one = normal_of(flip.now[0]), two = normal_of(flip.now[1]);
+    if (!one || !two || !(one->dot(*two) > 0)) return false;
+    return std::all_of(flip.triangles.begin(), flip.triangles.end(), [&](std::uint32_t t) {
+      const auto before = normal_of(mesh_.triangles()[t]);
+      return !before || (before->dot(*one) > 0 && before->dot(*two) > 0);
+    });
   }
 
   // Through a and b, and through c and d. Not a number where they are parallel.

@@ -15,6 +15,10 @@ namespace {
 // Of its normal and the direction across the cell, the least product of a side that is broad.
 constexpr double kBroad = 0.5;
 
+// Between two sheets a cell has more boundary than other sides. Under a single one it has about as
+// much of both, and nothing would be gained.
+constexpr double kMoreBoundary = 1.1;
+
 // Of the volume: if more would go with what becomes empty, that is no fin but what there is.
 constexpr double kMostFins = 0.1;
 
@@ -100,11 +104,11 @@ class ThinCells {
       (side.is_boundary ? boundary : other) += side.area;
       is_any_cut = is_any_cut || (side.is_boundary && is_cut(side.facet));
     }
-    if (!is_any_cut || !(boundary > other)) return;
+    if (!is_any_cut || !(boundary > kMoreBoundary * other)) return;
     const std::optional<Width> width = find_width();
     if (!width) return;
     const double moved = distance_to_boundary(*width);
-    if (moved <= within_) change(cell, moved, boundary);
+    if (moved <= within_) change(cell, moved, boundary - other);
   }
 
   void find_sides(CellId cell) {
@@ -164,14 +168,14 @@ class ThinCells {
     return best;
   }
 
-  void change(CellId cell, double moved, double boundary) {
+  void change(CellId cell, double moved, double area) {
     moved_[cell.index()] = moved;
     char& solid = solid_[cell.index()];
     if (solid == 0) {
       ++report_.filled;
     } else {
       ++report_.emptied;
-      report_.emptied_area += boundary;
+      report_.emptied_area += area;
       emptied_volume_ += cell_volume(complex_, cell);
     }
     solid = solid == 0 ? 1 : 0;

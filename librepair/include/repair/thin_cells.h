@@ -13,16 +13,17 @@ namespace meshrepair {
 struct ThinCellsReport {
   std::size_t filled = 0;   // empty cells that became solid
   std::size_t emptied = 0;  // solid cells that became empty
-  double emptied_area = 0;  // of the boundary that went with these, in grid units, squared
+  double emptied_area = 0;  // by which the boundary became smaller there, in grid units, squared
 };
 
 // Where cutting left two sheets of the boundary nearer to each other than `within`, in grid units,
 // what lies between them changes sides, and both go. Cells do so one by one, each at most once, if
-// that makes the boundary smaller, if all of one of their broad sides is boundary, and if on one of
-// them lies no triangle that is boundary as a whole: what nothing cuts stays as it is. So the new
-// boundary is not farther than `within` from the old one. Widths are rounded numbers; nothing else
-// depends on them. `solid` has one entry for each cell; it stays as it is where a tenth of the
-// volume would go with cells that become empty. Linear in the complex. Throws Cancelled.
+// that makes the boundary clearly smaller, if all of one of their broad sides is boundary, and if
+// on one of them lies no triangle that is boundary as a whole: what nothing cuts stays as it is. So
+// the new boundary is not farther than `within` from the old one. Widths are rounded numbers;
+// nothing else depends on them. `solid` has one entry for each cell; it stays as it is where a
+// tenth of the volume would go with cells that become empty. Linear in the complex. Throws
+// Cancelled.
 ThinCellsReport relabel_thin_cells(const CellComplex& complex,
                                    const IdVector<FacetId, Cover>& cover, double within,
                                    std::vector<char>& solid, ProgressObserver* progress = nullptr);
