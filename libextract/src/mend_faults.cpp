@@ -15,6 +15,7 @@
 
 #include "editable_mesh.h"
 #include "star_distance.h"
+#include "triangle_list.h"
 #include "triangle_pair.h"
 
 namespace meshrepair {
@@ -38,9 +39,7 @@ constexpr std::array<double, 8> kSteps{1, 2, 4, 8, 16, 32, 64, 128};
 
 std::vector<Box> boxes_of(const TriangleSoup& mesh) {
   std::vector<Box> boxes(mesh.triangles.size());
-  for (std::size_t t = 0; t < boxes.size(); ++t) {
-    for (const std::uint32_t p : mesh.triangles[t]) boxes[t].add(mesh.points[p]);
-  }
+  for (std::uint32_t t = 0; t < boxes.size(); ++t) boxes[t] = internal::box_of(mesh, t);
   return boxes;
 }
 

@@ -172,7 +172,7 @@ class Certifier {
       internal::settle_input_points(current_.surface, grid_, progress_);
     }
     test(current_);
-    keep_if_better();
+    keep_if_better(current_);
     improve();
   }
 
@@ -185,7 +185,7 @@ class Certifier {
       while (is_of_use) {
         const std::size_t faults = moved.faults();
         if (faults > 0) move_points(moved);
-        if (moved.faults() < best_.faults() && is_whole(moved)) best_ = moved;
+        keep_if_better(moved);
         is_of_use = moved.faults() + faults / 4 < faults;
       }
     } while (mend_places(moved));
@@ -211,7 +211,7 @@ class Certifier {
     test(mended);
     if (mended.faults() >= attempt.faults()) return false;
     attempt = std::move(mended);
-    if (attempt.faults() < best_.faults() && is_whole(attempt)) best_ = attempt;
+    keep_if_better(attempt);
     return true;
   }
 
@@ -244,7 +244,7 @@ class Certifier {
       }
       current_.surface = std::move(again);
       test(current_);
-      keep_if_better();
+      keep_if_better(current_);
       if (current_.surface.mesh.triangles.size() > most) return;
       improve();
       vain = best_.faults() < best ? 0 : vain + 1;
@@ -252,8 +252,8 @@ class Certifier {
     }
   }
 
-  void keep_if_better() {
-    if (current_.faults() < best_.faults() && is_whole(current_)) best_ = current_;
+  void keep_if_better(const Attempt& attempt) {
+    if (attempt.faults() < best_.faults() && is_whole(attempt)) best_ = attempt;
   }
 
   // Also where volumes are beyond the range of doubles.

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -151,9 +152,9 @@ class ThinCells {
   }
 
   // Of any point of the cell, from where the boundary was at first, along the direction across: one
-  // broad side is all boundary, and may have been moved by itself.
+  // broad side is all boundary, and may have been moved by itself. Infinite if neither is.
   [[nodiscard]] double distance_to_boundary(const Width& width) const {
-    double best = within_ * 2;
+    double best = std::numeric_limits<double>::infinity();
     for (const double sign : {1.0, -1.0}) {
       double moved = 0;
       bool is_any = false, is_all_boundary = true;
