@@ -1,6 +1,7 @@
 // Each predicate is a ladder: the filter in doubles (in the header, to be inlined), then
 // fixed-width integers where the differences of the coordinates allow them, which they nearly
-// always do, and last integers as long as it takes. The integers are the coordinates times a power
+// always do, for orientation() a filter in numbers of two doubles, and last integers as long as it
+// takes. The integers are the coordinates times a power
 // of two, so nothing is lost on the way and no sign is a matter of rounding.
 #include <algorithm>
 #include <array>
@@ -22,6 +23,9 @@ constexpr double kSmallestScaled = 0x1p-900;
 constexpr double kLargestScaled = 0x1p900;
 // Scaled differences stay below 2^61, minors below 2^123, determinants below 2^186.
 constexpr int kShortBits = 61;
+// Numbers of two doubles: six operations for each part of the sum, each off by less than 2^-103.
+constexpr double kLongError = 0x1p-100;
+constexpr double kLongUnderflow = 0x1p-1040;
 
 // x - y is `difference` without error: the rounding error of a subtraction, by Knuth's formula.
 bool is_exact_difference(double x, double y, double difference) {
@@ -79,6 +83,32 @@ std::array<std::array<BigInteger, Axes>, Count - 1> long_differences(
   return differences;
 }
 
+// hi + lo, where lo is what rounding left of hi: about 106 bits.
+struct LongDouble {
+  double hi = 0, lo = 0;
+};
+
+// Without error (Knuth), and with one below 2^-103 of the result (Dekker) where nothing underflows.
+LongDouble exact_sum(double x, double y) {
+  const double sum = x + y, part = sum - x;
+  return {sum, (x - (sum - part)) + (y - part)};
+}
+
+LongDouble operator*(const LongDouble& x, const LongDouble& y) {
+  const double product = x.hi * y.hi;
+  return exact_sum(product, std::fma(x.hi, y.hi, -product) + (x.hi * y.lo + x.lo * y.hi));
+}
+
+// Off by less than 2^-103 of |x| + |y|.
+LongDouble operator+(const LongDouble& x, const LongDouble& y) {
+  const LongDouble sum = exact_sum(x.hi, y.hi);
+  return exact_sum(sum.hi, sum.lo + (x.lo + y.lo));
+}
+
+LongDouble operator-(const LongDouble& x, const LongDouble& y) {
+  return x + LongDouble{-y.hi, -y.lo};
+}
+
 std::array<int, 2> other_axes(int axis) { return {(axis + 1) % 3, (axis + 2) % 3}; }
 
 constexpr std::array<int, 3> kAllAxes = {0, 1, 2};
@@ -105,6 +135,36 @@ std::optional<int> short_orientation_along(int axis, const Vec3d& a, const Vec3d
   return sign_of(Int128{rows[0][0]} * rows[1][1] - Int128{rows[0][1]} * rows[1][0]);
 }
 
+// The largest difference is scaled to between 1 and 2, so that underflow adds less than 2^-1060.
+int filtered_long_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  const std::array<const Vec3d*, 3> others{&b, &c, &d};
+  std::array<std::array<LongDouble, 3>, 3> rows;
+  double largest = 0;
+  for (std::size_t p = 0; p < 3; ++p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      rows[p][k] = exact_sum((*others[p])[axis], -a[axis]);
+      largest = std::max(largest, std::abs(rows[p][k].hi));
+    }
+  }
+  if (!(largest > kSmallestScaled && largest < kLargestScaled)) return 0;
+  const double scale = std::ldexp(1.0, -std::ilogb(largest));
+  for (auto& row : rows) {
+    for (LongDouble& e : row) e = {e.hi * scale, e.lo * scale};
+  }
+  const auto& [x, y, z] = rows;
+  LongDouble value;
+  double size = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+    const LongDouble left = y[u] * z[v], right = y[v] * z[u];
+    value = value + x[k] * (left - right);
+    size += std::abs(x[k].hi) * (std::abs(left.hi) + std::abs(right.hi));
+  }
+  const double error = kLongError * size + kLongUnderflow;
+  return static_cast<int>(value.hi > error) - static_cast<int>(value.hi < -error);
+}
+
 int long_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   const auto rows = long_differences<4, 3>({&a, &b, &c, &d}, kAllAxes);
   const auto minor = [&](std::size_t i, std::size_t j) {
@@ -123,8 +183,9 @@ int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3
   for (const int axis : kAllAxes) {
     if (a[axis] == b[axis] && a[axis] == c[axis] && a[axis] == d[axis]) return 0;
   }
-  const std::optional<int> sign = short_orientation(a, b, c, d);
-  return sign ? *sign : long_orientation(a, b, c, d);
+  if (const std::optional<int> sign = short_orientation(a, b, c, d)) return *sign;
+  const int sign = filtered_long_orientation(a, b, c, d);
+  return sign != 0 ? sign : long_orientation(a, b, c, d);
 }
 
 int exact_orientation_along(int axis, const Vec3d& a, const Vec3d& b, const Vec3d& c) {

@@ -14,6 +14,10 @@ namespace meshrepair::internal {
 [[nodiscard]] std::optional<int> short_orientation_along(int axis, const Vec3d& a, const Vec3d& b,
                                                          const Vec3d& c);
 
+// By numbers of two doubles. 0 where these can't tell: hardly ever but for points in one plane.
+[[nodiscard]] int filtered_long_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                            const Vec3d& d);
+
 // By integers of any length: always right, and slow where the magnitudes differ much.
 [[nodiscard]] int long_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
 [[nodiscard]] int long_orientation_along(int axis, const Vec3d& a, const Vec3d& b, const Vec3d& c);

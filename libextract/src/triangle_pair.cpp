@@ -47,9 +47,12 @@ SharedCorners shared_corners(const CornerTriangle& a, const CornerTriangle& b) {
 // The sides of the plane of `t` on which the corners of `other` lie. `skip` is a shared corner, 3
 // if there is none.
 Signs sides(const CornerTriangle& t, const CornerTriangle& other, std::size_t skip) {
+  const PlaneFilter plane(t.at[0], t.at[1], t.at[2]);
   Signs signs{};
   for (std::size_t k = 0; k < 3; ++k) {
-    if (k != skip) signs[k] = orientation(t.at[0], t.at[1], t.at[2], other.at[k]);
+    if (k == skip) continue;
+    signs[k] = plane.side(other.at[k]);
+    if (signs[k] == 0) signs[k] = exact_orientation(t.at[0], t.at[1], t.at[2], other.at[k]);
   }
   return signs;
 }

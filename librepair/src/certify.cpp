@@ -93,8 +93,8 @@ class Certifier {
     if (current_.faults() > 0) {
       best_ = current_;
       if (options_.most_rounds > 0) {
-        improve();
         if (best_.misplaced() > 0 && options_.precision == Precision::float64) move_to_grid();
+        if (best_.misplaced() > 0) improve();
         mend();
       } else if (best_.joined > 0) {
         separate(best_);
@@ -173,7 +173,6 @@ class Certifier {
     }
     test(current_);
     keep_if_better(current_);
-    improve();
   }
 
   // What needs no new repair, as long as it is of much use. Further rounds start from what was

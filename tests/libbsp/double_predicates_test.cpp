@@ -66,8 +66,10 @@ void expect_consistent(const Points& p) {
   EXPECT_EQ(internal::long_orientation(p[0], p[1], p[2], p[3]), sign);
   const auto by_short = internal::short_orientation(p[0], p[1], p[2], p[3]);
   EXPECT_EQ(by_short.value_or(sign), sign);
-  const int filtered = internal::filtered_orientation(p[0], p[1], p[2], p[3]);
+  const int filtered = internal::PlaneFilter(p[0], p[1], p[2]).side(p[3]);
   EXPECT_TRUE(filtered == 0 || filtered == sign);
+  const int filtered_long = internal::filtered_long_orientation(p[0], p[1], p[2], p[3]);
+  EXPECT_TRUE(filtered_long == 0 || filtered_long == sign);
 }
 
 TEST(Orientation, IsPositiveWhereTheNormalPoints) {
@@ -143,7 +145,7 @@ TEST(Orientation, FilterDecidesOrdinaryPointsAndIntegersMostOfTheRest) {
   for (int i = 0; i < 10000; ++i) {
     const Points p = {random_point(random, 1), random_point(random, 1), random_point(random, 1),
                       random_point(random, 1)};
-    filtered += internal::filtered_orientation(p[0], p[1], p[2], p[3]) != 0;
+    filtered += internal::PlaneFilter(p[0], p[1], p[2]).side(p[3]) != 0;
     const Points flat = {Vec3d{p[0].x(), p[0].y(), 1},
                          {p[1].x(), p[1].y(), 1},
                          {p[2].x(), p[2].y(), 1},
@@ -152,6 +154,18 @@ TEST(Orientation, FilterDecidesOrdinaryPointsAndIntegersMostOfTheRest) {
   }
   EXPECT_GT(filtered, 9990);
   EXPECT_GT(by_short, 4000);
+}
+
+TEST(Orientation, TwiceTheLengthDecidesNearTheZero) {
+  Random random(6);
+  int decided = 0, not_zero = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Points p = nearly_coplanar(random);
+    decided += internal::filtered_long_orientation(p[0], p[1], p[2], p[3]) != 0;
+    not_zero += internal::long_orientation(p[0], p[1], p[2], p[3]) != 0;
+  }
+  EXPECT_EQ(decided, not_zero);
+  EXPECT_GT(not_zero, 5000);
 }
 
 TEST(OrientationAlong, IsTheComponentOfTheNormal) {

@@ -28,25 +28,35 @@ inline constexpr double kOrientationAlongError = 5 * 0x1p-53;
 inline constexpr double kLargestDifference = 0x1p300;
 inline constexpr double kUnderflow = 0x1p-760;
 
-// Sign of the determinant (b - a, c - a, d - a) if doubles can tell, 0 otherwise.
-[[nodiscard]] inline int filtered_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                                              const Vec3d& d) {
-  const double bx = b[0] - a[0], by = b[1] - a[1], bz = b[2] - a[2];
-  const double cx = c[0] - a[0], cy = c[1] - a[1], cz = c[2] - a[2];
-  const double dx = d[0] - a[0], dy = d[1] - a[1], dz = d[2] - a[2];
-  const double cydz = cy * dz, czdy = cz * dy, czdx = cz * dx;
-  const double cxdz = cx * dz, cxdy = cx * dy, cydx = cy * dx;
-  const double value = bx * (cydz - czdy) + by * (czdx - cxdz) + bz * (cxdy - cydx);
-  const double size = std::abs(bx) * (std::abs(cydz) + std::abs(czdy)) +
-                      std::abs(by) * (std::abs(czdx) + std::abs(cxdz)) +
-                      std::abs(bz) * (std::abs(cxdy) + std::abs(cydx));
-  const double largest =
-      std::max({std::abs(bx), std::abs(by), std::abs(bz), std::abs(cx), std::abs(cy), std::abs(cz),
-                std::abs(dx), std::abs(dy), std::abs(dz)});
-  if (!(largest <= kLargestDifference)) return 0;
-  const double error = kOrientationError * size + kUnderflow;
-  return static_cast<int>(value > error) - static_cast<int>(value < -error);
-}
+// The part of a determinant (b - a, c - a, d - a) that is the same for every d.
+class PlaneFilter {
+ public:
+  PlaneFilter(const Vec3d& a, const Vec3d& b, const Vec3d& c) : a_(a) {
+    const double bx = b[0] - a[0], by = b[1] - a[1], bz = b[2] - a[2];
+    const double cx = c[0] - a[0], cy = c[1] - a[1], cz = c[2] - a[2];
+    const double yz = by * cz, zy = bz * cy, zx = bz * cx, xz = bx * cz, xy = bx * cy, yx = by * cx;
+    minor_ = Vec3d(yz - zy, zx - xz, xy - yx);
+    size_ = Vec3d(std::abs(yz) + std::abs(zy), std::abs(zx) + std::abs(xz),
+                  std::abs(xy) + std::abs(yx));
+    largest_ = std::max(
+        {std::abs(bx), std::abs(by), std::abs(bz), std::abs(cx), std::abs(cy), std::abs(cz)});
+  }
+
+  // The sign if doubles can tell, 0 otherwise.
+  [[nodiscard]] int side(const Vec3d& d) const {
+    const double x = d[0] - a_[0], y = d[1] - a_[1], z = d[2] - a_[2];
+    const double value = x * minor_[0] + y * minor_[1] + z * minor_[2];
+    const double size = std::abs(x) * size_[0] + std::abs(y) * size_[1] + std::abs(z) * size_[2];
+    const double largest = std::max({largest_, std::abs(x), std::abs(y), std::abs(z)});
+    if (!(largest <= kLargestDifference)) return 0;
+    const double error = kOrientationError * size + kUnderflow;
+    return static_cast<int>(value > error) - static_cast<int>(value < -error);
+  }
+
+ private:
+  Vec3d a_, minor_, size_;
+  double largest_;
+};
 
 // The same of (b - a, c - a) in the plane of the two coordinates u and v.
 [[nodiscard]] inline int filtered_orientation_along(int u, int v, const Vec3d& a, const Vec3d& b,
@@ -67,7 +77,7 @@ inline constexpr double kUnderflow = 0x1p-760;
 // are collinear.
 [[nodiscard]] inline int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                      const Vec3d& d) {
-  const int sign = internal::filtered_orientation(a, b, c, d);
+  const int sign = internal::PlaneFilter(a, b, c).side(d);
   return sign != 0 ? sign : internal::exact_orientation(a, b, c, d);
 }
 
