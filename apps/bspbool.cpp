@@ -46,7 +46,7 @@ Operand read_mesh_operand(const RepairOptions& repair_options, Run& run, Finding
   {
     StageMeter meter(findings.repair.stages, &run.progress);
     meter.begin("validate");
-    if (needs_no_repair(soup, repair_options)) return {std::move(soup), true};
+    if (auto kept = keep_valid(soup, repair_options)) return {std::move(kept->mesh), true};
   }
   return {repair(soup, repair_options, findings.repair).mesh};
 }

@@ -7,11 +7,12 @@
 namespace meshrepair {
 namespace {
 
-void repair_input(const StepOptions& options, const PointOptions& points, Run& run,
+void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
   const WriteOptions format = mesh_format(options);
   const AnySoup input = read_any_stage(points, run, findings);
-  const RepairOptions repair_options = certified_for(*format.format, options.repair);
+  RepairOptions repair_options = certified_for(*format.format, options.repair);
+  repair_options.keep_valid = !always && findings.mesh_read.has_value();
   const Surface surface = repair_any(input, points, repair_options, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   write_mesh_stage(surface, format, options, run, findings);
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   using namespace meshrepair;
   StepOptions options;
   PointOptions points;
+  bool always = false;
   Program program(
       "meshrepair", "Turns any triangle mesh or point cloud into the boundary of a solid.",
       "  meshrepair broken.stl repaired.stl\n"
@@ -42,6 +44,10 @@ int main(int argc, char** argv) {
   add_max_hole_option(app, options.repair.holes);
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
+  app.add_flag("--always", always,
+               "Do the whole work also for a mesh that is the boundary of a solid\n"
+               "already, which else comes out as it is")
+      ->group("Repair");
   add_predicates_options(app, options.repair);
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
@@ -50,6 +56,6 @@ int main(int argc, char** argv) {
   add_point_repair_options(app, points);
   return run_steps(program, argc, argv, options,
                    [&](const StepOptions& steps, Run& run, Findings& findings) {
-                     repair_input(steps, points, run, findings);
+                     repair_input(steps, points, always, run, findings);
                    });
 }

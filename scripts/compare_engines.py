@@ -62,7 +62,7 @@ class Row:
     def __init__(self, args, mesh):
         floating = ["--predicates", "float"] + (["--eps", args.eps] if args.eps else [])
         self.name = mesh.name
-        self.exact_code, self.exact = run(args.program, mesh, [], args.timeout)
+        self.exact_code, self.exact = run(args.program, mesh, ["--always"], args.timeout)
         checked = ["--check-cells"] if args.check_cells else []
         self.code, self.report = run(args.program, mesh, floating + checked, args.timeout)
         self.error = error_of(self.exact, self.report)

@@ -199,7 +199,7 @@ def run(name, make, folder, arguments):
     for path in (output, report):
         if os.path.exists(path):
             os.remove(path)
-    result = subprocess.run([arguments.meshrepair, source, output, "--quiet", "--report", report,
+    result = subprocess.run([arguments.meshrepair, source, output, "--quiet", "--always", "--report", report,
                              "--time-limit", str(arguments.time_limit)],
                             capture_output=True, text=True, check=False)
     with open(report, encoding="utf-8") as file:

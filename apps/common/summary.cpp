@@ -67,7 +67,9 @@ std::vector<std::string> troubles_of(const Findings& findings) {
   add_count(texts, input.nonmanifold_edges, "edge", "with more than two triangles");
   add_count(texts, input.inconsistent_edges, "edge", "whose two triangles face opposite ways");
   add_count(texts, input.nonmanifold_vertices, "point", "in which parts of the surface only touch");
-  if (texts.empty()) {
+  if (findings.repair.kept_valid) {
+    texts.emplace_back("nothing: it is the boundary of a solid, and left as it is");
+  } else if (texts.empty()) {
     texts.emplace_back("nothing to be seen in its edges (what crosses or overlaps is not counted)");
   }
   return texts;

@@ -9,11 +9,11 @@
 
 #include <bsp/error.h>
 #include <extract/build_cells.h>
-#include <extract/check_surface.h>
 #include <repair/cell_graph.h>
 #include <repair/flood.h>
 #include <repair/repair.h>
 #include <repair/thin_cells.h>
+#include <repair/valid_solid.h>
 
 #include "drop_thin_parts.h"
 #include "number_spacing.h"
@@ -214,6 +214,7 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   again.holes = {};
   again.opacity.clear();
   again.examine = nullptr;
+  again.keep_valid = false;
   again.certify.wanted = false;
   again.progress = &quiet;
   RepairReport report;
@@ -385,19 +386,59 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
   return finish(tree.input, std::move(surface), options, report, meter);
 }
 
-bool needs_no_repair(const TriangleSoup& soup, const RepairOptions& options) {
+std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
   const bool may_fill =
       options.inside.rule == InsideRule::solidity || options.inside.cavities == Cavities::fill;
-  if (may_fill) return false;
+  if (may_fill) return std::nullopt;
+  CertifyOptions written = options.certify;
+  written.touching = options.extract.touching;
   CancelOnly quiet(options.progress);
-  CheckOptions check;
-  check.most_places = 0;
-  check.progress = &quiet;
-  return check_surface(soup, check).valid_solid();
+  return valid_solid(soup, written, &quiet);
 }
+
+namespace {
+
+// What a repair would have found.
+void describe_valid(const TriangleSoup& soup, const Surface& surface, const RepairOptions& options,
+                    RepairReport& report) {
+  const TriangleSoup& mesh = surface.mesh;
+  report.kept_valid = true;
+  report.clean.triangles_in = soup.triangles.size();
+  report.input = report.output = examine_topology(mesh.triangles, mesh.points.size());
+  report.input_area = report.output_area = surface_area(mesh);
+  report.output_volume = signed_volume(mesh);
+  report.inside.asked = options.inside.rule;
+  const bool any_rule = options.inside.rule == InsideRule::automatic;
+  report.inside.used = any_rule ? InsideRule::winding : options.inside.rule;
+  report.inside.reason = "the mesh is the boundary of a solid";
+  report.inside.exact = true;
+  const auto is_input = [&](std::uint32_t p) { return surface.input_point[p] != 0; };
+  for (const auto& t : mesh.triangles) {
+    ++(std::all_of(t.begin(), t.end(), is_input) ? report.triangles.untouched
+                                                 : report.triangles.cut);
+  }
+  report.certify.done = true;
+}
+
+std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options,
+                                  RepairReport& report, StageMeter& meter) {
+  const bool is_whole_work = options.predicates != Predicates::exact || options.check_cells;
+  if (!options.keep_valid || is_whole_work) return std::nullopt;
+  meter.begin("validate");
+  std::optional<Surface> surface = keep_valid(soup, options);
+  if (!surface) return std::nullopt;
+  meter.begin("check");
+  describe_valid(soup, *surface, options, report);
+  return surface;
+}
+
+}  // namespace
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
+  if (std::optional<Surface> kept = keep_valid(soup, options, report, meter)) {
+    return std::move(*kept);
+  }
   Tree tree = make_tree(soup, options, report, meter);
   require_space(tree.input);
   Surface surface;

@@ -33,8 +33,8 @@ class Programs:
         return result.stdout
 
     def repaired(self, mesh, *arguments, environment=None):
-        return self.run("meshrepair", mesh, "-", "--format", "ply", "--sources", *self.rule, *arguments,
-                        environment=environment)
+        return self.run("meshrepair", mesh, "-", "--format", "ply", "--sources", "--always", *self.rule,
+                        *arguments, environment=environment)
 
     def by_files(self, mesh, before=None):
         """`before`: a rule by which the tree is labelled first."""

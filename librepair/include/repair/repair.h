@@ -1,9 +1,10 @@
 // The whole pipeline, as one call and in its three steps. The steps in a row give the same bytes as
-// the one call.
+// the one call, unless that keeps what is valid.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -56,6 +57,9 @@ struct RepairOptions {
   // Told what the result will be, but for what certification moves, which may take much longer than
   // all before; what it throws ends the work.
   std::function<void(const RepairReport&)> examine;
+  // Leave a soup that is the boundary of a solid as it is (valid_solid.h), where no other option
+  // asks for something else: the work for it is a small part of that of a repair.
+  bool keep_valid = false;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
   ProgressObserver* progress = nullptr;
@@ -66,6 +70,7 @@ inline constexpr double kDefaultSimplify = 5e-7;
 
 // Filled as far as the work came, also when it ended with an exception.
 struct RepairReport {
+  bool kept_valid = false;  // nothing was wrong, and the rest of the work was not done
   CleanReport clean;
   Topology input;         // of the clean soup
   double input_area = 0;  // of the clean soup, in the input's units, squared
@@ -107,9 +112,9 @@ struct RepairResult {
 [[nodiscard]] Surface repair(const TriangleSoup& soup, const RepairOptions& options,
                              RepairReport& report);
 
-// Whether repair would leave the soup as it is: it is the boundary of a solid, and no rule fills
-// what is hollow.
-[[nodiscard]] bool needs_no_repair(const TriangleSoup& soup, const RepairOptions& options);
+// The soup as it is if it is the boundary of a solid, and no rule fills what is hollow.
+[[nodiscard]] std::optional<Surface> keep_valid(const TriangleSoup& soup,
+                                                const RepairOptions& options);
 
 // Step 1: soup to tree, its leaves unknown. Throws NoSolidError when no triangle is left.
 [[nodiscard]] Tree make_tree(const TriangleSoup& soup, const RepairOptions& options,
