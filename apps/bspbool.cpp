@@ -55,6 +55,7 @@ Operand read_mesh_operand(const RepairOptions& repair_options, Run& run, Finding
 // solid is the empty solid, and so is a mesh of nothing.
 Operand read_operand(const BoolOptions& options, Run& run, Findings& findings) {
   RepairOptions repair_options = options.step.repair;
+  repair_options.certify.precision = Precision::float64;  // only what comes out is written
   repair_options.progress = &run.progress;
   if (!is_tree_name(findings.input)) return read_mesh_operand(repair_options, run, findings);
   Tree tree = read_tree_stage(run, findings);
