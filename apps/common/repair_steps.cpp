@@ -63,17 +63,26 @@ void warn_of_made_up_surface(const Findings& findings) {
       findings.input_name(), 100 * repair.closing_area / repair.output_area);
 }
 
+// Of what there was before `area` of it went.
+double share_of_surface(double area, const RepairReport& repair) {
+  return area > 0 ? area / (area + repair.output_area) : 0;
+}
+
 // Where that is much, other numbers would have kept it.
-void warn_of_dropped_parts(const Findings& findings) {
+void warn_of_coarse_numbers(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   constexpr double kWorthAWarning = 0.01;
-  const double fins = repair.fins_area / (repair.fins_area + repair.output_area);
-  const double share = repair.certify.dropped_share + (repair.fins_area > 0 ? fins : 0);
-  if (!(share > kWorthAWarning)) return;
-  spdlog::warn(
-      "{}: parts that are too thin for its numbers are left out, {:.0f} % of the surface: OBJ, OFF "
-      "and PLY in double precision hold finer ones",
-      findings.output_name(), 100 * share);
+  const auto warn = [&](std::string_view what, double share) {
+    if (!(share > kWorthAWarning)) return;
+    spdlog::warn(
+        "{}: {}, {:.0f} % of the surface: OBJ, OFF and PLY in double precision hold finer "
+        "ones",
+        findings.output_name(), what, 100 * share);
+  };
+  warn("parts that are too thin for its numbers are left out",
+       repair.certify.dropped_share + share_of_surface(repair.fins_area, repair));
+  warn("slits that are too narrow for its numbers are filled",
+       share_of_surface(repair.slits_area, repair));
 }
 
 template <class ErrorType>
@@ -150,7 +159,7 @@ ExitCode verdict(Run& run, const Findings& findings) {
 void warn_of_findings(const Findings& findings) {
   warn_of_coarse_grid(findings);
   warn_of_made_up_surface(findings);
-  warn_of_dropped_parts(findings);
+  warn_of_coarse_numbers(findings);
 }
 
 void log_warnings(const std::string& name, const std::vector<std::string>& warnings) {

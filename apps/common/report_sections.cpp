@@ -194,6 +194,7 @@ Json removed_of(const RepairReport& repair) {
           {"crumbs", repair.crumbs},
           {"slit_cells", repair.thin_cells.filled},
           {"fin_cells", repair.thin_cells.emptied},
+          {"slits_area", repair.slits_area},
           {"fins_area", repair.fins_area}};
 }
 

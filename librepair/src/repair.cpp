@@ -225,7 +225,7 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
 void fill_slits(const CoveredCells& covered, const RepairOptions& options, std::vector<char>& solid,
                 RepairReport& report) {
   report.thin_cells = {};
-  report.fins_area = 0;
+  report.slits_area = report.fins_area = 0;
   if (options.certify.precision == Precision::float64 || covered.complex.loose) return;
   const CleanSoup& soup = covered.complex.soup();
   double farthest = 0;
@@ -234,6 +234,7 @@ void fill_slits(const CoveredCells& covered, const RepairOptions& options, std::
   const double unit = soup.grid.unit;
   report.thin_cells = relabel_thin_cells(covered.complex, covered.cover,
                                          kSlitSteps * spacing / unit, solid, options.progress);
+  report.slits_area = report.thin_cells.filled_area * unit * unit;
   report.fins_area = report.thin_cells.emptied_area * unit * unit;
 }
 

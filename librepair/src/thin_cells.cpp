@@ -174,6 +174,7 @@ class ThinCells {
     char& solid = solid_[cell.index()];
     if (solid == 0) {
       ++report_.filled;
+      report_.filled_area += area;
     } else {
       ++report_.emptied;
       report_.emptied_area += area;

@@ -51,6 +51,16 @@ def slipped_tetrahedra():
     return "".join(parts).encode()
 
 
+def boxes(*all_corners):
+    """OBJ text: boxes between two corners; with x from right to left they are hollow."""
+    lines = []
+    for low, high in all_corners:
+        lines += ["v %.9g %.9g %.9g" % tuple((low, high)[i >> k & 1][k] for k in range(3)) for i in range(8)]
+        lines += ["f " + " ".join(str(i - 8) for i in face) for face in
+                  ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
+    return "\n".join(lines).encode() + b"\n"
+
+
 def row_of_tetrahedra(count):
     """OBJ text of some 100 bytes for each."""
     faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
@@ -135,6 +145,10 @@ def main():
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
         "open.obj": tetrahedron(f3=""),
         "touching.obj": touching_tetrahedra(),
+        # A slit and a fin of 1e-7, and a post through each of them.
+        "slit.obj": boxes(((0, 0, 0), (1, 1, 1)), ((0.8, 0.2, 0.5), (0.2, 0.8, 0.5 + 1e-7)),
+                          ((0.7, 0.7, 0.2), (0.9, 0.9, 1.8))),
+        "fin.obj": boxes(((0, 0, 0), (1, 1, 1)), ((-0.5, -0.5, 0.5), (1.5, 1.5, 0.5 + 1e-7))),
         "slipped.obj": slipped_tetrahedra(),
         "far_point.obj": two_tetrahedra(size=10 ** 9),
         "larger_than_a_pipe.obj": row_of_tetrahedra(4000),

@@ -42,6 +42,8 @@ TEST(ThinCells, SlitsAreFilledWhereTheirSheetsAreCut) {
   EXPECT_EQ(in_single.report.thin_cells.emptied, 0u);
   EXPECT_NEAR(in_double.report.output_area - in_single.report.output_area,
               2 * (0.5 * 0.5 - 0.05 * 0.05), 1e-5);
+  EXPECT_NEAR(in_single.report.slits_area, 2 * (0.5 * 0.5 - 0.05 * 0.05), 1e-5);
+  EXPECT_EQ(in_single.report.fins_area, 0);
   EXPECT_NEAR(in_double.report.output_volume, in_single.report.output_volume, 1e-6);
   EXPECT_TRUE(in_single.report.certify.passed());
   EXPECT_TRUE(check_surface(in_single.surface.mesh).valid_solid());
@@ -61,6 +63,7 @@ TEST(ThinCells, FinsAreDroppedWhereTheirSheetsAreCut) {
   EXPECT_EQ(result.report.thin_cells.filled, 0u);
   EXPECT_GT(result.report.thin_cells.emptied, 0u);
   EXPECT_NEAR(result.report.fins_area, 2 * 3, 1e-5);
+  EXPECT_EQ(result.report.slits_area, 0);
   EXPECT_NEAR(result.report.output_area, 6, 1e-9);
   EXPECT_NEAR(result.report.output_volume, 1, 1e-9);
 }

@@ -88,7 +88,8 @@ struct RepairReport {
   PartFates parts;
   ExtractReport extract;
   ThinCellsReport thin_cells;  // changed so that a file in single precision can hold the rest
-  double fins_area = 0;        // of the surface that went with those emptied, in the input's units
+  double slits_area = 0;       // of the surface that went with those filled, in the input's units
+  double fins_area = 0;        // the same of those emptied
   std::size_t crumbs = 0;   // parts of cut pieces alone, thinner than a step of the grid: dropped
   SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;

@@ -13,7 +13,9 @@ namespace meshrepair {
 struct ThinCellsReport {
   std::size_t filled = 0;   // empty cells that became solid
   std::size_t emptied = 0;  // solid cells that became empty
-  double emptied_area = 0;  // by which the boundary became smaller there, in grid units, squared
+  // By which the boundary became smaller with the one and the other, in grid units, squared.
+  double filled_area = 0;
+  double emptied_area = 0;
 };
 
 // Where cutting left two sheets of the boundary nearer to each other than `within`, in grid units,
