@@ -10,19 +10,17 @@
 #include <Eigen/Geometry>
 
 #include <bsp/double_predicates.h>
-#include <extract/box_tree.h>
 #include <extract/mend_faults.h>
 
 #include "editable_mesh.h"
+#include "fault_counter.h"
 #include "star_distance.h"
-#include "triangle_list.h"
-#include "triangle_pair.h"
 
 namespace meshrepair {
 namespace {
 
-using internal::CornerTriangle;
 using internal::EditableMesh;
+using internal::FaultCounter;
 using internal::kGone;
 using internal::MeshEdit;
 using internal::StarDistance;
@@ -36,105 +34,6 @@ constexpr std::size_t kMostAround = 48;
 
 // How far points are moved along a normal, in steps of the numbers.
 constexpr std::array<double, 8> kSteps{1, 2, 4, 8, 16, 32, 64, 128};
-
-std::vector<Box> boxes_of(const TriangleSoup& mesh) {
-  std::vector<Box> boxes(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < boxes.size(); ++t) boxes[t] = internal::box_of(mesh, t);
-  return boxes;
-}
-
-// Counts the faults of a few triangles with all others, while some points move and edges turn.
-class FaultCounter {
- public:
-  // No point is moved by more than `reach` from where it was when counting was started.
-  FaultCounter(const TriangleSoup& mesh, double reach)
-      : points_(mesh.points), reach_(reach), boxes_(boxes_of(mesh)), tree_(boxes_) {}
-
-  // From now on these are not what they were at first.
-  void add_changed(const std::vector<std::uint32_t>& triangles) {
-    changed_.insert(changed_.end(), triangles.begin(), triangles.end());
-  }
-
-  // Faults of these triangles; finds the others that may meet them, or what becomes of them.
-  std::ptrdiff_t start(const EditableMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-    Box reach;
-    std::vector<TriangleCorners> corners;
-    for (const std::uint32_t t : triangles) {
-      corners.push_back(mesh.triangles()[t]);
-      for (const std::uint32_t p : corners.back()) reach.add(points_[p]);
-    }
-    reach.widen(reach_);
-    near_.clear();
-    tree_.visit([&](const Box& box) { return box.meets(reach); },
-                [&](std::uint32_t t) {
-                  if (boxes_[t].meets(reach)) near_.push_back(t);
-                });
-    near_.insert(near_.end(), changed_.begin(), changed_.end());
-    std::sort(near_.begin(), near_.end());
-    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
-    others_.clear();
-    for (const std::uint32_t t : near_) {
-      if (!mesh.is_left(t) || std::find(triangles.begin(), triangles.end(), t) != triangles.end()) {
-        continue;
-      }
-      add(mesh.triangles()[t], others_);
-    }
-    return count(corners);
-  }
-
-  // Of these triangles, among themselves and with the others.
-  std::ptrdiff_t count(const std::vector<TriangleCorners>& triangles) {
-    std::ptrdiff_t faults = 0;
-    asked_.clear();
-    for (const TriangleCorners& corners : triangles) {
-      if (corners != kGone && !add(corners, asked_)) ++faults;
-    }
-    for (std::size_t i = 0; i < asked_.size(); ++i) {
-      asked_[i].triangle.corner = {0, 1, 2};
-      for (std::size_t k = i + 1; k < asked_.size(); ++k) {
-        faults += meet(asked_[i], asked_[k]) ? 1 : 0;
-      }
-      for (Placed& other : others_) faults += meet(asked_[i], other) ? 1 : 0;
-    }
-    return faults;
-  }
-
- private:
-  struct Placed {
-    CornerTriangle triangle;
-    Box box;
-  };
-
-  // False for one without area.
-  bool add(const TriangleCorners& corners, std::vector<Placed>& to) const {
-    const Vec3d &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
-    const int axis = projection_axis(a, b, c);
-    if (axis < 0) return false;
-    Placed placed{{{a, b, c}, {0, 1, 2}, axis}, {}};
-    for (const Vec3d& p : placed.triangle.at) placed.box.add(p);
-    to.push_back(placed);
-    return true;
-  }
-
-  static bool meet(const Placed& a, Placed& b) {
-    if (!a.box.meets(b.box)) return false;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      std::uint32_t& corner = b.triangle.corner[k];
-      corner = 0;
-      while (corner < 3 && a.triangle.at[corner] != b.triangle.at[k]) ++corner;
-      if (corner == 3) corner += k;
-    }
-    return meeting_of(a.triangle, b.triangle) != internal::Meeting::apart;
-  }
-
-  const std::vector<Vec3d>& points_;
-  double reach_;
-  std::vector<Box> boxes_;  // of the triangles at first
-  BoxTree tree_;
-  std::vector<std::uint32_t> changed_;  // triangles
-  std::vector<std::uint32_t> near_;     // scratch
-  std::vector<Placed> others_, asked_;
-};
 
 class FaultMender {
  public:
@@ -224,7 +123,8 @@ class FaultMender {
                     const std::array<std::optional<Vec3d>, 2>& normals) {
     Edit edit;
     if (!take_stars(points, edit)) return;
-    const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles);
+    const double farthest = 2 * kSteps.back() * options_.step;
+    const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles, farthest);
     if (before == 0) return;
     std::vector<Vec3d> from(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) from[i] = points_[points[i]];
@@ -234,7 +134,8 @@ class FaultMender {
         for (const double sign : {1.0, -1.0}) {
           shift(from, points, sign * steps * options_.step * *normal, edit);
           if (edit.distance == 0) continue;
-          edit.gain = before - faults_.count(edit.mesh.now);
+          const std::ptrdiff_t least = std::max<std::ptrdiff_t>(best_.gain, 1);
+          edit.gain = before - faults_.count(edit.mesh.now, before - least);
           take_if_better(edit);
         }
       }

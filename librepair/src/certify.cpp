@@ -43,7 +43,7 @@ constexpr double kMostSteps = 4;
 constexpr double kMendSteps = 16;
 
 // Rounds of mending that bring nothing in a row, before it ends.
-constexpr std::size_t kMostVain = 3;
+constexpr std::size_t kMostVain = 2;
 
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
