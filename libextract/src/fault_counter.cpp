@@ -59,6 +59,7 @@ std::ptrdiff_t FaultCounter::start(const EditableMesh& mesh,
                                    std::optional<double> moved) {
   find_others(mesh, triangles);
   std::vector<TriangleCorners> corners;
+  corners.reserve(triangles.size());
   for (const std::uint32_t t : triangles) corners.push_back(mesh.triangles()[t]);
   others_near_.clear();
   if (moved) find_others_near(corners, *moved);
