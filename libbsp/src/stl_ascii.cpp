@@ -123,6 +123,12 @@ class AsciiStlReader {
   FirstBad first_bad_;
 };
 
+// No -0: as it will be read back.
+template <class Vector>
+Eigen::Vector3<typename Vector::Scalar> without_minus(const Vector& v) {
+  return v + Vector::Zero();
+}
+
 }  // namespace
 
 ReadResult read_stl_ascii(const MeshSource& source) { return AsciiStlReader(source).run(); }
@@ -134,11 +140,11 @@ std::string format_stl_ascii(const TriangleSoup& soup) {
     const Vec3d& b = soup.points[triangle[1]];
     const Vec3d& c = soup.points[triangle[2]];
     out += "  facet normal ";
-    append_triple(out, Eigen::Vector3f(stl_normal(a, b, c).cast<float>()));
+    append_triple(out, without_minus(stl_normal(a, b, c).cast<float>()));
     out += "\n    outer loop\n";
     for (const std::uint32_t corner : triangle) {
       out += "      vertex ";
-      append_triple(out, soup.points[corner]);
+      append_triple(out, without_minus(soup.points[corner]));
       out += '\n';
     }
     out += "    endloop\n  endfacet\n";

@@ -57,7 +57,7 @@ float to_float(double coordinate) {
     throw OutputError("a coordinate of " + std::to_string(coordinate) +
                       " does not fit into binary STL; write another format");
   }
-  return static_cast<float>(coordinate);
+  return static_cast<float>(coordinate) + 0.0f;  // no -0: as it will be read back
 }
 
 void append_floats(std::string& out, const Vec3d& vector) {

@@ -7,6 +7,7 @@
 
 #include <bsp/topology.h>
 #include <bsp/weld_points.h>
+#include <extract/edge_contacts.h>
 #include <extract/part_orientation.h>
 #include <extract/self_intersections.h>
 #include <repair/valid_solid.h>
@@ -44,16 +45,19 @@ bool is_closed_manifold(const Topology& topology) {
 }
 
 // Whether the surface is a closed, oriented manifold, with points joined where that makes it one.
-bool make_manifold(TriangleSoup& mesh, const CertifyOptions& options) {
+bool make_manifold(TriangleSoup& mesh, bool points_may_be_apart) {
   std::vector<IndexTriangle> joined = welded(mesh);
-  const Topology topology = examine_topology(joined, mesh.points.size());
-  if (is_closed_manifold(topology)) {
+  if (is_closed_manifold(examine_topology(joined, mesh.points.size()))) {
     mesh.triangles = std::move(joined);
     return true;
   }
-  const bool may_touch = options.touching == Touching::separate || topology.nonmanifold_edges == 0;
-  return !options.welded && may_touch &&
+  return points_may_be_apart &&
          is_closed_manifold(examine_topology(mesh.triangles, mesh.points.size()));
+}
+
+bool touches_as_asked(const TriangleSoup& mesh, Touching touching) {
+  const EdgeContacts contacts = examine_edge_contacts(mesh);
+  return touching == Touching::separate ? contacts.separate : contacts.joined;
 }
 
 bool bounds_solid(const TriangleSoup& mesh, ProgressObserver* progress) {
@@ -73,8 +77,9 @@ std::optional<Surface> valid_solid(const TriangleSoup& soup, const CertifyOption
   if (soup.triangles.empty() || !has_indices_in_range(soup)) return std::nullopt;
   Surface surface;
   surface.mesh = as_written(soup, options.precision);
-  if (!make_manifold(surface.mesh, options)) return std::nullopt;
+  if (!make_manifold(surface.mesh, !options.welded)) return std::nullopt;
   if (!bounds_solid(surface.mesh, progress)) return std::nullopt;
+  if (!touches_as_asked(surface.mesh, options.touching)) return std::nullopt;
   surface.source.resize(surface.mesh.triangles.size());
   std::iota(surface.source.begin(), surface.source.end(), 0u);
   for (std::size_t p = 0; p < soup.points.size(); ++p) {

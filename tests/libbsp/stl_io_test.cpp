@@ -91,9 +91,22 @@ TEST(ReadStl, NotFiniteFloatsAreKept) {
 }
 
 TEST(ReadStl, MinusZeroIsZero) {
-  TriangleSoup soup = {{{0, 0, 0}, {-0.0, 1, 0}, {1, 0, 0}, {0, 1, -0.0}},
-                       {{{0, 1, 2}}, {{2, 3, 0}}}};
-  EXPECT_EQ(read_text(format_soup(soup, SoupFormat::stl_binary), "a.stl").soup.points.size(), 3u);
+  const TriangleSoup soup = {{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {{{0, 1, 2}}, {{2, 1, 0}}}};
+  std::string bytes = format_soup(soup, SoupFormat::stl_binary);
+  const float minus_zero = -0.0f;
+  std::memcpy(bytes.data() + 84 + 24, &minus_zero, sizeof minus_zero);  // x of the second corner
+  std::memcpy(bytes.data() + 84 + 50 + 32, &minus_zero, sizeof minus_zero);  // z of that
+  EXPECT_EQ(read_text(bytes, "a.stl").soup.points.size(), 3u);
+}
+
+TEST(WriteStl, MinusZeroIsWrittenAsItWillBeRead) {
+  const TriangleSoup with = {{{-0.0, 0, -1e-50}, {0, 1, -0.0}, {1, -0.0, 0}}, {{{0, 1, 2}}}};
+  const TriangleSoup without = {{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {{{0, 1, 2}}}};
+  EXPECT_EQ(format_soup(with, SoupFormat::stl_binary),
+            format_soup(without, SoupFormat::stl_binary));
+  TriangleSoup read = with;
+  read.points[0].z() = 0;
+  EXPECT_EQ(format_soup(read, SoupFormat::stl_ascii), format_soup(without, SoupFormat::stl_ascii));
 }
 
 TEST(ReadStl, AsciiInAnyLayout) {

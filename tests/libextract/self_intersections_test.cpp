@@ -251,6 +251,18 @@ TEST(SelfIntersections, OfSheetsThatCrossAlongACommonEdge) {
   EXPECT_EQ(self_intersections(crossing, std::vector<std::uint32_t>{}).count, 0u);
 }
 
+// The same with one corner of the rim that has one index.
+TEST(SelfIntersections, OfSheetsThatCrossAlongAnEdgeWithAnEndInCommon) {
+  TriangleSoup crossing = bipyramid({1, 1, 2}, {1, 1, -1});
+  append(crossing, bipyramid({1, 1, 1}, {1, 1, -2}));
+  for (auto& t : crossing.triangles) std::replace(t.begin(), t.end(), 5u, 0u);
+  EXPECT_EQ(self_intersections(crossing).count, 3u);
+  TriangleSoup nested = bipyramid({1, 1, 2}, {1, 1, -2});
+  append(nested, bipyramid({1, 1, 1}, {1, 1, -1}));
+  for (auto& t : nested.triangles) std::replace(t.begin(), t.end(), 5u, 0u);
+  EXPECT_EQ(self_intersections(nested).count, 0u);
+}
+
 TEST(SelfIntersections, SheetsThatTouchAlongAnEdgeHaveNone) {
   TriangleSoup nested = bipyramid({1, 1, 2}, {1, 1, -2});
   append(nested, bipyramid({1, 1, 1}, {1, 1, -1}));

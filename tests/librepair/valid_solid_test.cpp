@@ -4,6 +4,7 @@
 
 #include <bsp/error.h>
 #include <bsp/float32.h>
+#include <extract/check_surface.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
 
@@ -136,14 +137,44 @@ TEST(ValidSolid, MayTouchInAPointWhereTheFormatKeepsPointsApart) {
   EXPECT_FALSE(is_valid(unwelded(soup)));
 }
 
-TEST(ValidSolid, MayTouchAlongAnEdgeUnlessItIsToBeJoinedThere) {
+TEST(ValidSolid, TouchesAlongEdgesAsAskedFor) {
+  CertifyOptions join;
+  join.touching = Touching::join;
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {1, 1, 0}));
   EXPECT_TRUE(is_valid(soup));
   EXPECT_FALSE(is_valid(soup, welded()));
-  CertifyOptions join;
-  join.touching = Touching::join;
   EXPECT_FALSE(is_valid(soup, join));
+  RepairOptions options = keeping_valid();
+  options.extract.touching = Touching::join;
+  const TriangleSoup joined = repair(soup, options).surface.mesh;
+  EXPECT_FALSE(is_valid(joined));
+  EXPECT_TRUE(is_valid(joined, join));
+  EXPECT_TRUE(is_valid(cube(), join));
+}
+
+// Three tetrahedra that touch along edges and are sewn together there, one of them inside out: one
+// surface, with two triangles at each of its edges, of positive volume. Its sheets cross along
+// edges with one end in common.
+TriangleSoup inside_out_in_a_place() {
+  TriangleSoup soup;
+  soup.points = {{1, 1, 1}, {1, 0, 1}, {1, 0, 0}, {2, 1, 1},
+                 {1, 1, 2}, {2, 2, 2}, {1, 1, 1}, {2, 1, 2}};
+  soup.triangles = {{1, 0, 7}, {2, 0, 1}, {1, 6, 3}, {1, 7, 4}, {6, 7, 5}, {1, 4, 6},
+                    {3, 5, 7}, {6, 5, 3}, {2, 1, 3}, {6, 4, 7}, {2, 3, 0}, {0, 3, 7}};
+  return soup;
+}
+
+TEST(ValidSolid, IsNotInsideOutInPlaces) {
+  const TriangleSoup soup = inside_out_in_a_place();
+  EXPECT_FALSE(is_valid(soup));
+  const SurfaceCheck check = check_surface(soup);
+  EXPECT_GT(check[Defect::self_intersection].count, 0u);
+  EXPECT_FALSE(check.valid_solid());
+  const RepairResult result = repair(soup, keeping_valid());
+  EXPECT_FALSE(result.report.kept_valid);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_NEAR(result.report.output_volume, 0.5, 1e-9);
 }
 
 TEST(ValidSolid, IsLookedAtAsItWillBeWritten) {
