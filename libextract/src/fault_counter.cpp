@@ -27,6 +27,7 @@ std::vector<Box> boxes_of(const TriangleSoup& mesh) {
 bool are_apart(const CornerTriangle& a, const CornerTriangle& b, const CornerTriangle& of,
                double distance) {
   const Vec3d normal = (of.at[1] - of.at[0]).cross(of.at[2] - of.at[0]).stableNormalized();
+  if (!normal.allFinite()) return false;
   double low_a = 0, high_a = 0, farthest = 0;  // seen from the first corner of a
   for (const Vec3d& p : a.at) {
     const double height = normal.dot(p - a.at[0]);
