@@ -260,22 +260,21 @@ void add_sections(const Findings& findings, JsonReport& report) {
     if (was_begun(repair, "check")) points["points_in_result"] = findings.points_in_result;
     report.set_section("points", std::move(points));
   }
+  const auto has = [&](std::string_view stage) {
+    return repair.kept_valid || was_begun(repair, stage);
+  };
   if (findings.scan_base) report.set_section("base", section_of(*findings.scan_base));
   if (findings.tree_read) report.set_section("read", section_of(*findings.tree_read));
-  if (was_begun(repair, "clean") || repair.kept_valid) {
+  if (has("clean")) {
     report.set_section("clean", section_of(repair.clean));
     report.set_section("defects", defects_of(repair));
   }
-  if (was_begun(repair, "tree") || repair.kept_valid) {
-    report.set_section("holes", section_of(repair.holes));
-  }
+  if (has("tree")) report.set_section("holes", section_of(repair.holes));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));
-  if (was_begun(repair, "inside") || repair.kept_valid) {
-    report.set_section("inside", section_of(repair.inside));
-  }
-  if (was_begun(repair, "extract") || repair.kept_valid) {
+  if (has("inside")) report.set_section("inside", section_of(repair.inside));
+  if (has("extract")) {
     report.set_section("removed", removed_of(repair));
     report.set_section("extract", section_of(repair.extract));
   }

@@ -52,6 +52,19 @@ std::uint32_t PointWelder::index_of(Vec3d point) {
   return fresh;
 }
 
+std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& points) {
+  std::vector<Vec3d> distinct;
+  PointWelder welder(distinct, points.size());
+  std::vector<std::uint32_t> first_at, first;
+  first.reserve(points.size());
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    const std::uint32_t place = welder.index_of(points[p]);
+    if (place == first_at.size()) first_at.push_back(p);
+    first.push_back(first_at[place]);
+  }
+  return first;
+}
+
 PointPlaces find_places(const std::vector<Vec3d>& points) {
   std::vector<Vec3d> distinct;
   PointWelder welder(distinct, points.size());

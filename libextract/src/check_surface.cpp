@@ -78,7 +78,7 @@ class SurfaceChecker {
   void choose_triangles() {
     const Vec3d nowhere = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
     std::vector<std::uint32_t> welded;
-    if (options_.weld) welded = weld();
+    if (options_.weld) welded = first_in_place(soup_.points);
     for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
       IndexTriangle corners = soup_.triangles[t];
       if (options_.weld) {
@@ -101,19 +101,6 @@ class SurfaceChecker {
     }
   }
 
-  // For each point the first that has its coordinates.
-  std::vector<std::uint32_t> weld() const {
-    std::vector<Vec3d> distinct;
-    PointWelder welder(distinct, soup_.points.size());
-    std::vector<std::uint32_t> first, welded;
-    for (std::uint32_t p = 0; p < soup_.points.size(); ++p) {
-      const std::uint32_t index = welder.index_of(soup_.points[p]);
-      if (index == first.size()) first.push_back(p);
-      welded.push_back(first[index]);
-    }
-    return welded;
-  }
-
   [[nodiscard]] Vec3d middle_of(const IndexTriangle& corners) const {
     return soup_.points[corners[0]] / 3 + soup_.points[corners[1]] / 3 +
            soup_.points[corners[2]] / 3;
@@ -132,7 +119,7 @@ class SurfaceChecker {
   // By the coordinates of their corners: what lies in one place is there twice, whatever the
   // indices.
   void find_duplicates() {
-    const std::vector<std::uint32_t> place_of = weld();
+    const std::vector<std::uint32_t> place_of = first_in_place(soup_.points);
     std::vector<IndexTriangle> sorted = triangles_;
     for (IndexTriangle& corners : sorted) {
       for (std::uint32_t& corner : corners) corner = place_of[corner];

@@ -30,12 +30,10 @@ TriangleSoup as_written(TriangleSoup soup, Precision precision) {
 
 // The triangles with the first of all points that lie in one place.
 std::vector<IndexTriangle> welded(const TriangleSoup& soup) {
-  const std::vector<std::uint32_t> place = find_places(soup.points).place;
-  std::vector<std::uint32_t> first(soup.points.size());
-  for (auto p = static_cast<std::uint32_t>(first.size()); p-- > 0;) first[place[p]] = p;
+  const std::vector<std::uint32_t> first = first_in_place(soup.points);
   std::vector<IndexTriangle> triangles = soup.triangles;
   for (IndexTriangle& t : triangles) {
-    for (std::uint32_t& p : t) p = first[place[p]];
+    for (std::uint32_t& p : t) p = first[p];
   }
   return triangles;
 }
@@ -44,18 +42,16 @@ bool is_closed_manifold(const Topology& topology) {
   return topology.closed() && topology.manifold() && topology.oriented();
 }
 
-// Whether the surface is a closed, oriented manifold, with points joined where that makes it one.
-bool make_manifold(TriangleSoup& mesh, bool points_may_be_apart) {
+// Joins points in one place, if that leaves a closed, oriented manifold.
+bool join_points(TriangleSoup& mesh) {
   std::vector<IndexTriangle> joined = welded(mesh);
-  if (is_closed_manifold(examine_topology(joined, mesh.points.size()))) {
-    mesh.triangles = std::move(joined);
-    return true;
-  }
-  return points_may_be_apart &&
-         is_closed_manifold(examine_topology(mesh.triangles, mesh.points.size()));
+  if (!is_closed_manifold(examine_topology(joined, mesh.points.size()))) return false;
+  mesh.triangles = std::move(joined);
+  return true;
 }
 
-bool touches_as_asked(const TriangleSoup& mesh, Touching touching) {
+bool is_manifold_as_it_is(const TriangleSoup& mesh, Touching touching) {
+  if (!is_closed_manifold(examine_topology(mesh.triangles, mesh.points.size()))) return false;
   const EdgeContacts contacts = examine_edge_contacts(mesh);
   return touching == Touching::separate ? contacts.separate : contacts.joined;
 }
@@ -77,9 +73,11 @@ std::optional<Surface> valid_solid(const TriangleSoup& soup, const CertifyOption
   if (soup.triangles.empty() || !has_indices_in_range(soup)) return std::nullopt;
   Surface surface;
   surface.mesh = as_written(soup, options.precision);
-  if (!make_manifold(surface.mesh, !options.welded)) return std::nullopt;
+  if (!join_points(surface.mesh) &&
+      (options.welded || !is_manifold_as_it_is(surface.mesh, options.touching))) {
+    return std::nullopt;
+  }
   if (!bounds_solid(surface.mesh, progress)) return std::nullopt;
-  if (!touches_as_asked(surface.mesh, options.touching)) return std::nullopt;
   surface.source.resize(surface.mesh.triangles.size());
   std::iota(surface.source.begin(), surface.source.end(), 0u);
   for (std::size_t p = 0; p < soup.points.size(); ++p) {

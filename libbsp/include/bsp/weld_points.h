@@ -26,6 +26,9 @@ class PointWelder {
   internal::HashIndex index_;
 };
 
+// For each point the first one that has its place.
+[[nodiscard]] std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& points);
+
 // Points by where they lie.
 struct PointPlaces {
   std::vector<std::uint32_t> place;  // of each point; equal points have the same

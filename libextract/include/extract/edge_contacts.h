@@ -12,8 +12,8 @@ struct EdgeContacts {
   bool joined = true;
 };
 
-// Of a closed, oriented 2-manifold whose triangles meet in corners and edges alone; edges of
-// several indices may lie in one place. Exact. n log n.
+// Of a closed, oriented 2-manifold; edges of several indices may lie in one place. Where triangles
+// meet in more than corners and edges, it says nothing. Exact. n log n.
 [[nodiscard]] EdgeContacts examine_edge_contacts(const TriangleSoup& mesh);
 
 }  // namespace meshrepair
