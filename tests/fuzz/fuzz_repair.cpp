@@ -7,7 +7,9 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <bsp/clean_soup.h>
 #include <bsp/error.h>
 #include <bsp/float32.h>
 #include <bsp/soup_io.h>
@@ -144,19 +146,35 @@ bool is_blind_to_orientation(InsideRule rule) {
   return rule == InsideRule::solidity || rule == InsideRule::parity;
 }
 
+// How the triangles that are left count: layers, and how they are turned.
+std::vector<std::pair<std::int32_t, std::int32_t>> counts_of(const TriangleSoup& soup,
+                                                             bool blind_to_orientation) {
+  CleanReport report;
+  std::vector<std::pair<std::int32_t, std::int32_t>> counts;
+  for (const Triangle& t : clean_soup(soup, report).triangles) {
+    counts.emplace_back(t.layers, blind_to_orientation ? 0 : t.winding);
+  }
+  return counts;
+}
+
 void require_unchanged(const RepairRequest& request, const Outcome& outcome) {
   const TriangleSoup& soup = request.soup;
   const RepairOptions& options = request.options;
+  const bool blind = is_blind_to_orientation(options.inside.rule);
+  // A face that is there several times is one, unless as many layers of it balance the edges around
+  // better. So a copy more may count, and other layers may after that.
+  const auto require_same_from = [&](const TriangleSoup& changed, const std::string& what) {
+    if (counts_of(soup, blind) != counts_of(changed, blind)) return;
+    require_same(outcome, repair_at_once(changed, options), what);
+  };
   switch (request.change) {
     case Change::none:
       return;
     case Change::turn_some:
-      if (!is_blind_to_orientation(options.inside.rule)) return;
-      return require_same(outcome, repair_at_once(with_some_turned(soup, request.chosen), options),
-                          "turning triangles");
+      if (!blind) return;
+      return require_same_from(with_some_turned(soup, request.chosen), "turning triangles");
     case Change::copy_some:
-      return require_same(outcome, repair_at_once(with_some_copied(soup, request.chosen), options),
-                          "copying triangles");
+      return require_same_from(with_some_copied(soup, request.chosen), "copying triangles");
     case Change::take_steps:
       return require_same(outcome, repair_in_steps(soup, options), "taking steps");
   }

@@ -1,14 +1,20 @@
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <bsp/clean_soup.h>
+#include <bsp/edge_table.h>
 #include <bsp/error.h>
 #include <bsp/predicates.h>
 
 #include "degenerate_soups.h"
+#include "random_geometry.h"
 
 namespace meshrepair {
 namespace {
@@ -173,6 +179,80 @@ TEST(CleanSoup, AFaceOfTwoSolidsIsTwoLayers) {
       EXPECT_EQ(std::abs(t.winding), 1) << t.source;
     }
   }
+}
+
+// Of each edge, how much more often it is passed one way than the other; all together.
+std::int64_t imbalance(const CleanSoup& clean, const std::vector<int>& facings) {
+  std::map<std::pair<PointId, PointId>, std::int64_t> passes;
+  for (std::size_t t = 0; t < facings.size(); ++t) {
+    const auto& corners = clean.triangles[TriangleId(t)].corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const PointId a = corners[k], b = corners[(k + 1) % 3];
+      passes[std::minmax(a, b)] += a < b ? facings[t] : -facings[t];
+    }
+  }
+  std::int64_t sum = 0;
+  for (const auto& [edge, more] : passes) sum += std::abs(more);
+  return sum;
+}
+
+// Of triangles whose copies are at the very same place: whether any is turned as it is, and the
+// other way.
+std::vector<int> facings_as_one(const CleanSoup& clean, const TriangleSoup& soup) {
+  std::vector<int> facings;
+  for (const Triangle& t : clean.triangles) {
+    const IndexTriangle own = soup.triangles[t.source];
+    bool same = false, opposite = false;
+    for (const IndexTriangle& other : soup.triangles) {
+      if (!std::is_permutation(own.begin(), own.end(), other.begin())) continue;
+      const auto at =
+          static_cast<std::size_t>(std::find(other.begin(), other.end(), own[0]) - other.begin());
+      (other[(at + 1) % 3] == own[1] ? same : opposite) = true;
+    }
+    facings.push_back((same ? 1 : 0) - (opposite ? 1 : 0));
+  }
+  return facings;
+}
+
+std::vector<int> facings_as_counted(const CleanSoup& clean) {
+  std::vector<int> facings;
+  for (const Triangle& t : clean.triangles) {
+    const auto& at = clean.grid_points;
+    const Plane own = plane_through(at[t.corners[0]], at[t.corners[1]], at[t.corners[2]]);
+    double dot = 0;
+    for (std::size_t i = 0; i < 3; ++i) dot += own.unit[i] * clean.planes[t.plane].unit[i];
+    facings.push_back((dot > 0 ? 1 : -1) * t.winding * t.layers);
+  }
+  return facings;
+}
+
+// Many of its triangles are there more than once.
+TriangleSoup triangles_of_five_points(std::uint64_t seed) {
+  Random random(seed);
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 2, 3}};
+  for (int i = 0; i < 14; ++i) {
+    IndexTriangle t{};
+    for (std::uint32_t& corner : t) corner = static_cast<std::uint32_t>(random.integer(0, 4));
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) soup.triangles.push_back(t);
+  }
+  return soup;
+}
+
+TEST(CleanSoup, CopiesCountOnlyWhereThatBalancesEdges) {
+  std::size_t counted = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriangleSoup soup = triangles_of_five_points(seed);
+    CleanReport report;
+    const CleanSoup clean = clean_soup(soup, report);
+    const std::vector<int> as_one = facings_as_one(clean, soup);
+    const std::vector<int> as_counted = facings_as_counted(clean);
+    if (as_counted == as_one) continue;
+    ++counted;
+    EXPECT_LT(imbalance(clean, as_counted), imbalance(clean, as_one));
+  }
+  EXPECT_GT(counted, 30u);
 }
 
 // A double wall has no outside: one copy is enough to know, and more of one kind do not outweigh
