@@ -226,6 +226,7 @@ Json result_of(const Findings& findings) {
           {"untouched_triangles", repair.triangles.untouched},
           {"cut_triangles", repair.triangles.cut},
           {"kept_as_given", repair.kept_valid},
+          {"spared_cells", repair.spared_cells},
           {"parts", output.parts},
           {"dropped_solids", findings.dropped_solids},
           {"closed", output.closed()},
@@ -261,7 +262,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("points", std::move(points));
   }
   const auto has = [&](std::string_view stage) {
-    return repair.kept_valid || was_begun(repair, stage);
+    return repair.kept_valid || repair.spared_cells || was_begun(repair, stage);
   };
   if (findings.scan_base) report.set_section("base", section_of(*findings.scan_base));
   if (findings.tree_read) report.set_section("read", section_of(*findings.tree_read));

@@ -286,7 +286,9 @@ std::string summary_of(const Findings& findings, double seconds) {
   describe_input(findings, lines);
   describe_holes(findings.repair, lines);
   describe_predicates(findings.repair, lines);
-  if (findings.repair.inside.solid_cells > 0) describe_decision(findings.repair, lines);
+  if (findings.repair.inside.solid_cells > 0 || findings.repair.spared_cells) {
+    describe_decision(findings.repair, lines);
+  }
   if (findings.tree_written) {
     describe_tree(findings, seconds, lines);
   } else if (findings.soup_written) {

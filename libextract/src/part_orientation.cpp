@@ -16,10 +16,9 @@ PartOrientation examine_part_orientation(const TriangleSoup& mesh, ProgressObser
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     members[orientation.part_of[t]].push_back(t);
   }
-  const std::vector<std::uint32_t> depths =
-      internal::nesting_depths(mesh, orientation.part_of, parts, progress);
+  orientation.depth = internal::nesting_depths(mesh, orientation.part_of, parts, progress);
   for (std::uint32_t part = 0; part < parts; ++part) {
-    const int right = depths[part] % 2 == 0 ? 1 : -1;
+    const int right = orientation.depth[part] % 2 == 0 ? 1 : -1;
     orientation.inside_out.push_back(volume_sign(mesh, members[part]) == right ? 0 : 1);
   }
   return orientation;

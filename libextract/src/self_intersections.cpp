@@ -4,6 +4,7 @@
 // of triangles the tree holds these alone, and all the others are looked up in it. Where boxes tell
 // little, spatial_comparison.h takes over.
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include <tbb/parallel_for.h>
@@ -41,6 +42,10 @@ class Findings {
     ++counts_[static_cast<std::size_t>(meeting)];
     pairs_.push_back({std::min(a, b), std::max(a, b)});
     if (pairs_.size() > most_ && pairs_.size() - most_ >= most_ + 64) keep_lowest();
+  }
+
+  [[nodiscard]] bool any() const {
+    return std::any_of(counts_.begin(), counts_.end(), [](std::size_t count) { return count > 0; });
   }
 
   void add_to(SelfIntersections& result) const {
@@ -276,8 +281,10 @@ void compare(const SortedTriangles& sorted, const SelfIntersectionOptions& optio
   const std::size_t before = findings.size();
   findings.resize(before + tasks.size(), Findings(options.most_pairs));
   SharedProgress progress(options.progress, tasks.size());
+  std::atomic<bool> enough = false;
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
-    TreeComparison(sorted, progress, findings[before + i]).run(tasks[i]);
+    if (!enough) TreeComparison(sorted, progress, findings[before + i]).run(tasks[i]);
+    if (options.only_whether && findings[before + i].any()) enough = true;
     progress.done();
   });
 }
@@ -358,6 +365,9 @@ SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOp
     sorted.leave_out_hubs(hubs);
     compare(sorted, options, findings);
   }
+  const bool any =
+      std::any_of(findings.begin(), findings.end(), [](const Findings& f) { return f.any(); });
+  if (options.only_whether && any) return gather(findings, options.most_pairs);
   CancelOnly quiet(options.progress);
   SelfIntersectionOptions around_hubs = options;
   around_hubs.progress = &quiet;
@@ -427,7 +437,8 @@ SelfIntersections self_intersections(const TriangleSoup& soup,
   const internal::SoupCorners corners(soup, options.weld);
   const TriangleList list(corners);
   SelfIntersections result = compare_all(list, options);
-  if (options.weld) add_crossing_sheets(corners, {}, options, result);
+  const bool is_enough = options.only_whether && result.count > 0;
+  if (options.weld && !is_enough) add_crossing_sheets(corners, {}, options, result);
   result.degenerate = list.degenerate();
   result.not_finite = list.not_finite();
   return result;

@@ -18,10 +18,6 @@ namespace {
 // it adds are often slivers.
 constexpr double kClearlyBetter = 0.95;
 
-std::string count_of(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 class InsideDecider {
  public:
   InsideDecider(const CellGraph& graph, const Orientation& orientation,
@@ -158,19 +154,9 @@ class InsideDecider {
   }
 
   [[nodiscard]] std::string why_winding() const {
-    std::string why = report_.exact ? "the orientation is consistent everywhere"
-                                    : "the winding numbers are near integers";
-    if (report_.turned_parts > 0) {
-      why += "; " + count_of(report_.turned_parts, "part") + " inside out and turned";
-    }
-    if (report_.doubtful_parts > 0) {
-      why += "; " + count_of(report_.doubtful_parts, "part") +
-             " that may face either way turned outward";
-      if (report_.cavity_walls > 0) {
-        why += ", but " + std::to_string(report_.cavity_walls) + " of them as walls of cavities";
-      }
-    }
-    return why;
+    const std::string why = report_.exact ? "the orientation is consistent everywhere"
+                                          : "the winding numbers are near integers";
+    return why + internal::what_was_turned(report_);
   }
 
   [[nodiscard]] std::string why_not_winding(const std::vector<double>& w) const {

@@ -13,9 +13,10 @@
 #include <repair/flood.h>
 #include <repair/repair.h>
 #include <repair/thin_cells.h>
-#include <repair/valid_solid.h>
 
+#include "describe_result.h"
 #include "drop_thin_parts.h"
+#include "keep_valid.h"
 #include "number_spacing.h"
 #include "settle_points.h"
 
@@ -136,8 +137,9 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   return labels;
 }
 
-Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
-               StageMeter& meter) {
+// Cleaned, its holes closed.
+CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
+                     StageMeter& meter) {
   meter.begin("clean");
   CleanSoup clean = clean_soup(soup, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
@@ -154,6 +156,11 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
     meter.begin("holes");
     patch_holes(clean, options.holes, report.holes, options.progress);
   }
+  return clean;
+}
+
+Tree make_tree(CleanSoup clean, const RepairOptions& options, RepairReport& report,
+               StageMeter& meter) {
   meter.begin("tree");
   BuildTreeOptions tree_options = options.tree;
   tree_options.progress = options.progress;
@@ -188,7 +195,7 @@ std::string_view predicates_name(Predicates predicates) {
 
 Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
-  return make_tree(soup, options, report, meter);
+  return make_tree(close_soup(soup, options, report, meter), options, report, meter);
 }
 
 void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) {
@@ -247,18 +254,6 @@ Surface extract(const CoveredCells& covered, std::vector<char> solid, const Repa
   return extract_surface(covered.complex, covered.cover, solid, report.extract, extract_options);
 }
 
-double closing_area(const Surface& surface) {
-  TriangleSoup closing;
-  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    if (surface.source[t] == Surface::kNoSource) {
-      closing.triangles.push_back(surface.mesh.triangles[t]);
-    }
-  }
-  if (closing.triangles.empty()) return 0;
-  closing.points = surface.mesh.points;
-  return surface_area(closing);
-}
-
 // Whatever is beyond would be written as infinity.
 void require_range(const Surface& surface, Precision precision) {
   if (precision == Precision::float64) return;
@@ -268,14 +263,6 @@ void require_range(const Surface& surface, Precision precision) {
         "coordinates are too large for single precision: write OBJ, OFF or PLY in double "
         "precision");
   }
-}
-
-void describe(const CleanSoup& input, const Surface& surface, RepairReport& report) {
-  report.triangles = find_triangle_fates(input, report.parts, surface);
-  report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
-  report.output_volume = signed_volume(surface.mesh);
-  report.output_area = surface_area(surface.mesh);
-  report.closing_area = closing_area(surface);
 }
 
 // What is thinner than a step of the grid says nothing about the input, whose points were put
@@ -352,7 +339,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
   require_range(surface, options.certify.precision);
   const std::vector<char> whole = drop_crumbs(input, surface, report);
   if (options.examine) {
-    describe(input, surface, report);
+    internal::describe_result(input, surface, report);
     options.examine(report);
   }
   std::optional<Surface> simpler;
@@ -369,7 +356,7 @@ Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& opt
     surface = std::move(*simpler);
   }
   meter.begin("check");
-  describe(input, surface, report);
+  internal::describe_result(input, surface, report);
   return surface;
 }
 
@@ -387,65 +374,19 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
   return finish(tree.input, std::move(surface), options, report, meter);
 }
 
-std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
-  const bool may_fill =
-      options.inside.rule == InsideRule::solidity || options.inside.cavities == Cavities::fill;
-  if (may_fill) return std::nullopt;
-  CertifyOptions written = options.certify;
-  written.touching = options.extract.touching;
-  CancelOnly quiet(options.progress);
-  return valid_solid(soup, written, &quiet);
-}
-
-namespace {
-
-// What a repair would have found.
-void describe_valid(const TriangleSoup& soup, const Surface& surface, const RepairOptions& options,
-                    RepairReport& report) {
-  const TriangleSoup& mesh = surface.mesh;
-  report.kept_valid = true;
-  report.clean.triangles_in = soup.triangles.size();
-  report.input = report.output = examine_topology(mesh.triangles, mesh.points.size());
-  report.input_area = report.output_area = surface_area(mesh);
-  report.output_volume = signed_volume(mesh);
-  report.inside.asked = options.inside.rule;
-  const bool any_rule = options.inside.rule == InsideRule::automatic;
-  report.inside.used = any_rule ? InsideRule::winding : options.inside.rule;
-  report.inside.reason = "the mesh is the boundary of a solid";
-  report.inside.exact = true;
-  const auto is_input = [&](std::uint32_t p) { return surface.input_point[p] != 0; };
-  for (const auto& t : mesh.triangles) {
-    ++(std::all_of(t.begin(), t.end(), is_input) ? report.triangles.untouched
-                                                 : report.triangles.cut);
-  }
-  report.certify.done = true;
-}
-
-std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options,
-                                  RepairReport& report, StageMeter& meter) {
-  const bool is_whole_work = options.predicates != Predicates::exact || options.check_cells;
-  if (!options.keep_valid || is_whole_work) return std::nullopt;
-  meter.begin("validate");
-  std::optional<Surface> surface = keep_valid(soup, options);
-  if (!surface) return std::nullopt;
-  meter.begin("check");
-  describe_valid(soup, *surface, options, report);
-  return surface;
-}
-
-}  // namespace
-
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
-  if (std::optional<Surface> kept = keep_valid(soup, options, report, meter)) {
-    return std::move(*kept);
+  if (auto kept = internal::keep_as_given(soup, options, report, meter)) return std::move(*kept);
+  CleanSoup clean = close_soup(soup, options, report, meter);
+  require_space(clean);
+  meter.begin("orient");
+  const Orientation orientation = find_parts(clean, options, report);
+  if (auto mended = internal::keep_mended(clean, orientation, options, report, meter)) {
+    return std::move(*mended);
   }
-  Tree tree = make_tree(soup, options, report, meter);
-  require_space(tree.input);
+  Tree tree = make_tree(std::move(clean), options, report, meter);
   Surface surface;
   {
-    meter.begin("orient");
-    const Orientation orientation = find_parts(tree.input, options, report);
     const CoveredCells covered = make_cells(tree, orientation.winding, options, report, meter);
     // From here on only the input is needed, not the partition.
     tree.nodes = {};

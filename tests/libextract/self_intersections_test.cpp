@@ -222,6 +222,21 @@ TEST(SelfIntersections, AgreeWithAllPairsOneByOne) {
   }
 }
 
+TEST(SelfIntersections, WhetherThereAreAnyIsToldWithoutCountingAll) {
+  SelfIntersectionOptions options;
+  options.only_whether = true;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriangleSoup soup = testing::random_soup(8, 12, seed);
+    EXPECT_EQ(self_intersections(soup, options).count > 0, self_intersections(soup).count > 0);
+  }
+  const TriangleSoup spheres = testing::two_overlapping_spheres(20'000);
+  const std::size_t all = self_intersections(spheres).count;
+  const std::size_t some = self_intersections(spheres, options).count;
+  EXPECT_GT(some, 0u);
+  EXPECT_LE(some, all);
+}
+
 // Over and under the triangle (0 0 0) (6 0 0) (0 6 0), with points of its own.
 TriangleSoup bipyramid(const Vec3d& top, const Vec3d& bottom) {
   TriangleSoup soup;

@@ -11,6 +11,7 @@ namespace meshrepair {
 
 struct PartOrientation {
   std::vector<std::uint32_t> part_of;  // of each triangle
+  std::vector<std::uint32_t> depth;    // of each part: how many others lie around it
   std::vector<char> inside_out;        // of each part: 1 if it faces the wrong way
 };
 

@@ -19,7 +19,9 @@ struct SelfIntersectionOptions {
   // Of listed triangles alone: those, too, that lie on each other in nearly one plane, no further
   // apart than this, as far as doubles tell. They count as coplanar. 0: none.
   double nearness = 0;
-  std::size_t most_pairs = 1000;         // that are kept; all are counted
+  std::size_t most_pairs = 1000;  // that are kept; all are counted
+  // Stop where there are some: then how many, and which, may change from run to run.
+  bool only_whether = false;
   ProgressObserver* progress = nullptr;  // not owned; no stage is begun
 };
 

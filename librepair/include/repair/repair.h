@@ -1,5 +1,5 @@
 // The whole pipeline, as one call and in its three steps. The steps in a row give the same bytes as
-// the one call, unless that keeps what is valid.
+// the one call, unless that spares the cells of what is valid, or nearly.
 #pragma once
 
 #include <cstddef>
@@ -57,8 +57,9 @@ struct RepairOptions {
   // Told what the result will be, but for what certification moves, which may take much longer than
   // all before; what it throws ends the work.
   std::function<void(const RepairReport&)> examine;
-  // Leave a soup that is the boundary of a solid as it is (valid_solid.h), where no other option
-  // asks for something else: the work for it is a small part of that of a repair.
+  // Leave a soup that is the boundary of a solid as it is, and make no cells where cleaning,
+  // closing holes and turning parts makes one of it (valid_solid.h), unless another option asks for
+  // more: the work for that is a small part of that of a repair.
   bool keep_valid = false;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
@@ -70,7 +71,8 @@ inline constexpr double kDefaultSimplify = 5e-7;
 
 // Filled as far as the work came, also when it ended with an exception.
 struct RepairReport {
-  bool kept_valid = false;  // nothing was wrong, and the rest of the work was not done
+  bool kept_valid = false;    // nothing was wrong, and the rest of the work was not done
+  bool spared_cells = false;  // cleaned, closed and turned it was a solid: all about cells is 0
   CleanReport clean;
   Topology input;         // of the clean soup
   double input_area = 0;  // of the clean soup, in the input's units, squared

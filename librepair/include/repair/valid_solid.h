@@ -1,12 +1,15 @@
-// Meshes that need no repair.
+// Meshes that need no cells.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
+#include <bsp/clean_soup.h>
 #include <bsp/progress.h>
 #include <bsp/soup.h>
 #include <extract/surface.h>
 #include <repair/certify.h>
+#include <repair/orient_parts.h>
 
 namespace meshrepair {
 
@@ -19,5 +22,20 @@ namespace meshrepair {
 [[nodiscard]] std::optional<Surface> valid_solid(const TriangleSoup& soup,
                                                  const CertifyOptions& options,
                                                  ProgressObserver* progress);
+
+struct MendedSolid {
+  Surface surface;
+  std::size_t turned_parts = 0;  // that told which way is out, and faced the other way
+  std::size_t cavity_walls = 0;  // that did not tell, and are found to be that
+};
+
+// The same of a soup that was cleaned, whose holes were closed and whose triangles were turned. The
+// parts are turned where that makes such a boundary of it and InsideRule::automatic would do so:
+// any that do not tell which way is out, others if none lies in another, or if all are inside out.
+// Without `orientation.parts` none is.
+[[nodiscard]] std::optional<MendedSolid> mended_solid(const CleanSoup& soup,
+                                                      const Orientation& orientation,
+                                                      const CertifyOptions& options,
+                                                      ProgressObserver* progress);
 
 }  // namespace meshrepair

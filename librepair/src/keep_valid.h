@@ -1,0 +1,27 @@
+// Repairs that need no cells. None of these does anything unless RepairOptions::keep_valid asks for
+// it; where they give a surface, the report is complete but for its stages.
+#pragma once
+
+#include <optional>
+
+#include <bsp/clean_soup.h>
+#include <bsp/soup.h>
+#include <extract/surface.h>
+#include <repair/orient_parts.h>
+#include <repair/repair.h>
+#include <repair/stage_meter.h>
+
+namespace meshrepair::internal {
+
+// The soup, if it is the boundary of a solid.
+[[nodiscard]] std::optional<Surface> keep_as_given(const TriangleSoup& soup,
+                                                   const RepairOptions& options,
+                                                   RepairReport& report, StageMeter& meter);
+
+// The clean soup with its holes closed and turned as `orientation` says, if that is one.
+[[nodiscard]] std::optional<Surface> keep_mended(const CleanSoup& soup,
+                                                 const Orientation& orientation,
+                                                 const RepairOptions& options, RepairReport& report,
+                                                 StageMeter& meter);
+
+}  // namespace meshrepair::internal

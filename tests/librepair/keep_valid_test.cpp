@@ -1,0 +1,196 @@
+// Meshes that are solids once cleaned, closed and turned: no cells are made of them, and what comes
+// out is what the cells would have given.
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <repair/repair.h>
+
+#include "degenerate_soups.h"
+#include "open_surfaces.h"
+#include "random_solids.h"
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+RepairOptions sparing_cells() {
+  RepairOptions options;
+  options.keep_valid = true;
+  return options;
+}
+
+// The triangles by their corners, the lowest first, with their sources.
+std::vector<std::pair<std::array<double, 9>, std::uint32_t>> contents(const Surface& surface) {
+  std::vector<std::pair<std::array<double, 9>, std::uint32_t>> all;
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    std::array<std::array<double, 3>, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d& p = surface.mesh.points[surface.mesh.triangles[t][k]];
+      corners[k] = {p.x(), p.y(), p.z()};
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    std::array<double, 9> flat{};
+    for (std::size_t i = 0; i < 9; ++i) flat[i] = corners[i / 3][i % 3];
+    all.emplace_back(flat, surface.source[t]);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void expect_same(const RepairResult& spared, const RepairResult& whole) {
+  EXPECT_EQ(contents(spared.surface), contents(whole.surface));
+  const RepairReport& a = spared.report;
+  const RepairReport& b = whole.report;
+  EXPECT_TRUE(a.certify.passed());
+  EXPECT_EQ(a.inside.used, b.inside.used);
+  EXPECT_EQ(a.inside.turned_parts, b.inside.turned_parts);
+  EXPECT_EQ(a.inside.cavity_walls, b.inside.cavity_walls);
+  EXPECT_EQ(a.inside.doubtful_parts, b.inside.doubtful_parts);
+  EXPECT_EQ(a.orient.turned_triangles, b.orient.turned_triangles);
+  EXPECT_EQ(a.holes.triangles, b.holes.triangles);
+  EXPECT_EQ(a.triangles.untouched, b.triangles.untouched);
+  EXPECT_EQ(a.triangles.cut, b.triangles.cut);
+  EXPECT_EQ(a.parts.bounding_triangles, b.parts.bounding_triangles);
+  EXPECT_EQ(a.output.parts, b.output.parts);
+  EXPECT_NEAR(a.output_volume, b.output_volume, 1e-12 * std::abs(b.output_volume));
+  EXPECT_NEAR(a.closing_area, b.closing_area, 1e-12 * b.output_area);
+}
+
+// Whether cells were spared; then the result is that of the whole work.
+bool spares_cells(const TriangleSoup& soup, RepairOptions options) {
+  options.keep_valid = true;
+  RepairResult spared;
+  try {
+    spared = repair(soup, options);
+  } catch (const NoSolidError&) {
+    return false;
+  }
+  if (!spared.report.spared_cells) return false;
+  options.keep_valid = false;
+  expect_same(spared, repair(soup, options));
+  return true;
+}
+
+// Balls in each other, each facing any way, and one beside them.
+TriangleSoup nested_balls(Random& random) {
+  TriangleSoup soup;
+  double radius = 1;
+  for (int depth = random.integer(1, 3); depth > 0; --depth, radius *= 0.7) {
+    const TriangleSoup ball = sphere(200, radius);
+    append(soup, random.chance(0.5) ? flipped(ball) : ball);
+  }
+  if (random.chance(0.4)) {
+    const TriangleSoup ball = sphere(100, 1, {5, 0, 0});
+    append(soup, random.chance(0.5) ? flipped(ball) : ball);
+  }
+  return soup;
+}
+
+TriangleSoup damaged(TriangleSoup soup, Random& random, std::uint64_t seed) {
+  constexpr std::array kFlipped = {0.0, 0.1, 0.5};
+  constexpr std::array kMissing = {0.0, 0.02};
+  constexpr std::array kCopied = {0.0, 0.1};
+  soup = with_some_flipped(soup, kFlipped[static_cast<std::size_t>(random.integer(0, 2))], seed);
+  soup = without_some(soup, kMissing[static_cast<std::size_t>(random.integer(0, 1))], seed);
+  return with_copies(soup, kCopied[static_cast<std::size_t>(random.integer(0, 1))], seed);
+}
+
+TEST(KeepValid, DamagedBallsComeOutAsFromCells) {
+  std::size_t spared = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const TriangleSoup soup = damaged(nested_balls(random), random, seed);
+    RepairOptions options;
+    if (random.chance(0.3)) options.inside.rule = InsideRule::winding;
+    if (random.chance(0.2)) options.inside.rule = InsideRule::parity;
+    spared += spares_cells(soup, options);
+  }
+  EXPECT_GT(spared, 40u);
+}
+
+TEST(KeepValid, DamagedSolidsComeOutAsFromCells) {
+  std::size_t spared = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    spared += spares_cells(damaged(random_solid(random), random, seed), {});
+  }
+  for (const OpenSurface& open : open_surfaces()) {
+    SCOPED_TRACE(open.name);
+    spared += spares_cells(open.soup, {});
+  }
+  EXPECT_GT(spared, 20u);
+}
+
+TEST(KeepValid, SparesCellsWhereHolesAndTurnsAreAll) {
+  TriangleSoup soup = torus(40, 20);
+  soup = without_some(with_some_flipped(soup, 0.2, 3), 0.05, 3);
+  const RepairResult result = repair(soup, sparing_cells());
+  EXPECT_TRUE(result.report.spared_cells);
+  EXPECT_FALSE(result.report.kept_valid);
+  EXPECT_EQ(result.report.cells, 0u);
+  EXPECT_EQ(result.report.triangles.untouched, soup.triangles.size());
+  EXPECT_GT(result.report.holes.closed, 0u);
+  EXPECT_GT(result.report.orient.turned_triangles, 0u);
+}
+
+TEST(KeepValid, MakesCellsWhereSheetsCross) {
+  TriangleSoup soup = two_overlapping_spheres(400);
+  std::swap(soup.triangles[7][0], soup.triangles[7][1]);
+  const RepairResult result = repair(soup, sparing_cells());
+  EXPECT_FALSE(result.report.spared_cells);
+  EXPECT_GT(result.report.cells, 0u);
+}
+
+// What is inside out, alone or as a whole, is turned; of nested parts that contradict each other
+// the cells tell.
+TEST(KeepValid, TurnsPartsAsTheRuleDoes) {
+  const TriangleSoup outer = box({0, 0, 0}, {9, 9, 9}), inner = box({1, 1, 1}, {8, 8, 8});
+  const auto both = [](TriangleSoup a, const TriangleSoup& b) {
+    append(a, b);
+    return a;
+  };
+  EXPECT_TRUE(spares_cells(flipped(outer), {}));
+  EXPECT_TRUE(spares_cells(both(flipped(outer), inner), {}));
+  EXPECT_TRUE(spares_cells(both(flipped(outer), moved(inner, {20, 0, 0})), {}));
+  EXPECT_FALSE(spares_cells(both(outer, inner), {}));
+  EXPECT_FALSE(spares_cells(both(flipped(outer), flipped(inner)), {}));
+  RepairOptions as_given;
+  as_given.inside.rule = InsideRule::winding;
+  EXPECT_FALSE(spares_cells(flipped(outer), as_given));
+}
+
+TEST(KeepValid, GivesWayToWhatOnlyCellsTell) {
+  const TriangleSoup soup = without_some(sphere(300), 0.05, 1);
+  ASSERT_TRUE(spares_cells(soup, {}));
+  RepairOptions options;
+  options.opacity.assign(soup.triangles.size(), 0.5f);
+  EXPECT_FALSE(spares_cells(soup, options));
+  options = {};
+  options.inside.cavities = Cavities::fill;
+  EXPECT_FALSE(spares_cells(soup, options));
+  options = {};
+  options.predicates = Predicates::floating;
+  EXPECT_FALSE(spares_cells(soup, options));
+}
+
+TEST(KeepValid, IsExaminedLikeAnyResult) {
+  std::vector<std::size_t> triangles;
+  RepairOptions options = sparing_cells();
+  options.examine = [&](const RepairReport& report) {
+    triangles.push_back(report.output.triangles);
+  };
+  (void)repair(cube(), options);
+  (void)repair(flipped(cube()), options);
+  EXPECT_EQ(triangles, (std::vector<std::size_t>{12, 12}));
+}
+
+}  // namespace
+}  // namespace meshrepair
