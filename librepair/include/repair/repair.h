@@ -53,6 +53,10 @@ struct RepairOptions {
   // How far the surface may move to have fewer triangles where it was cut, as a share of the
   // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
   double simplify = 0;
+  // In single precision, slits and fins thinner than so many steps of its numbers are filled and
+  // dropped where triangles are cut, as their sheets would cross once they are written; wider ones,
+  // up to 16 times, where few faults are left else. 0: none are.
+  double slit_steps = 4;
   CertifyOptions certify;
   // Told what the result will be, but for what certification moves, which may take much longer than
   // all before; what it throws ends the work.
