@@ -122,6 +122,7 @@ void count_layers(CleanSoup& soup, std::span<const CopiedTriangle> copied) {
     Triangle& triangle = soup.triangles[copied[i].triangle];
     const std::int32_t all = counts[i] != 0 ? copied[i].layers : copied[i].facing;
     triangle.winding *= std::clamp(all, -1, 1);
+    if (all < 0) std::swap(triangle.corners[1], triangle.corners[2]);
     triangle.layers = std::max(1, std::abs(all));
   }
 }

@@ -15,11 +15,12 @@ struct CopiedTriangle {
   std::int32_t layers = 0;  // as faces of their own
 };
 
-// Sets `winding` and `layers` of the copied triangles. A face that is there twice is mostly one
-// face; but where closed surfaces overlap with a face in common, each has its own, and the edges
-// around tell: they are balanced, passed as often one way as the other, with all layers. It is
-// decided for each set of copied triangles that are connected through edges, then changed for
-// single ones. All others have to have their winding; `copied` is without repetition. n log n.
+// Sets `winding` and `layers` of the copied triangles, and turns the corners of those that count
+// against the first. A face that is there twice is mostly one face; but where closed surfaces
+// overlap with a face in common, each has its own, and the edges around tell: they are balanced,
+// passed as often one way as the other, with all layers. It is decided for each set of copied
+// triangles that are connected through edges, then changed for single ones. All others have to have
+// their winding; `copied` is without repetition. n log n.
 void count_layers(CleanSoup& soup, std::span<const CopiedTriangle> copied);
 
 }  // namespace meshrepair::internal

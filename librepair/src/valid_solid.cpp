@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 #include <bsp/topology.h>
 #include <bsp/weld_points.h>
 #include <extract/edge_contacts.h>
+#include <extract/mesh_parts.h>
 #include <extract/part_orientation.h>
 #include <extract/self_intersections.h>
 #include <repair/valid_solid.h>
@@ -131,6 +133,17 @@ bool may_turn(const PartOrientation& found, const std::vector<char>& tells) {
   return !any_told_wrong || all_told_wrong || !any_nested;
 }
 
+// Thinner, on average, than a step of the grid: it is nothing to the rest of a repair.
+bool any_part_is_thin(const TriangleSoup& mesh, const PartOrientation& found, double step) {
+  const UnitScale scale(mesh.points);
+  const std::vector<PartSize> sizes =
+      part_sizes(mesh.points, mesh.triangles, found.part_of,
+                 static_cast<std::uint32_t>(found.inside_out.size()), scale);
+  return std::any_of(sizes.begin(), sizes.end(), [&](const PartSize& size) {
+    return 2 * std::abs(size.volume) < scale(step) * size.area;
+  });
+}
+
 }  // namespace
 
 std::optional<Surface> valid_solid(const TriangleSoup& soup, const CertifyOptions& options,
@@ -151,6 +164,7 @@ std::optional<MendedSolid> mended_solid(const CleanSoup& soup, const Orientation
   const std::vector<char> tells = parts_that_tell(found, orientation);
   const bool turns_any = any(found.inside_out);
   if (turns_any && (orientation.parts.empty() || !may_turn(found, tells))) return std::nullopt;
+  if (any_part_is_thin(surface->mesh, found, soup.grid.unit)) return std::nullopt;
   MendedSolid solid{std::move(*surface)};
   for (std::size_t part = 0; part < tells.size(); ++part) {
     solid.turned_parts += found.inside_out[part] != 0 && tells[part] != 0;

@@ -250,6 +250,7 @@ TEST(CleanSoup, CopiesCountOnlyWhereThatBalancesEdges) {
     const std::vector<int> as_counted = facings_as_counted(clean);
     if (as_counted == as_one) continue;
     ++counted;
+    expect_consistent(clean, report);
     EXPECT_LT(imbalance(clean, as_counted), imbalance(clean, as_one));
   }
   EXPECT_GT(counted, 30u);

@@ -129,6 +129,23 @@ TEST(KeepValid, DamagedSolidsComeOutAsFromCells) {
   EXPECT_GT(spared, 20u);
 }
 
+// A face that is there once as it should be and twice the other way round counts as the latter.
+TEST(KeepValid, CopiesThatOutvoteTheFirstAreAsFromCells) {
+  TriangleSoup soup = cube();
+  for (int i = 0; i < 2; ++i)
+    soup.triangles.push_back({soup.triangles[0][1], soup.triangles[0][0], soup.triangles[0][2]});
+  EXPECT_TRUE(spares_cells(soup, {}));
+  std::size_t spared = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    TriangleSoup ball = with_some_flipped(nested_balls(random), 0.3, seed);
+    for (const std::uint64_t more : {1u, 2u, 3u}) ball = with_copies(ball, 0.3, seed + more);
+    spared += spares_cells(ball, {});
+  }
+  EXPECT_GT(spared, 20u);
+}
+
 TEST(KeepValid, SparesCellsWhereHolesAndTurnsAreAll) {
   TriangleSoup soup = torus(40, 20);
   soup = without_some(with_some_flipped(soup, 0.2, 3), 0.05, 3);
@@ -179,6 +196,25 @@ TEST(KeepValid, GivesWayToWhatOnlyCellsTell) {
   options = {};
   options.predicates = Predicates::floating;
   EXPECT_FALSE(spares_cells(soup, options));
+}
+
+// A triangle and the two halves of it: closed by a third one that has hardly any area, and nothing
+// that the grid could tell.
+TEST(KeepValid, MakesCellsOfSheetsThinnerThanTheGrid) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto corner = [&] {
+      return Vec3d(3 + random.real(0, 1), random.real(0, 1), random.real(0, 1));
+    };
+    const Vec3d a = corner(), b = corner(), c = corner();
+    const Vec3d middle = (a + b) / 2;
+    TriangleSoup soup = cube();
+    add_triangle(soup, a, b, c);
+    add_triangle(soup, a, middle, c);
+    add_triangle(soup, middle, b, c);
+    EXPECT_FALSE(spares_cells(soup, {}));
+  }
 }
 
 TEST(KeepValid, IsExaminedLikeAnyResult) {

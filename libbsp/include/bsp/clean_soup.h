@@ -15,7 +15,8 @@ namespace meshrepair {
 
 // A triangle that is not degenerate on the grid and differs from every other one in its corners.
 struct Triangle {
-  std::array<PointId, 3> corners;  // in the order of its first copy
+  // In the order of its first copy, or the other way round if that is how it counts.
+  std::array<PointId, 3> corners;
   PlaneId plane;
   // How its copies are turned: +1 more along the plane's normal than against it, -1 fewer, 0 as
   // many. Those at the very same place, as given, count once for each way they are turned, but for

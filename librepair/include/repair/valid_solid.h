@@ -32,7 +32,7 @@ struct MendedSolid {
 // The same of a soup that was cleaned, whose holes were closed and whose triangles were turned. The
 // parts are turned where that makes such a boundary of it and InsideRule::automatic would do so:
 // any that do not tell which way is out, others if none lies in another, or if all are inside out.
-// Without `orientation.parts` none is.
+// Without `orientation.parts` none is. Not where a part is thinner than a step of the grid.
 [[nodiscard]] std::optional<MendedSolid> mended_solid(const CleanSoup& soup,
                                                       const Orientation& orientation,
                                                       const CertifyOptions& options,
