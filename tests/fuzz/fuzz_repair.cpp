@@ -89,7 +89,7 @@ void require_sound_report(const RepairReport& report) {
   if (!(report.output_area < kLargest)) return;
   // Not positive only where it is thinner than the numbers tell.
   const double size = std::pow(report.output_area, 1.5);
-  require(report.output_volume > -1e-9 * size, "the volume is negative");
+  require(report.output_volume >= -1e-9 * size, "the volume is negative");
 }
 
 void require_true_certificate(const Surface& surface, const CertifyReport& report,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -93,6 +94,56 @@ TEST(ThinCells, TheVolumeChangesByAFewStepsOfTheNumbers) {
     EXPECT_TRUE(check_surface(in_single.surface.mesh).valid_solid()) << seed;
   }
   EXPECT_GT(changed, 0u);
+}
+
+// A ball, and three copies with points that are off by less than a step of single precision.
+TriangleSoup nearly_equal_balls(std::uint64_t seed) {
+  Random random(seed);
+  const TriangleSoup ball = noisy_sphere(150, 0.2, seed);
+  TriangleSoup soup = ball;
+  constexpr double kOff = 1e-7;
+  for (int i = 0; i < 3; ++i) {
+    TriangleSoup copy = ball;
+    for (Vec3d& p : copy.points) {
+      p += Vec3d(random.real(-kOff, kOff), random.real(-kOff, kOff), random.real(-kOff, kOff));
+    }
+    append(soup, copy);
+  }
+  return soup;
+}
+
+std::size_t attempts(const RepairReport& report) {
+  return static_cast<std::size_t>(
+      std::count_if(report.stages.begin(), report.stages.end(),
+                    [](const StageReport& stage) { return stage.name == "extract"; }));
+}
+
+TEST(ThinCells, SlitsAreWidenedWhereFewFaultsAreLeft) {
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  options.certify.most_rounds = 1;
+  options.slit_steps = 0.25;
+  const TriangleSoup soup = nearly_equal_balls(5);
+  const RepairResult result = repair(soup, options);
+  EXPECT_GT(attempts(result.report), 1u);
+  EXPECT_LE(attempts(result.report), 3u);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
+  const RepairReport in_double = repaired(soup, Precision::float64).report;
+  EXPECT_LT(std::abs(in_double.output_volume - result.report.output_volume),
+            16 * options.slit_steps * 0x1p-23 * in_double.output_area);
+}
+
+TEST(ThinCells, SlitsCanBeLeftAlone) {
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  options.certify.most_rounds = 0;
+  options.slit_steps = 0;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const RepairReport report = repair(nearly_equal_balls(seed), options).report;
+    EXPECT_EQ(report.thin_cells.filled + report.thin_cells.emptied, 0u);
+    EXPECT_EQ(attempts(report), 1u);
+  }
 }
 
 }  // namespace
