@@ -40,7 +40,7 @@ struct Operand {
   bool as_given = false;  // was the boundary of a solid already
 };
 
-Operand read_mesh_operand(const RepairOptions& repair_options, Run& run, Findings& findings) {
+Operand read_mesh_operand(RepairOptions repair_options, Run& run, Findings& findings) {
   TriangleSoup soup = read_mesh_stage(run, findings, true);
   if (soup.triangles.empty()) return {{}, true};
   {
@@ -48,6 +48,7 @@ Operand read_mesh_operand(const RepairOptions& repair_options, Run& run, Finding
     meter.begin("validate");
     if (auto kept = keep_valid(soup, repair_options)) return {std::move(kept->mesh), true};
   }
+  repair_options.keep_valid = true;
   return {repair(soup, repair_options, findings.repair).mesh};
 }
 

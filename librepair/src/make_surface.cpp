@@ -184,13 +184,13 @@ class SurfaceMaker {
     Surface extracted = extract(*covered_, solid_, options_, report_);
     if (!options_.certify.wanted || !may_widen) covered_.reset();
     const RepairReport at_first = report_;
-    const bool may_be_plain = options_.certify.wanted && options_.simplify > 0;
-    surface_ =
-        finish(input_, may_be_plain ? extracted : std::move(extracted), options_, report_, meter_);
+    std::optional<Surface> with_all_triangles;
+    if (options_.certify.wanted && options_.simplify > 0) with_all_triangles = extracted;
+    surface_ = finish(input_, std::move(extracted), options_, report_, meter_);
     // Many are left where the surface is finer than the numbers, and would be again.
     if (report_.certify.faults() > kFewFaults) return std::move(surface_);
     if (covered_) widen_slits();
-    if (may_be_plain) leave_all_triangles(std::move(extracted), at_first);
+    if (with_all_triangles) leave_all_triangles(std::move(*with_all_triangles), at_first);
     return std::move(surface_);
   }
 
