@@ -1,7 +1,6 @@
 // The whole way: any soup is refused by one of the exceptions that are meant for it, or becomes a
 // surface that is what the report says, by an examination that shares nothing with the repair.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -16,10 +15,12 @@
 #include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
 #include <extract/check_surface.h>
+#include <extract/self_intersections.h>
 #include <repair/repair.h>
 
 #include "repair_request.h"
 #include "require_surface.h"
+#include "triangles_by_place.h"
 
 namespace meshrepair::testing {
 namespace {
@@ -97,10 +98,10 @@ void require_true_certificate(const Surface& surface, const CertifyReport& repor
   require(report.done, "there is no certificate");
   const SurfaceCheck check = check_surface(as_written(surface, options));
   // Where the format joins points, sheets that cross along an edge have that edge in common once
-  // they are read.
-  if (report.joined_points == 0) {
-    require(check.self_intersections.count == report.pairs, "other triangles intersect");
-  }
+  // they are read: then it is the surface itself that is spoken of.
+  const std::size_t pairs = report.joined_points == 0 ? check.self_intersections.count
+                                                      : self_intersections(surface.mesh).count;
+  require(pairs == report.pairs, "other triangles intersect");
   require(check.self_intersections.degenerate == report.degenerate, "others are degenerate");
   if (!report.passed()) return;
   require_valid_solid(check);
@@ -169,8 +170,9 @@ void require_unchanged(const RepairRequest& request, const Outcome& outcome) {
   // A face that is there several times is one, unless as many layers of it balance the edges around
   // better. So a copy more may count, and other layers may after that.
   const auto require_same_from = [&](const TriangleSoup& changed, const std::string& what) {
-    if (counts_of(soup, blind) != counts_of(changed, blind)) return;
-    require_same(outcome, repair_at_once(changed, options), what);
+    const Outcome other = repair_at_once(changed, options);
+    require_sound(other, changed, options);
+    if (counts_of(soup, blind) == counts_of(changed, blind)) require_same(outcome, other, what);
   };
   switch (request.change) {
     case Change::none:
@@ -185,22 +187,6 @@ void require_unchanged(const RepairRequest& request, const Outcome& outcome) {
   }
 }
 
-// Each from its lowest corner on.
-std::vector<std::array<std::array<double, 3>, 3>> triangles_in_order(const TriangleSoup& mesh) {
-  std::vector<std::array<std::array<double, 3>, 3>> all;
-  for (const IndexTriangle& t : mesh.triangles) {
-    std::array<std::array<double, 3>, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d& p = mesh.points[t[k]];
-      corners[k] = {p.x(), p.y(), p.z()};
-    }
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    all.push_back(corners);
-  }
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
 // What is made without cells is what the cells give.
 void require_same_without_cells(const RepairRequest& request, const Outcome& outcome) {
   RepairOptions options = request.options;
@@ -209,7 +195,7 @@ void require_same_without_cells(const RepairRequest& request, const Outcome& out
   if (!spared.report.spared_cells) return;
   require_sound(spared, request.soup, options);
   require(outcome.surface &&
-              triangles_in_order(outcome.surface->mesh) == triangles_in_order(spared.surface->mesh),
+              triangles_by_place(outcome.surface->mesh) == triangles_by_place(spared.surface->mesh),
           "cells give other triangles");
 }
 

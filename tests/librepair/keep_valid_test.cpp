@@ -13,6 +13,7 @@
 #include "open_surfaces.h"
 #include "random_solids.h"
 #include "shapes.h"
+#include "triangles_by_place.h"
 
 namespace meshrepair {
 namespace {
@@ -25,19 +26,11 @@ RepairOptions sparing_cells() {
   return options;
 }
 
-// The triangles by their corners, the lowest first, with their sources.
-std::vector<std::pair<std::array<double, 9>, std::uint32_t>> contents(const Surface& surface) {
-  std::vector<std::pair<std::array<double, 9>, std::uint32_t>> all;
+// The triangles with their sources.
+std::vector<std::pair<PlacedTriangle, std::uint32_t>> contents(const Surface& surface) {
+  std::vector<std::pair<PlacedTriangle, std::uint32_t>> all;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    std::array<std::array<double, 3>, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d& p = surface.mesh.points[surface.mesh.triangles[t][k]];
-      corners[k] = {p.x(), p.y(), p.z()};
-    }
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    std::array<double, 9> flat{};
-    for (std::size_t i = 0; i < 9; ++i) flat[i] = corners[i / 3][i % 3];
-    all.emplace_back(flat, surface.source[t]);
+    all.emplace_back(placed_triangle(surface.mesh, t), surface.source[t]);
   }
   std::sort(all.begin(), all.end());
   return all;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,28 +9,12 @@
 #include "complexes.h"
 #include "degenerate_soups.h"
 #include "shapes.h"
+#include "triangles_by_place.h"
 
 namespace meshrepair {
 namespace {
 
 using namespace testing;
-
-using Place = std::array<double, 3>;
-
-std::multiset<std::array<Place, 3>> triangles_of(const TriangleSoup& mesh) {
-  std::multiset<std::array<Place, 3>> all;
-  for (const auto& t : mesh.triangles) {
-    std::array<Place, 3> triangle{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d& p = mesh.points[t[k]];
-      triangle[k] = {p.x(), p.y(), p.z()};
-    }
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
-                triangle.end());
-    all.insert(triangle);
-  }
-  return all;
-}
 
 RepairResult repaired(const TriangleSoup& soup) {
   RepairResult result = repair(soup);
@@ -46,7 +29,7 @@ TEST(MergedOutput, SoundMeshesComeOutBitForBit) {
        {cube(), sphere(500), torus(20, 12), cone(50), transformed(sphere(300), turned),
         transformed(torus(13, 9), turned), moved(cube(), {1e3, 2e-3, 0.1})}) {
     const RepairResult result = repaired(soup);
-    EXPECT_EQ(triangles_of(result.surface.mesh), triangles_of(soup));
+    EXPECT_EQ(triangles_by_place(result.surface.mesh), triangles_by_place(soup));
     EXPECT_EQ(result.report.triangles.untouched, soup.triangles.size());
   }
 }
@@ -126,7 +109,7 @@ TEST(MergedOutput, SolidsThatTouchComeOutAsTheyAre) {
       EXPECT_EQ(result.surface.mesh.triangles.size(), soup.triangles.size() + cut);
       if (cut > 0) continue;
       ++as_they_are;
-      EXPECT_EQ(triangles_of(result.surface.mesh), triangles_of(soup));
+      EXPECT_EQ(triangles_by_place(result.surface.mesh), triangles_by_place(soup));
     }
   }
   EXPECT_GT(as_they_are, 5u);

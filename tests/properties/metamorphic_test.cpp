@@ -1,6 +1,5 @@
 // What a change of the input must do to the output.
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "complexes.h"
 #include "degenerate_soups.h"
+#include "triangles_by_place.h"
 
 namespace meshrepair {
 namespace {
@@ -53,22 +53,6 @@ void expect_same_bits(const TriangleSoup& a, const TriangleSoup& b) {
           << "point " << i;
     }
   }
-}
-
-// The triangles by their coordinates, each from its lowest corner on, sorted.
-std::vector<std::array<std::array<double, 3>, 3>> triangles_by_place(const TriangleSoup& mesh) {
-  std::vector<std::array<std::array<double, 3>, 3>> all;
-  for (const auto& t : mesh.triangles) {
-    auto& triangle = all.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d& p = mesh.points[t[k]];
-      triangle[k] = {p.x(), p.y(), p.z()};
-    }
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
-                triangle.end());
-  }
-  std::sort(all.begin(), all.end());
-  return all;
 }
 
 void expect_same_mesh(const std::optional<RepairResult>& a, const std::optional<RepairResult>& b) {
