@@ -44,6 +44,7 @@ struct Region {
   int side = 0;
   std::size_t begin = 0;
   std::size_t depth = 0;
+  Vec3d low = Vec3d::Zero(), high = Vec3d::Zero();  // a box around it
 };
 
 struct BoxPlane {
@@ -87,6 +88,8 @@ class TreeBuilder {
       report_.depth = std::max(report_.depth, region.depth);
       if (stack_.size() == region.begin) {
         attach(region, TreeRef(tree_.leaves.push_back({})));
+      } else if (options_.divides && !options_.divides(region.low, region.high)) {
+        leave_undivided(region);
       } else {
         divide(region);
       }
@@ -114,7 +117,18 @@ class TreeBuilder {
       inside = box_plane.inside_is_front ? front : back;
       attach(box_plane.inside_is_front ? back : front, TreeRef(tree_.leaves.push_back({})));
     }
+    const GridBox box = bounding_box(tree_.input);
+    inside.low = as_vector(box.low);
+    inside.high = as_vector(box.high);
     regions_.push_back(inside);
+  }
+
+  void leave_undivided(const Region& region) {
+    for (const FragmentId id : fragments(region)) pool_.release(id);
+    stack_.resize(region.begin);
+    Leaf leaf;
+    leaf.undivided = true;
+    attach(region, TreeRef(tree_.leaves.push_back(leaf)));
   }
 
   std::span<const FragmentId> fragments(const Region& region) const {
@@ -214,10 +228,28 @@ class TreeBuilder {
     // The front is divided first, so it goes on top.
     const std::size_t back_begin = stack_.size();
     stack_.insert(stack_.end(), back_.begin(), back_.end());
-    regions_.push_back({id, 1, back_begin, region.depth + 1});
+    regions_.push_back(part_of(region, 1, id, back_begin));
     const std::size_t front_begin = stack_.size();
     stack_.insert(stack_.end(), front_.begin(), front_.end());
-    regions_.push_back({id, 0, front_begin, region.depth + 1});
+    regions_.push_back(part_of(region, 0, id, front_begin));
+  }
+
+  // The part of a region on one side of a node. A plane across an axis makes its box smaller.
+  [[nodiscard]] Region part_of(const Region& region, int side, NodeId node,
+                               std::size_t begin) const {
+    Region part{node, side, begin, region.depth + 1, region.low, region.high};
+    const Plane& plane = tree_.input.planes[tree_.nodes[node].plane];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t n = plane.normal[axis];
+      if (n == 0 || plane.normal[(axis + 1) % 3] != 0 || plane.normal[(axis + 2) % 3] != 0)
+        continue;
+      const double at = -static_cast<double>(plane.offset) / static_cast<double>(n);
+      const bool is_above = (side == 0) == (n > 0);
+      double& bound = is_above ? part.low[static_cast<Eigen::Index>(axis)]
+                               : part.high[static_cast<Eigen::Index>(axis)];
+      bound = is_above ? std::max(bound, at) : std::min(bound, at);
+    }
+    return part;
   }
 
   // Done is what has left the stack; fragments born from cuts make it grow again, hence the

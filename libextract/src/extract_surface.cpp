@@ -338,7 +338,8 @@ Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cove
   if (complex.loose) {
     return LooseExtractor(complex, cover, solid, std::move(parts)).run(report, options.progress);
   }
-  parts.merged = merge_facets(complex, cover, solid, parts.boundary, parts.corners);
+  parts.merged =
+      merge_facets(complex, cover, solid, parts.boundary, parts.corners, {}, options.whole);
   parts.middles = separate_common_edges(complex, parts.boundary, parts.corners);
   const InputPoints input_points(complex.soup());
   return SurfaceExtractor(complex, cover, solid, parts, input_points).run(report, options.progress);

@@ -26,13 +26,15 @@ class FacetMerger {
  public:
   FacetMerger(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
               const std::vector<char>& solid, const Boundary& boundary,
-              const ManifoldCorners& corners, std::span<const char> alone)
+              const ManifoldCorners& corners, std::span<const char> alone,
+              std::span<const char> whole)
       : complex_(complex),
         cover_(cover),
         solid_(solid),
         boundary_(boundary),
         corners_(corners),
-        alone_(alone) {}
+        alone_(alone),
+        whole_(whole) {}
 
   MergedFacets run() {
     find_regions();
@@ -100,7 +102,8 @@ class FacetMerger {
     std::vector<char> cut(boundary_.polygons(), 0);
     for (std::uint32_t p = 0; p < boundary_.polygons(); ++p) {
       const TriangleId t = cover_[boundary_.facet[p]].triangle;
-      cut[p] = t.valid() && polygons[joined.root(p)] < facets[t.index()];
+      if (!t.valid() || (!whole_.empty() && whole_[t.index()] != 0)) continue;
+      cut[p] = polygons[joined.root(p)] < facets[t.index()];
     }
     return cut;
   }
@@ -280,7 +283,7 @@ class FacetMerger {
   const std::vector<char>& solid_;
   const Boundary& boundary_;
   const ManifoldCorners& corners_;
-  std::span<const char> alone_;
+  std::span<const char> alone_, whole_;
   // Of each vertex: how many regions meet there, up to 3, and a side between regions that starts
   // there.
   std::vector<char> sectors_;
@@ -292,8 +295,9 @@ class FacetMerger {
 
 MergedFacets merge_facets(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
                           const std::vector<char>& solid, const Boundary& boundary,
-                          const ManifoldCorners& corners, std::span<const char> alone) {
-  return FacetMerger(complex, cover, solid, boundary, corners, alone).run();
+                          const ManifoldCorners& corners, std::span<const char> alone,
+                          std::span<const char> whole) {
+  return FacetMerger(complex, cover, solid, boundary, corners, alone, whole).run();
 }
 
 }  // namespace meshrepair

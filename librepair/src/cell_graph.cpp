@@ -13,7 +13,8 @@ constexpr double kLeastArea = 1e-6;
 }  // namespace
 
 CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-                     ProgressObserver* progress, std::span<const CoverLayer> layers)
+                     ProgressObserver* progress, std::span<const CoverLayer> layers,
+                     std::span<const char> left_out)
     : first_(complex.cells.size() + 1, 0),
       volume_(complex.cells.size(), 0),
       unbounded_(complex.cells.size(), 0) {
@@ -21,6 +22,7 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
   const auto is_given = [&](TriangleId t) {
     return complex.soup().triangles[t].source != Triangle::kNoSource;
   };
+  const auto is_left_out = [&](CellId c) { return !left_out.empty() && left_out[c.index()] != 0; };
   std::size_t next_layer = 0;
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
     check.tick();
@@ -29,8 +31,9 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
       unbounded_[facet.below.index()] = 1;
     } else if (!facet.below.valid()) {
       unbounded_[facet.above.index()] = 1;
-    } else {
-      for (; next_layer < layers.size() && layers[next_layer].facet <= f; ++next_layer) {
+    } else if (!is_left_out(facet.below) && !is_left_out(facet.above)) {
+      while (next_layer < layers.size() && layers[next_layer].facet < f) ++next_layer;
+      for (; next_layer < layers.size() && layers[next_layer].facet == f; ++next_layer) {
         layers_.push_back({static_cast<std::uint32_t>(links_.size()), layers[next_layer].triangle});
       }
       const FacetMeasure measure = measure_facet(complex, f);

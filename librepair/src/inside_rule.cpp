@@ -109,8 +109,8 @@ class InsideDecider {
     const std::vector<double> given = w;
     const InsideReport before = report_;
     w = internal::turn_parts(graph_, orientation_, std::move(w), options_, report_);
-    const internal::OuterPockets pockets =
-        internal::turn_outer_pockets(graph_, orientation_.part_of, w);
+    const internal::OuterPockets pockets = internal::turn_outer_pockets(
+        graph_, orientation_.part_of, internal::solid_areas(graph_, orientation_.part_of, w), w);
     report_.left_out_folds = pockets.left_out;
     CellLabels labels = by_winding(w);
     if (!report_.exact) {

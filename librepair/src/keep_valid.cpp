@@ -12,16 +12,6 @@
 namespace meshrepair {
 namespace {
 
-// Else the cells are asked for themselves, or tell more than the surface does.
-bool may_spare_cells(const RepairOptions& options) {
-  return options.keep_valid && options.predicates == Predicates::exact && !options.check_cells &&
-         options.opacity.empty();
-}
-
-bool may_fill(const InsideOptions& options) {
-  return options.rule == InsideRule::solidity || options.cavities == Cavities::fill;
-}
-
 CertifyOptions written_as(const RepairOptions& options) {
   CertifyOptions written = options.certify;
   written.touching = options.extract.touching;
@@ -76,12 +66,21 @@ void describe_mended(const CleanSoup& soup, const MendedSolid& solid, const Repa
 }  // namespace
 
 std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
-  if (may_fill(options.inside)) return std::nullopt;
+  if (internal::may_fill(options.inside)) return std::nullopt;
   CancelOnly quiet(options.progress);
   return valid_solid(soup, written_as(options), &quiet);
 }
 
 namespace internal {
+
+bool may_spare_cells(const RepairOptions& options) {
+  return options.keep_valid && options.predicates == Predicates::exact && !options.check_cells &&
+         options.opacity.empty();
+}
+
+bool may_fill(const InsideOptions& options) {
+  return options.rule == InsideRule::solidity || options.cavities == Cavities::fill;
+}
 
 std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptions& options,
                                      RepairReport& report, StageMeter& meter) {

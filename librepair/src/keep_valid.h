@@ -13,6 +13,12 @@
 
 namespace meshrepair::internal {
 
+// Whether cells may be spared: else they are asked for themselves, or tell more than the surface.
+[[nodiscard]] bool may_spare_cells(const RepairOptions& options);
+
+// Whether the rule may fill what is hollow.
+[[nodiscard]] bool may_fill(const InsideOptions& options);
+
 // The soup, if it is the boundary of a solid.
 [[nodiscard]] std::optional<Surface> keep_as_given(const TriangleSoup& soup,
                                                    const RepairOptions& options,

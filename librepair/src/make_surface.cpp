@@ -66,7 +66,8 @@ Surface extract(const CoveredCells& covered, std::vector<char> solid, const Repa
                 RepairReport& report) {
   report.extract = {};
   fill_slits(covered, options, solid, report);
-  report.parts = find_part_fates(covered.complex, covered.cover, solid);
+  report.parts = find_part_fates(covered.complex.soup(),
+                                 places_of_triangles(covered.complex, covered.cover, solid));
   ExtractOptions extract_options = options.extract;
   extract_options.progress = options.progress;
   return extract_surface(covered.complex, covered.cover, solid, report.extract, extract_options);
@@ -136,35 +137,6 @@ Surface certify_simpler(const Surface& surface, Surface simpler, std::vector<cha
   return certify(std::move(simpler), grid, options, report.certify, settle_again);
 }
 
-Surface finish(const CleanSoup& input, Surface surface, const RepairOptions& options,
-               RepairReport& report, StageMeter& meter) {
-  require_range(surface, options.certify.precision);
-  const std::vector<char> whole = drop_crumbs(input, surface, report);
-  if (options.examine) {
-    describe_result(input, surface, report);
-    options.examine(report);
-  }
-  std::optional<Surface> simpler;
-  std::vector<char> stays;
-  report.simplify = {};
-  if (options.simplify > 0) {
-    meter.begin("simplify");
-    stays = points_of(surface, whole);
-    simpler = simplify(surface, stays, options, report.simplify);
-  }
-  if (options.certify.wanted) {
-    meter.begin("certify");
-    surface = simpler ? certify_simpler(surface, std::move(*simpler), std::move(stays), input.grid,
-                                        options, report)
-                      : certify(std::move(surface), input.grid, options, report.certify);
-  } else if (simpler) {
-    surface = std::move(*simpler);
-  }
-  meter.begin("check");
-  describe_result(input, surface, report);
-  return surface;
-}
-
 // Of cells that are labelled, the surface: the first one that is certified, else the one with the
 // fewest faults.
 class SurfaceMaker {
@@ -186,7 +158,7 @@ class SurfaceMaker {
     const RepairReport at_first = report_;
     std::optional<Surface> with_all_triangles;
     if (options_.certify.wanted && options_.simplify > 0) with_all_triangles = extracted;
-    surface_ = finish(input_, std::move(extracted), options_, report_, meter_);
+    surface_ = finish_surface(input_, std::move(extracted), options_, report_, meter_);
     // Many are left where the surface is finer than the numbers, and would be again.
     if (report_.certify.faults() > kFewFaults) return std::move(surface_);
     if (covered_) widen_slits();
@@ -223,7 +195,7 @@ class SurfaceMaker {
 
   void attempt(Surface surface, RepairOptions options, RepairReport report) {
     options.examine = nullptr;
-    surface = finish(input_, std::move(surface), options, report, meter_);
+    surface = finish_surface(input_, std::move(surface), options, report, meter_);
     if (report.certify.faults() >= report_.certify.faults()) return;
     report.stages = std::move(report_.stages);
     report_ = std::move(report);
@@ -240,6 +212,35 @@ class SurfaceMaker {
 };
 
 }  // namespace
+
+Surface finish_surface(const CleanSoup& input, Surface surface, const RepairOptions& options,
+                       RepairReport& report, StageMeter& meter) {
+  require_range(surface, options.certify.precision);
+  const std::vector<char> whole = drop_crumbs(input, surface, report);
+  if (options.examine) {
+    describe_result(input, surface, report);
+    options.examine(report);
+  }
+  std::optional<Surface> simpler;
+  std::vector<char> stays;
+  report.simplify = {};
+  if (options.simplify > 0) {
+    meter.begin("simplify");
+    stays = points_of(surface, whole);
+    simpler = simplify(surface, stays, options, report.simplify);
+  }
+  if (options.certify.wanted) {
+    meter.begin("certify");
+    surface = simpler ? certify_simpler(surface, std::move(*simpler), std::move(stays), input.grid,
+                                        options, report)
+                      : certify(std::move(surface), input.grid, options, report.certify);
+  } else if (simpler) {
+    surface = std::move(*simpler);
+  }
+  meter.begin("check");
+  describe_result(input, surface, report);
+  return surface;
+}
 
 Surface make_surface(CoveredCells covered, const std::vector<char>& solid,
                      const RepairOptions& options, RepairReport& report, StageMeter& meter) {

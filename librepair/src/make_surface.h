@@ -18,4 +18,10 @@ namespace meshrepair::internal {
                                    const RepairOptions& options, RepairReport& report,
                                    StageMeter& meter);
 
+// Simplifies and certifies a surface that was extracted from the cells of `input`, and describes
+// it.
+[[nodiscard]] Surface finish_surface(const CleanSoup& input, Surface surface,
+                                     const RepairOptions& options, RepairReport& report,
+                                     StageMeter& meter);
+
 }  // namespace meshrepair::internal

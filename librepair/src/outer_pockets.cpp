@@ -35,10 +35,14 @@ bool is_solid(double x) { return x > 0.5; }
 
 class PocketFinder {
  public:
-  PocketFinder(const CellGraph& graph, const PartOf& part_of, const std::vector<double>& w)
-      : graph_(graph), part_of_(part_of), w_(w), is_in_one_(graph.cells(), 0) {
+  PocketFinder(const CellGraph& graph, const PartOf& part_of, const std::vector<double>& solid_area,
+               const std::vector<double>& w)
+      : graph_(graph),
+        part_of_(part_of),
+        solid_area_(solid_area),
+        w_(w),
+        is_in_one_(graph.cells(), 0) {
     find_cells();
-    measure_parts();
     remaining_ = is_in_one_;
   }
 
@@ -83,16 +87,6 @@ class PocketFinder {
     }
   }
 
-  void measure_parts() {
-    for (const std::uint32_t part : part_of_) {
-      if (part >= solid_area_.size()) solid_area_.resize(part + 1, 0);
-    }
-    for (const Link& link : graph_.links()) {
-      const bool bounds = is_solid(w_[link.below.index()]) != is_solid(w_[link.above.index()]);
-      if (link.given && bounds) solid_area_[part_of_[link.triangle]] += link.area;
-    }
-  }
-
   void look_at(const Link& link, CellId cell, Pocket& pocket) {
     const CellId next = other_end(link, cell);
     if (is_in_one_[next.index()] != 0) {
@@ -112,10 +106,10 @@ class PocketFinder {
 
   const CellGraph& graph_;
   const PartOf& part_of_;
+  const std::vector<double>& solid_area_;
   const std::vector<double>& w_;
-  std::vector<char> is_in_one_;     // of each cell
-  std::vector<char> remaining_;     // of each cell: in a pocket that was not taken yet
-  std::vector<double> solid_area_;  // that a part bounds solid with
+  std::vector<char> is_in_one_;  // of each cell
+  std::vector<char> remaining_;  // of each cell: in a pocket that was not taken yet
 };
 
 bool is_fold(const Pocket& pocket) {
@@ -142,12 +136,25 @@ std::vector<char> find_folds(const std::vector<Pocket>& pockets) {
 
 }  // namespace
 
+std::vector<double> solid_areas(const CellGraph& graph, const PartOf& part_of,
+                                const std::vector<double>& w) {
+  std::vector<double> areas;
+  for (const std::uint32_t part : part_of) {
+    if (part >= areas.size()) areas.resize(part + 1, 0);
+  }
+  for (const Link& link : graph.links()) {
+    const bool bounds = is_solid(w[link.below.index()]) != is_solid(w[link.above.index()]);
+    if (link.given && bounds) areas[part_of[link.triangle]] += link.area;
+  }
+  return areas;
+}
+
 OuterPockets turn_outer_pockets(const CellGraph& graph, const PartOf& part_of,
-                                std::vector<double>& w) {
+                                const std::vector<double>& solid_area, std::vector<double>& w) {
   OuterPockets pockets;
   if (std::none_of(w.begin(), w.end(), is_negative)) return pockets;
   pockets.is_left_out.assign(graph.cells(), 0);
-  PocketFinder finder(graph, part_of, w);
+  PocketFinder finder(graph, part_of, solid_area, w);
   std::vector<Pocket> found;
   for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
     if (finder.is_new(c)) found.push_back(finder.take(c));

@@ -20,9 +20,16 @@ struct OuterPockets {
 // in a cavity it is not. Such pockets are given the opposite sign, but for two kinds, which are
 // given 0: folds of a part of the surface, thin like slivers, and what lies between a patch over a
 // hole and the surface under it, if they are small beside the solid that the part bounds. Linear in
-// the number of links.
+// the number of links. `solid_area` is what solid_areas() gives, of the whole surface.
 [[nodiscard]] OuterPockets turn_outer_pockets(const CellGraph& graph,
                                               const IdVector<TriangleId, std::uint32_t>& part_of,
+                                              const std::vector<double>& solid_area,
                                               std::vector<double>& w);
+
+// Of each part, the area of its triangles of the input on those links of the graph that bound
+// solid, in square grid steps; 0 for parts that have no such link, up to the last one.
+[[nodiscard]] std::vector<double> solid_areas(const CellGraph& graph,
+                                              const IdVector<TriangleId, std::uint32_t>& part_of,
+                                              const std::vector<double>& w);
 
 }  // namespace meshrepair::internal

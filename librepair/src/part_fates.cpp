@@ -9,51 +9,41 @@
 namespace meshrepair {
 namespace {
 
-// Where pieces of a triangle or of a part lie; bits.
-constexpr std::uint8_t kBoundary = 1;
-constexpr std::uint8_t kInside = 2;
-constexpr std::uint8_t kOutside = 4;
-
-using Places = std::vector<std::uint8_t>;
-
 bool is_solid(const std::vector<char>& solid, CellId cell) {
   return cell.valid() && solid[cell.index()] != 0;
 }
 
-Places places_of_triangles(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-                           const std::vector<char>& solid) {
-  Places places(complex.soup().triangles.size(), 0);
+}  // namespace
+
+std::vector<std::uint8_t> places_of_triangles(const CellComplex& complex,
+                                              const IdVector<FacetId, Cover>& cover,
+                                              const std::vector<char>& solid) {
+  std::vector<std::uint8_t> places(complex.soup().triangles.size(), kNowhere);
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
     if (!cover[f].opaque()) continue;
-    const bool above = is_solid(solid, complex.facets[f].above);
-    const bool below = is_solid(solid, complex.facets[f].below);
-    places[cover[f].triangle.index()] |= above != below ? kBoundary : above ? kInside : kOutside;
+    places[cover[f].triangle.index()] |= place_between(is_solid(solid, complex.facets[f].above),
+                                                       is_solid(solid, complex.facets[f].below));
   }
   return places;
 }
 
-}  // namespace
-
-PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-                          const std::vector<char>& solid) {
-  const CleanSoup& soup = complex.soup();
+PartFates find_part_fates(const CleanSoup& soup, const std::vector<std::uint8_t>& places) {
   PartFates fates;
-  const Places places = places_of_triangles(complex, cover, solid);
   for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
     if (soup.triangles[t].source == Triangle::kNoSource) continue;
     const std::uint8_t place = places[t.index()];
-    ++((place & kBoundary) != 0 ? fates.bounding_triangles
-       : place == kInside       ? fates.inside_triangles
-                                : fates.outside_triangles);
+    ++((place & kOnBoundary) != 0 ? fates.bounding_triangles
+       : place == kInside         ? fates.inside_triangles
+                                  : fates.outside_triangles);
   }
   if (std::all_of(places.begin(), places.end(),
-                  [](std::uint8_t p) { return (p & kBoundary) != 0; })) {
+                  [](std::uint8_t p) { return (p & kOnBoundary) != 0; })) {
     return fates;
   }
   TopologyPlaces topology;
   const std::size_t parts =
       examine_topology(index_triangles(soup), soup.points.size(), &topology).parts;
-  Places places_of_part(parts, 0);
+  std::vector<std::uint8_t> places_of_part(parts, 0);
   std::vector<double> area(parts, 0);
   for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
     const std::uint32_t part = topology.parts[t.index()];
@@ -62,7 +52,7 @@ PartFates find_part_fates(const CellComplex& complex, const IdVector<FacetId, Co
     if (triangle.source != Triangle::kNoSource) area[part] += area_of(soup, triangle);
   }
   for (std::size_t part = 0; part < parts; ++part) {
-    if ((places_of_part[part] & kBoundary) != 0) continue;
+    if ((places_of_part[part] & kOnBoundary) != 0) continue;
     // A part that coincides with another one in all its pieces has the fate of that one.
     if (places_of_part[part] == 0) continue;
     const bool outside = (places_of_part[part] & kOutside) != 0;

@@ -10,6 +10,7 @@
 #include <repair/repair.h>
 
 #include "covered_cells.h"
+#include "cut_tangles.h"
 #include "keep_valid.h"
 #include "make_surface.h"
 
@@ -211,6 +212,9 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   const Orientation orientation = find_parts(clean, options, report);
   if (auto mended = internal::keep_mended(clean, orientation, options, report, meter)) {
     return std::move(*mended);
+  }
+  if (auto cut = internal::cut_tangles(clean, orientation, options, report, meter)) {
+    return std::move(*cut);
   }
   Tree tree = make_tree(std::move(clean), options, report, meter);
   CoveredCells covered = make_cells(tree, orientation.winding, options, report, meter);

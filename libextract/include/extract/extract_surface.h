@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <extract/cell_complex.h>
@@ -14,6 +15,9 @@ namespace meshrepair {
 struct ExtractOptions {
   Touching touching = Touching::separate;  // what becomes of solids that touch along an edge
   ProgressObserver* progress = nullptr;
+  // Of each triangle of the soup, whether it is not cut, though only a part of it may be among the
+  // cells' facets: nothing is merged with it. Empty: what is cut is seen there.
+  std::span<const char> whole = {};
 };
 
 struct ExtractReport {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <bsp/clean_soup.h>
@@ -27,11 +28,25 @@ struct PartFates {
   std::size_t outside_triangles = 0;
 };
 
-// `solid` has one entry for each cell. Linear but for parts that were removed, for which edges are
+// Where the pieces of a triangle lie.
+enum PiecePlace : std::uint8_t { kNowhere = 0, kOnBoundary = 1, kInside = 2, kOutside = 4 };
+
+// Of a piece that has what is solid, or not, on its two sides.
+[[nodiscard]] constexpr PiecePlace place_between(bool one_solid, bool other_solid) {
+  if (one_solid != other_solid) return kOnBoundary;
+  return one_solid ? kInside : kOutside;
+}
+
+// Of each triangle of the soup the places of all its pieces among the facets, those where several
+// coincide only for the first. `solid` has one entry for each cell.
+[[nodiscard]] std::vector<std::uint8_t> places_of_triangles(const CellComplex& complex,
+                                                            const IdVector<FacetId, Cover>& cover,
+                                                            const std::vector<char>& solid);
+
+// `places` are those of each triangle. Linear but for parts that were removed, for which edges are
 // sorted.
-[[nodiscard]] PartFates find_part_fates(const CellComplex& complex,
-                                        const IdVector<FacetId, Cover>& cover,
-                                        const std::vector<char>& solid);
+[[nodiscard]] PartFates find_part_fates(const CleanSoup& soup,
+                                        const std::vector<std::uint8_t>& places);
 
 // For each triangle of the surface whether it is one of the input, with its own coordinates.
 [[nodiscard]] std::vector<char> find_whole_triangles(const CleanSoup& input,

@@ -1,0 +1,192 @@
+// Idea: most triangles of most meshes meet no other one. Space is divided only around the tangled
+// ones: a region that none of these touches is left as a leaf, whatever passes through it. So all
+// facets around a tangled triangle, and around its edges, lie between cells that are divided to the
+// end, and what is left of it is what all cells would leave.
+#include "cut_tangles.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <bsp/build_tree.h>
+#include <extract/box_tree.h>
+#include <extract/build_cells.h>
+#include <extract/extract_surface.h>
+
+#include "covered_cells.h"
+#include "keep_valid.h"
+#include "make_surface.h"
+#include "sew_pieces.h"
+#include "tangle_labels.h"
+#include "tangles.h"
+
+namespace meshrepair::internal {
+namespace {
+
+// With a larger share of its triangles tangled, dividing all of the soup takes no longer.
+constexpr double kMostTangled = 0.25;
+
+// Regions with more fragments than this are cut across an axis: smaller ones than where all is
+// divided, as most of what is cut off is left undivided.
+constexpr std::size_t kSmallRegion = 24;
+
+// What moving points does not mend soon is left to a repair that may cut otherwise.
+constexpr std::size_t kMostRounds = 1;
+
+bool is_wanted(const RepairOptions& options) {
+  const InsideRule rule = options.inside.rule;
+  return may_spare_cells(options) && !may_fill(options.inside) &&
+         (rule == InsideRule::automatic || rule == InsideRule::winding);
+}
+
+std::vector<Box> boxes_of_tangles(const Tangles& tangles) {
+  std::vector<Box> boxes;
+  for (std::size_t t = 0; t < tangles.tangled.size(); ++t) {
+    if (tangles.tangled[t] == 0) continue;
+    Box& box = boxes.emplace_back();
+    for (const std::uint32_t p : tangles.on_grid.triangles[t]) box.add(tangles.on_grid.points[p]);
+  }
+  return boxes;
+}
+
+Tree divide_around(const CleanSoup& soup, const Tangles& tangles, const RepairOptions& options,
+                   BuildTreeReport& report) {
+  const std::vector<Box> boxes = boxes_of_tangles(tangles);
+  const BoxTree near(boxes);
+  BuildTreeOptions tree_options = options.tree;
+  tree_options.progress = options.progress;
+  tree_options.spatial_cut_above = std::min(tree_options.spatial_cut_above, kSmallRegion);
+  tree_options.divides = [&](const Vec3d& low, const Vec3d& high) {
+    Box region;
+    region.add(low);
+    region.add(high);
+    bool touched = false;
+    near.visit([&](const Box& box) { return !touched && box.meets(region); },
+               [&](std::uint32_t i) { touched = touched || boxes[i].meets(region); });
+    return touched;
+  };
+  return build_tree(soup, tree_options, report);
+}
+
+std::vector<std::uint8_t> places_of(const CoveredCells& covered, const Tangles& tangles,
+                                    const TangleLabels& labels) {
+  std::vector<std::uint8_t> places =
+      places_of_triangles(covered.complex, covered.cover, labels.solid);
+  for (std::size_t t = 0; t < places.size(); ++t) {
+    if (tangles.tangled[t] != 0) continue;
+    const PatchSides& sides = labels.patches[tangles.patch_of[t]];
+    places[t] = place_between(sides.solid_in_front, sides.solid_behind);
+  }
+  return places;
+}
+
+class TangleCutter {
+ public:
+  TangleCutter(const CleanSoup& soup, const Orientation& orientation, const Tangles& tangles,
+               const RepairOptions& options, RepairReport& report, StageMeter& meter)
+      : soup_(soup),
+        orientation_(orientation),
+        tangles_(tangles),
+        options_(options),
+        report_(report),
+        meter_(meter) {}
+
+  std::optional<Surface> run() {
+    meter_.begin("tree");
+    Tree tree = divide_around(soup_, tangles_, options_, report_.tree);
+    const CoveredCells covered = make_cells(tree);
+    meter_.begin("inside");
+    InsideOptions inside = options_.inside;
+    inside.solve.progress = options_.progress;
+    const std::optional<TangleLabels> labels =
+        label_tangles(tree, covered, tangles_, orientation_, inside, report_.inside);
+    if (!labels) return std::nullopt;
+    report_.parts = find_part_fates(soup_, places_of(covered, tangles_, *labels));
+    meter_.begin("extract");
+    const Surface pieces = extract_pieces(tree, covered, *labels);
+    std::optional<Surface> sewn = sew_pieces(soup_, tangles_, labels->patches, pieces);
+    if (!sewn || sewn->mesh.triangles.empty()) return std::nullopt;
+    report_.set_aside = tangles_.tangled.size() - tangles_.count;
+    return sewn;
+  }
+
+ private:
+  CoveredCells make_cells(const Tree& tree) {
+    meter_.begin("cells");
+    BuildCellsOptions cell_options;
+    cell_options.progress = options_.progress;
+    CoveredCells covered{build_cells(tree, cell_options, report_.clip), {}, {}};
+    report_.cells = covered.complex.cells.size();
+    meter_.begin("cover");
+    covered.cover = cover_facets(covered.complex, orientation_.winding, report_.cover,
+                                 options_.progress, &covered.layers);
+    report_.facets = covered.complex.facets.size();
+    return covered;
+  }
+
+  // Of tangled triangles alone, which are the sources.
+  Surface extract_pieces(Tree& tree, const CoveredCells& covered, const TangleLabels& labels) {
+    for (TriangleId t(0u); t < tree.input.triangles.end_id(); ++t.value) {
+      tree.input.triangles[t].source = t.value;
+    }
+    std::vector<char> whole(tangles_.tangled.size());
+    std::transform(tangles_.tangled.begin(), tangles_.tangled.end(), whole.begin(),
+                   [](char tangled) { return tangled == 0 ? 1 : 0; });
+    ExtractOptions extract_options = options_.extract;
+    extract_options.whole = whole;
+    extract_options.progress = options_.progress;
+    Surface pieces = extract_surface(covered.complex, covered.cover, labels.solid, report_.extract,
+                                     extract_options);
+    std::vector<char> keep;
+    for (const std::uint32_t source : pieces.source) {
+      keep.push_back(source != Surface::kNoSource && tangles_.tangled[source] != 0 ? 1 : 0);
+    }
+    keep_triangles(pieces, keep);
+    return pieces;
+  }
+
+  const CleanSoup& soup_;
+  const Orientation& orientation_;
+  const Tangles& tangles_;
+  const RepairOptions& options_;
+  RepairReport& report_;
+  StageMeter& meter_;
+};
+
+// The whole of the work, of a report of its own.
+std::optional<Surface> try_to_cut(const CleanSoup& soup, const Orientation& orientation,
+                                  const RepairOptions& options, RepairReport& report,
+                                  StageMeter& meter) {
+  meter.begin("tangles");
+  const std::optional<Tangles> tangles = find_tangles(soup, orientation.winding, options.progress);
+  if (!tangles || static_cast<double>(tangles->count) >
+                      kMostTangled * static_cast<double>(tangles->tangled.size())) {
+    return std::nullopt;
+  }
+  std::optional<Surface> sewn =
+      TangleCutter(soup, orientation, *tangles, options, report, meter).run();
+  if (!sewn) return std::nullopt;
+  RepairOptions finishing = options;
+  finishing.examine = nullptr;
+  finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kMostRounds);
+  Surface surface = finish_surface(soup, std::move(*sewn), finishing, report, meter);
+  if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
+  return surface;
+}
+
+}  // namespace
+
+std::optional<Surface> cut_tangles(const CleanSoup& soup, const Orientation& orientation,
+                                   const RepairOptions& options, RepairReport& report,
+                                   StageMeter& meter) {
+  if (!is_wanted(options)) return std::nullopt;
+  RepairReport attempt = report;
+  std::optional<Surface> surface = try_to_cut(soup, orientation, options, attempt, meter);
+  if (!surface) return std::nullopt;
+  attempt.stages = std::move(report.stages);
+  report = std::move(attempt);
+  if (options.examine) options.examine(report);
+  return surface;
+}
+
+}  // namespace meshrepair::internal

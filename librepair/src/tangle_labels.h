@@ -1,0 +1,36 @@
+// What is solid around the tangles of a soup, whose cells alone are divided, and beside the rest.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <bsp/progress.h>
+#include <bsp/tree.h>
+#include <repair/inside_rule.h>
+#include <repair/orient_parts.h>
+
+#include "covered_cells.h"
+#include "tangles.h"
+
+namespace meshrepair::internal {
+
+// Of a patch of triangles that are not tangled, as Tangles::winding turns them.
+struct PatchSides {
+  bool solid_in_front = false, solid_behind = false;
+};
+
+struct TangleLabels {
+  std::vector<char> solid;  // of each cell; not of those that were left undivided
+  std::vector<PatchSides> patches;
+};
+
+// What label_cells() says of all cells of the soup, for InsideRule::winding, and for `automatic`
+// where nothing is in doubt. `tree` leaves undivided only what no tangled triangle touches; the
+// cover has the windings of the orientation. Nothing where cells farther away would have to be
+// looked at: where parts may face either way, or wind the wrong way around what is not seen from
+// outside.
+[[nodiscard]] std::optional<TangleLabels> label_tangles(
+    const Tree& tree, const CoveredCells& covered, const Tangles& tangles,
+    const Orientation& orientation, const InsideOptions& options, InsideReport& report);
+
+}  // namespace meshrepair::internal

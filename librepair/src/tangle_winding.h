@@ -1,0 +1,55 @@
+// Winding numbers of the cells around tangles, and of the patches between these.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <bsp/progress.h>
+#include <extract/cell_complex.h>
+#include <extract/soup_rays.h>
+#include <repair/cell_graph.h>
+#include <repair/orient_parts.h>
+
+#include "tangles.h"
+
+namespace meshrepair::internal {
+
+// Rays through all of the soup; what they need is made when the first is asked for.
+class TangleRays {
+ public:
+  TangleRays(const CellComplex& complex, const Tangles& tangles)
+      : complex_(complex), tangles_(tangles) {}
+
+  [[nodiscard]] const SoupRays& rays();
+
+  // In its inside, in grid units; nothing if the cell is too thin for rounded numbers to tell.
+  [[nodiscard]] std::optional<Vec3d> place_in(CellId cell) const;
+
+ private:
+  const CellComplex& complex_;
+  const Tangles& tangles_;
+  std::optional<SoupRays> rays_;
+};
+
+struct TangleWinding {
+  std::vector<double> of_cell;  // those without links: 0
+  std::vector<std::int32_t>
+      in_front;                       // of each patch, as Tangles::winding turns it; behind: 1 more
+  std::vector<char> patch_has_cells;  // of each patch: cells with links lie on both sides somewhere
+};
+
+// The graph has no links to cells that were left undivided; `beside` marks the cells next to these.
+// Nothing where a place for a ray cannot be told. `progress` is asked whether to go on.
+[[nodiscard]] std::optional<TangleWinding> find_tangle_winding(
+    const CellGraph& graph, std::span<const char> beside, const Tangles& tangles,
+    const Orientation& orientation, TangleRays& rays, ProgressObserver* progress);
+
+// The cells of a list by their volumes, the largest first, as far as these are known: at most so
+// many.
+[[nodiscard]] std::vector<CellId> largest_cells(const CellGraph& graph,
+                                                std::span<const char> beside,
+                                                std::vector<CellId> cells, std::size_t most);
+
+}  // namespace meshrepair::internal
