@@ -124,7 +124,7 @@ class TangleCutter {
     return covered;
   }
 
-  // Of tangled triangles alone, which are the sources.
+  // By the numbers of the triangles as sources, without the sides of what is left undivided.
   Surface extract_pieces(Tree& tree, const CoveredCells& covered, const TangleLabels& labels) {
     for (TriangleId t(0u); t < tree.input.triangles.end_id(); ++t.value) {
       tree.input.triangles[t].source = t.value;
@@ -139,7 +139,7 @@ class TangleCutter {
                                      extract_options);
     std::vector<char> keep;
     for (const std::uint32_t source : pieces.source) {
-      keep.push_back(source != Surface::kNoSource && tangles_.tangled[source] != 0 ? 1 : 0);
+      keep.push_back(source != Surface::kNoSource ? 1 : 0);
     }
     keep_triangles(pieces, keep);
     return pieces;

@@ -1,13 +1,12 @@
-// Pieces have corners in points of the input, which they share with triangles that were not cut,
-// and corners of their own. The latter are vertices of the result as they are. At the former, fans
-// of triangles are joined over their edges, and each is a vertex.
+// Around every corner of a tangled triangle all is cut, so the extraction has told there which fans
+// of triangles are one vertex: also at edges along which solids touch. What it made of triangles
+// that are not tangled serves to take over these vertices; it ends anywhere else. At all other
+// points fans of triangles are joined over their edges, and each is a vertex.
 #include "sew_pieces.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include <bsp/disjoint_sets.h>
@@ -17,8 +16,6 @@
 namespace meshrepair::internal {
 namespace {
 
-auto coordinates(const Vec3d& p) { return std::tuple(p.x(), p.y(), p.z()); }
-
 class PieceSewer {
  public:
   PieceSewer(const CleanSoup& soup, const Tangles& tangles, const std::vector<PatchSides>& sides,
@@ -26,60 +23,72 @@ class PieceSewer {
       : soup_(soup), tangles_(tangles), sides_(sides), pieces_(pieces) {}
 
   std::optional<Surface> run() {
-    list_points_of_tangles();
+    mark_points_of_tangles();
+    find_shared_corners();
     std::uint32_t next = 0;
     for (std::uint32_t i = 0; i < pieces_.mesh.triangles.size(); ++i) {
       const std::uint32_t source = pieces_.source[i];
+      if (tangles_.tangled[source] == 0) continue;
       for (; next < source; ++next) add_if_kept(next);
-      add(numbers_of_piece(i), source);
+      IndexTriangle corners = pieces_.mesh.triangles[i];
+      for (std::uint32_t& corner : corners) corner += first_of_pieces();
+      add(corners, source);
     }
     for (; next < tangles_.tangled.size(); ++next) add_if_kept(next);
-    if (!join_fans()) return std::nullopt;
+    if (!complete_ || !join_fans()) return std::nullopt;
     return std::move(result_);
   }
 
  private:
   // Corners have the numbers of the soup's points, or of the pieces' points after these.
-  using Numbers = IndexTriangle;
+  [[nodiscard]] std::uint32_t first_of_pieces() const {
+    return static_cast<std::uint32_t>(soup_.points.size());
+  }
 
-  void list_points_of_tangles() {
+  void mark_points_of_tangles() {
+    of_tangles_.assign(soup_.points.size(), 0);
     for (std::size_t t = 0; t < tangles_.tangled.size(); ++t) {
       if (tangles_.tangled[t] == 0) continue;
-      for (const std::uint32_t p : tangles_.on_grid.triangles[t]) by_place_.push_back(p);
+      for (const std::uint32_t p : tangles_.on_grid.triangles[t]) of_tangles_[p] = 1;
     }
-    std::sort(by_place_.begin(), by_place_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return coordinates(soup_.points[PointId(a)]) < coordinates(soup_.points[PointId(b)]);
-    });
   }
 
-  [[nodiscard]] std::uint32_t number_of(std::uint32_t point) const {
-    const Vec3d& at = pieces_.mesh.points[point];
-    if (pieces_.input_point[point] != 0) {
-      const auto found = std::lower_bound(
-          by_place_.begin(), by_place_.end(), at, [&](std::uint32_t p, const Vec3d& q) {
-            return coordinates(soup_.points[PointId(p)]) < coordinates(q);
-          });
-      if (found != by_place_.end() && soup_.points[PointId(*found)] == at) return *found;
+  // Of triangles that are not tangled, those that are points of tangles, in the pieces of them.
+  void find_shared_corners() {
+    for (std::uint32_t i = 0; i < pieces_.mesh.triangles.size(); ++i) {
+      const std::uint32_t source = pieces_.source[i];
+      if (tangles_.tangled[source] != 0) continue;
+      for (const std::uint32_t v : pieces_.mesh.triangles[i]) {
+        if (pieces_.input_point[v] == 0) continue;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          const std::uint32_t p = tangles_.on_grid.triangles[source][k];
+          if (of_tangles_[p] == 0 || soup_.points[PointId(p)] != pieces_.mesh.points[v]) continue;
+          shared_.push_back({3 * source + k, v});
+        }
+      }
     }
-    return static_cast<std::uint32_t>(soup_.points.size()) + point;
+    std::sort(shared_.begin(), shared_.end());
   }
 
-  [[nodiscard]] Numbers numbers_of_piece(std::uint32_t piece) const {
-    Numbers numbers{};
-    for (std::size_t k = 0; k < 3; ++k) numbers[k] = number_of(pieces_.mesh.triangles[piece][k]);
-    return numbers;
+  // Of corner k of a triangle that is not tangled.
+  std::uint32_t number_of(std::uint32_t t, std::uint32_t k) {
+    const std::uint32_t p = tangles_.on_grid.triangles[t][k];
+    if (of_tangles_[p] == 0) return p;
+    const auto found = std::lower_bound(shared_.begin(), shared_.end(), std::pair(3 * t + k, 0u));
+    complete_ &= found != shared_.end() && found->first == 3 * t + k;
+    return complete_ ? first_of_pieces() + found->second : p;
   }
 
   void add_if_kept(std::uint32_t t) {
     if (tangles_.tangled[t] != 0) return;
     const PatchSides& sides = sides_[tangles_.patch_of[t]];
     if (sides.solid_in_front == sides.solid_behind) return;
-    Numbers corners = tangles_.on_grid.triangles[t];
+    IndexTriangle corners = {number_of(t, 0), number_of(t, 1), number_of(t, 2)};
     if ((tangles_.winding[t] > 0) != sides.solid_behind) std::swap(corners[1], corners[2]);
     add(corners, t);
   }
 
-  void add(const Numbers& corners, std::uint32_t triangle) {
+  void add(const IndexTriangle& corners, std::uint32_t triangle) {
     corners_.push_back(corners);
     result_.source.push_back(soup_.triangles[TriangleId(triangle)].source);
   }
@@ -114,11 +123,11 @@ class PieceSewer {
   }
 
   std::uint32_t add_point(std::uint32_t number) {
-    const auto of_soup = static_cast<std::uint32_t>(soup_.points.size());
-    const bool is_input = number < of_soup;
-    result_.mesh.points.push_back(is_input ? soup_.points[PointId(number)]
-                                           : pieces_.mesh.points[number - of_soup]);
-    result_.input_point.push_back(is_input ? 1 : 0);
+    const bool of_soup = number < first_of_pieces();
+    const std::uint32_t piece = number - first_of_pieces();
+    result_.mesh.points.push_back(of_soup ? soup_.points[PointId(number)]
+                                          : pieces_.mesh.points[piece]);
+    result_.input_point.push_back(of_soup || pieces_.input_point[piece] != 0 ? 1 : 0);
     return static_cast<std::uint32_t>(result_.mesh.points.size() - 1);
   }
 
@@ -126,8 +135,11 @@ class PieceSewer {
   const Tangles& tangles_;
   const std::vector<PatchSides>& sides_;
   const Surface& pieces_;
-  std::vector<std::uint32_t> by_place_;  // points of tangled triangles, by their coordinates
-  std::vector<Numbers> corners_;
+  std::vector<char> of_tangles_;  // of each point of the soup: a corner of a tangled triangle
+  // Corner k of triangle t as 3 t + k, and the point of the pieces that it is; sorted.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> shared_;
+  bool complete_ = true;  // all shared corners were found
+  std::vector<IndexTriangle> corners_;
   Surface result_;
 };
 
