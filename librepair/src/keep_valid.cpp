@@ -4,8 +4,6 @@
 #include <string>
 #include <utility>
 
-#include <repair/valid_solid.h>
-
 #include "describe_result.h"
 #include "turn_parts.h"
 
@@ -63,6 +61,15 @@ void describe_mended(const CleanSoup& soup, const MendedSolid& solid, const Repa
   internal::describe_result(soup, solid.surface, report);
 }
 
+// Whether cleaning, closing holes and turning triangles has changed nothing.
+bool is_as_given(const RepairReport& report) {
+  const CleanReport& clean = report.clean;
+  return clean.dropped_not_finite + clean.dropped_degenerate + clean.dropped_below_grid +
+                 clean.duplicates + clean.opposite_duplicates + clean.joined_points ==
+             0 &&
+         report.holes.triangles == 0 && report.orient.turned_triangles == 0;
+}
+
 }  // namespace
 
 std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
@@ -83,11 +90,17 @@ bool may_fill(const InsideOptions& options) {
 }
 
 std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptions& options,
-                                     RepairReport& report, StageMeter& meter) {
-  if (!may_spare_cells(options)) return std::nullopt;
+                                     RepairReport& report, StageMeter& meter,
+                                     std::optional<Invalid>& invalid) {
+  if (!may_spare_cells(options) || may_fill(options.inside)) return std::nullopt;
   meter.begin("validate");
-  std::optional<Surface> surface = keep_valid(soup, options);
-  if (!surface) return std::nullopt;
+  CancelOnly quiet(options.progress);
+  Invalid why{};
+  std::optional<Surface> surface = valid_solid(soup, written_as(options), &quiet, &why);
+  if (!surface) {
+    invalid = why;
+    return std::nullopt;
+  }
   meter.begin("check");
   describe_as_given(soup, *surface, options, report);
   if (options.examine) options.examine(report);
@@ -95,9 +108,10 @@ std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptio
 }
 
 std::optional<Surface> keep_mended(const CleanSoup& soup, const Orientation& orientation,
-                                   const RepairOptions& options, RepairReport& report,
-                                   StageMeter& meter) {
+                                   std::optional<Invalid> invalid, const RepairOptions& options,
+                                   RepairReport& report, StageMeter& meter) {
   if (!may_spare_cells(options) || may_fill(options.inside)) return std::nullopt;
+  if (invalid == Invalid::meets_itself && is_as_given(report)) return std::nullopt;
   meter.begin("validate");
   CancelOnly quiet(options.progress);
   std::optional<MendedSolid> solid = mended_solid(soup, orientation, written_as(options), &quiet);

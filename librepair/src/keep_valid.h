@@ -10,6 +10,7 @@
 #include <repair/orient_parts.h>
 #include <repair/repair.h>
 #include <repair/stage_meter.h>
+#include <repair/valid_solid.h>
 
 namespace meshrepair::internal {
 
@@ -19,14 +20,18 @@ namespace meshrepair::internal {
 // Whether the rule may fill what is hollow.
 [[nodiscard]] bool may_fill(const InsideOptions& options);
 
-// The soup, if it is the boundary of a solid.
+// The soup, if it is the boundary of a solid; else what `invalid` is set to was found, if it was
+// looked for.
 [[nodiscard]] std::optional<Surface> keep_as_given(const TriangleSoup& soup,
                                                    const RepairOptions& options,
-                                                   RepairReport& report, StageMeter& meter);
+                                                   RepairReport& report, StageMeter& meter,
+                                                   std::optional<Invalid>& invalid);
 
-// The clean soup with its holes closed and turned as `orientation` says, if that is one.
+// The clean soup with its holes closed and turned as `orientation` says, if that is one. `invalid`:
+// what was found of the soup before; where triangles met and all are as they were, they still do.
 [[nodiscard]] std::optional<Surface> keep_mended(const CleanSoup& soup,
                                                  const Orientation& orientation,
+                                                 std::optional<Invalid> invalid,
                                                  const RepairOptions& options, RepairReport& report,
                                                  StageMeter& meter);
 

@@ -205,12 +205,15 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
-  if (auto kept = internal::keep_as_given(soup, options, report, meter)) return std::move(*kept);
+  std::optional<Invalid> invalid;
+  if (auto kept = internal::keep_as_given(soup, options, report, meter, invalid)) {
+    return std::move(*kept);
+  }
   CleanSoup clean = close_soup(soup, options, report, meter);
   require_space(clean);
   meter.begin("orient");
   const Orientation orientation = find_parts(clean, options, report);
-  if (auto mended = internal::keep_mended(clean, orientation, options, report, meter)) {
+  if (auto mended = internal::keep_mended(clean, orientation, invalid, options, report, meter)) {
     return std::move(*mended);
   }
   if (auto cut = internal::cut_tangles(clean, orientation, options, report, meter)) {

@@ -72,7 +72,8 @@ bool is_free_of_faults(const TriangleSoup& mesh, ProgressObserver* progress) {
 // The soup as it will be written, if that is all that valid_solid() asks for, but for the way its
 // parts face.
 std::optional<Surface> sound_surface(const TriangleSoup& soup, const CertifyOptions& options,
-                                     ProgressObserver* progress) {
+                                     ProgressObserver* progress, Invalid& why) {
+  why = Invalid::not_manifold;
   if (soup.triangles.empty() || !has_indices_in_range(soup)) return std::nullopt;
   Surface surface;
   surface.mesh = as_written(soup, options.precision);
@@ -80,6 +81,7 @@ std::optional<Surface> sound_surface(const TriangleSoup& soup, const CertifyOpti
       (options.welded || !is_manifold_as_it_is(surface.mesh, options.touching))) {
     return std::nullopt;
   }
+  why = Invalid::meets_itself;
   if (!is_free_of_faults(surface.mesh, progress)) return std::nullopt;
   surface.source.resize(surface.mesh.triangles.size());
   std::iota(surface.source.begin(), surface.source.end(), 0u);
@@ -147,18 +149,23 @@ bool any_part_is_thin(const TriangleSoup& mesh, const PartOrientation& found, do
 }  // namespace
 
 std::optional<Surface> valid_solid(const TriangleSoup& soup, const CertifyOptions& options,
-                                   ProgressObserver* progress) {
-  std::optional<Surface> surface = sound_surface(soup, options, progress);
-  if (!surface || any(examine_part_orientation(surface->mesh, progress).inside_out)) {
-    return std::nullopt;
+                                   ProgressObserver* progress, Invalid* why) {
+  Invalid found{};
+  std::optional<Surface> surface = sound_surface(soup, options, progress, found);
+  if (surface && any(examine_part_orientation(surface->mesh, progress).inside_out)) {
+    surface.reset();
+    found = Invalid::faces_the_wrong_way;
   }
+  if (!surface && why != nullptr) *why = found;
   return surface;
 }
 
 std::optional<MendedSolid> mended_solid(const CleanSoup& soup, const Orientation& orientation,
                                         const CertifyOptions& options, ProgressObserver* progress) {
   const std::optional<TriangleSoup> mesh = oriented(soup, orientation);
-  std::optional<Surface> surface = mesh ? sound_surface(*mesh, options, progress) : std::nullopt;
+  Invalid why{};
+  std::optional<Surface> surface =
+      mesh ? sound_surface(*mesh, options, progress, why) : std::nullopt;
   if (!surface) return std::nullopt;
   const PartOrientation found = examine_part_orientation(surface->mesh, progress);
   const std::vector<char> tells = parts_that_tell(found, orientation);

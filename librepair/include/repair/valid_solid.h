@@ -13,15 +13,20 @@
 
 namespace meshrepair {
 
+// Why a soup is not valid: the first of these that holds.
+enum class Invalid { not_manifold, meets_itself, faces_the_wrong_way };
+
 // The soup as it is, if with its coordinates as they will be written it is the boundary of a solid
 // already: closed, manifold, oriented outward, walls of cavities inward, no triangle without area,
 // and none that meets another beyond what they share. Points with equal coordinates become one;
 // where only points of their own make a manifold of it, they stay, unless the format joins them. It
 // has to touch itself along edges as asked for, if it does. Points without triangles go. Exact.
-// `progress` is asked whether to go on; it may be null. Throws Cancelled.
+// `progress` is asked whether to go on; it may be null. Else, if `why` is not null, that is set.
+// Throws Cancelled.
 [[nodiscard]] std::optional<Surface> valid_solid(const TriangleSoup& soup,
                                                  const CertifyOptions& options,
-                                                 ProgressObserver* progress);
+                                                 ProgressObserver* progress,
+                                                 Invalid* why = nullptr);
 
 struct MendedSolid {
   Surface surface;
