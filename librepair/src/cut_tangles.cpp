@@ -14,6 +14,7 @@
 #include <extract/extract_surface.h>
 
 #include "covered_cells.h"
+#include "fill_slits.h"
 #include "keep_valid.h"
 #include "make_surface.h"
 #include "sew_pieces.h"
@@ -98,9 +99,11 @@ class TangleCutter {
     meter_.begin("inside");
     InsideOptions inside = options_.inside;
     inside.solve.progress = options_.progress;
-    const std::optional<TangleLabels> labels =
+    std::optional<TangleLabels> labels =
         label_tangles(tree, covered, tangles_, orientation_, inside, report_.inside);
     if (!labels) return std::nullopt;
+    fill_slits(covered, options_, labels->fixed, labels->solid, report_);
+    if (!agree_with_patches(*labels, covered, tangles_, orientation_)) return std::nullopt;
     report_.parts = find_part_fates(soup_, places_of(covered, tangles_, *labels));
     meter_.begin("extract");
     const Surface pieces = extract_pieces(tree, covered, *labels);

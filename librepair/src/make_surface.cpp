@@ -12,7 +12,7 @@
 
 #include "describe_result.h"
 #include "drop_thin_parts.h"
-#include "number_spacing.h"
+#include "fill_slits.h"
 #include "settle_points.h"
 
 namespace meshrepair::internal {
@@ -40,32 +40,10 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   return repair(soup, again, report);
 }
 
-bool fills_slits(const CoveredCells& covered, const RepairOptions& options) {
-  return options.certify.precision == Precision::float32 && options.slit_steps > 0 &&
-         !covered.complex.loose;
-}
-
-// Sheets so near to each other would cross once they are written.
-void fill_slits(const CoveredCells& covered, const RepairOptions& options, std::vector<char>& solid,
-                RepairReport& report) {
-  report.thin_cells = {};
-  report.slits_area = report.fins_area = 0;
-  if (!fills_slits(covered, options)) return;
-  const CleanSoup& soup = covered.complex.soup();
-  double farthest = 0;
-  for (const Vec3d& p : soup.points) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
-  const double spacing = number_spacing(farthest, options.certify.precision);
-  const double unit = soup.grid.unit;
-  report.thin_cells = relabel_thin_cells(
-      covered.complex, covered.cover, options.slit_steps * spacing / unit, solid, options.progress);
-  report.slits_area = report.thin_cells.filled_area * unit * unit;
-  report.fins_area = report.thin_cells.emptied_area * unit * unit;
-}
-
 Surface extract(const CoveredCells& covered, std::vector<char> solid, const RepairOptions& options,
                 RepairReport& report) {
   report.extract = {};
-  fill_slits(covered, options, solid, report);
+  fill_slits(covered, options, {}, solid, report);
   report.parts = find_part_fates(covered.complex.soup(),
                                  places_of_triangles(covered.complex, covered.cover, solid));
   ExtractOptions extract_options = options.extract;

@@ -39,6 +39,12 @@ std::vector<char> cells_beside(const CellComplex& complex, const std::vector<cha
   return beside;
 }
 
+PatchSides sides_of(const std::vector<char>& solid, CellId above, CellId below,
+                    std::int32_t winding) {
+  const bool is_above = solid[above.index()] != 0, is_below = solid[below.index()] != 0;
+  return winding > 0 ? PatchSides{is_above, is_below} : PatchSides{is_below, is_above};
+}
+
 class TangleLabeller {
  public:
   TangleLabeller(const Tree& tree, const CoveredCells& covered, const Tangles& tangles,
@@ -62,8 +68,7 @@ class TangleLabeller {
     if (options_.rule == InsideRule::automatic && (is_in_doubt() || !turn_pockets())) {
       return std::nullopt;
     }
-    TangleLabels labels;
-    if (!label(labels)) return std::nullopt;
+    TangleLabels labels = label();
     describe(labels);
     return labels;
   }
@@ -127,26 +132,20 @@ class TangleLabeller {
     return 0.5 * (p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]).norm();
   }
 
-  // Whether the cells beside a patch agree.
-  bool label(TangleLabels& labels) const {
+  // The sides of a patch that has cells are those of any of these.
+  [[nodiscard]] TangleLabels label() const {
+    TangleLabels labels;
     for (const double x : winding_.of_cell) labels.solid.push_back(is_solid(x) ? 1 : 0);
     for (const std::int32_t x : winding_.in_front) labels.patches.push_back({x > 0, x + 1 > 0});
-    std::vector<char> seen(tangles_.patches, 0);
     for (const Link& link : graph_.links()) {
       if (!link.opaque() || tangles_.tangled[link.triangle.index()] != 0) continue;
-      const std::uint32_t patch = tangles_.patch_of[link.triangle.index()];
-      const bool up = orientation_.winding[link.triangle] > 0;
-      const PatchSides sides{labels.solid[(up ? link.above : link.below).index()] != 0,
-                             labels.solid[(up ? link.below : link.above).index()] != 0};
-      PatchSides& known = labels.patches[patch];
-      if (seen[patch] != 0 && (known.solid_in_front != sides.solid_in_front ||
-                               known.solid_behind != sides.solid_behind)) {
-        return false;
-      }
-      known = sides;
-      seen[patch] = 1;
+      labels.patches[tangles_.patch_of[link.triangle.index()]] =
+          sides_of(labels.solid, link.above, link.below, orientation_.winding[link.triangle]);
     }
-    return true;
+    for (std::size_t c = 0; c < undivided_.size(); ++c) {
+      labels.fixed.push_back(undivided_[c] != 0 || beside_[c] != 0 ? 1 : 0);
+    }
+    return labels;
   }
 
   void describe(const TangleLabels& labels) {
@@ -172,6 +171,23 @@ class TangleLabeller {
 };
 
 }  // namespace
+
+bool agree_with_patches(const TangleLabels& labels, const CoveredCells& covered,
+                        const Tangles& tangles, const Orientation& orientation) {
+  const CellComplex& complex = covered.complex;
+  for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
+    const Facet& facet = complex.facets[f];
+    const TriangleId t = covered.cover[f].triangle;
+    if (!t.valid() || tangles.tangled[t.index()] != 0) continue;
+    const auto is_fixed = [&](CellId c) { return !c.valid() || labels.fixed[c.index()] != 0; };
+    if (is_fixed(facet.above) && is_fixed(facet.below)) continue;
+    if (labels.patches[tangles.patch_of[t.index()]] !=
+        sides_of(labels.solid, facet.above, facet.below, orientation.winding[t])) {
+      return false;
+    }
+  }
+  return true;
+}
 
 std::optional<TangleLabels> label_tangles(const Tree& tree, const CoveredCells& covered,
                                           const Tangles& tangles, const Orientation& orientation,

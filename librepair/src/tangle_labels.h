@@ -17,12 +17,18 @@ namespace meshrepair::internal {
 // Of a patch of triangles that are not tangled, as Tangles::winding turns them.
 struct PatchSides {
   bool solid_in_front = false, solid_behind = false;
+  bool operator==(const PatchSides&) const = default;
 };
 
 struct TangleLabels {
   std::vector<char> solid;  // of each cell; not of those that were left undivided
+  std::vector<char> fixed;  // of each cell: undivided, or has a facet in common with one that is
   std::vector<PatchSides> patches;
 };
+
+// Whether all cells beside each patch are as it says.
+[[nodiscard]] bool agree_with_patches(const TangleLabels& labels, const CoveredCells& covered,
+                                      const Tangles& tangles, const Orientation& orientation);
 
 // What label_cells() says of all cells of the soup, for InsideRule::winding, and for `automatic`
 // where nothing is in doubt. `tree` leaves undivided only what no tangled triangle touches; the

@@ -28,11 +28,12 @@ Vec3d vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 class ThinCells {
  public:
   ThinCells(const CellComplex& complex, const IdVector<FacetId, Cover>& cover, double within,
-            std::vector<char>& solid)
+            std::vector<char>& solid, std::span<const char> fixed)
       : complex_(complex),
         cover_(cover),
         within_(within),
         solid_(solid),
+        fixed_(fixed),
         moved_(solid.size(), kUnchanged),
         waits_(solid.size(), 0),
         cut_(complex.soup().triangles.size(), 0) {}
@@ -41,6 +42,7 @@ class ThinCells {
   ThinCellsReport run(ProgressObserver* progress) {
     CancelCheck cancel(progress);
     for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
+      if (is_fixed(complex_.facets[f].above) && is_fixed(complex_.facets[f].below)) continue;
       if (!is_boundary(f)) {
         cut(f);
         continue;
@@ -91,8 +93,14 @@ class ThinCells {
     return !cover_[f].opaque() || cut_[cover_[f].triangle.index()] != 0;
   }
 
+  [[nodiscard]] bool is_fixed(CellId cell) const {
+    return cell.valid() && !fixed_.empty() && fixed_[cell.index()] != 0;
+  }
+
   void enqueue(CellId cell) {
-    if (!cell.valid() || waits_[cell.index()] != 0 || moved_[cell.index()] != kUnchanged) return;
+    if (!cell.valid() || is_fixed(cell) || waits_[cell.index()] != 0 ||
+        moved_[cell.index()] != kUnchanged)
+      return;
     waits_[cell.index()] = 1;
     queue_.push_back(cell);
   }
@@ -191,6 +199,7 @@ class ThinCells {
   const IdVector<FacetId, Cover>& cover_;
   double within_;
   std::vector<char>& solid_;
+  std::span<const char> fixed_;
   std::vector<double> moved_;  // of each cell that changed, how far that moved the boundary
   std::vector<char> waits_;
   std::vector<char> cut_;  // of each triangle, whether a piece of it is no boundary
@@ -205,9 +214,10 @@ class ThinCells {
 
 ThinCellsReport relabel_thin_cells(const CellComplex& complex,
                                    const IdVector<FacetId, Cover>& cover, double within,
-                                   std::vector<char>& solid, ProgressObserver* progress) {
+                                   std::vector<char>& solid, ProgressObserver* progress,
+                                   std::span<const char> fixed) {
   std::vector<char> changed = solid;
-  const ThinCellsReport report = ThinCells(complex, cover, within, changed).run(progress);
+  const ThinCellsReport report = ThinCells(complex, cover, within, changed, fixed).run(progress);
   if (report.filled + report.emptied > 0) solid = std::move(changed);
   return report;
 }

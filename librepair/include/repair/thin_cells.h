@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <bsp/progress.h>
@@ -23,11 +24,13 @@ struct ThinCellsReport {
 // that makes the boundary clearly smaller, if all of one of their broad sides is boundary, and if
 // on one of them lies no triangle that is boundary as a whole: what nothing cuts stays as it is. So
 // the new boundary is not farther than `within` from the old one. Widths are rounded numbers;
-// nothing else depends on them. `solid` has one entry for each cell; it stays as it is where a
-// tenth of the volume would go with cells that become empty. Linear in the complex. Throws
-// Cancelled.
+// nothing else depends on them. Cells with a flag in `fixed`, empty for none, stay as they are, and
+// facets between two of them are not looked at. `solid` has one entry for each cell; it stays as it
+// is where a tenth of the volume would go with cells that become empty. Linear in the complex.
+// Throws Cancelled.
 ThinCellsReport relabel_thin_cells(const CellComplex& complex,
                                    const IdVector<FacetId, Cover>& cover, double within,
-                                   std::vector<char>& solid, ProgressObserver* progress = nullptr);
+                                   std::vector<char>& solid, ProgressObserver* progress = nullptr,
+                                   std::span<const char> fixed = {});
 
 }  // namespace meshrepair
