@@ -79,6 +79,14 @@ class SurfaceExtractor {
   [[nodiscard]] const std::vector<std::uint32_t>& region_of_triangle() const {
     return region_of_triangle_;
   }
+  [[nodiscard]] std::vector<FacetId> facets_of_triangles() const {
+    std::vector<FacetId> facets;
+    facets.reserve(region_of_triangle_.size());
+    for (const std::uint32_t region : region_of_triangle_) {
+      facets.push_back(boundary_.facet[merged_.polygons_of(region)[0]]);
+    }
+    return facets;
+  }
 
  private:
   void add(std::vector<RegionTriangle>& triangles, TriangleId covering) {
@@ -342,7 +350,10 @@ Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cove
       merge_facets(complex, cover, solid, parts.boundary, parts.corners, {}, options.whole);
   parts.middles = separate_common_edges(complex, parts.boundary, parts.corners);
   const InputPoints input_points(complex.soup());
-  return SurfaceExtractor(complex, cover, solid, parts, input_points).run(report, options.progress);
+  SurfaceExtractor extractor(complex, cover, solid, parts, input_points);
+  Surface surface = extractor.run(report, options.progress);
+  if (options.tell_facets) report.facet_of = extractor.facets_of_triangles();
+  return surface;
 }
 
 }  // namespace meshrepair

@@ -5,6 +5,7 @@
 #include "cut_tangles.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,9 @@ constexpr double kMostTangled = 0.25;
 // Regions with more fragments than this are cut across an axis: smaller ones than where all is
 // divided, as most of what is cut off is left undivided.
 constexpr std::size_t kSmallRegion = 24;
+
+// How often more triangles may be found to be tangled.
+constexpr std::size_t kMostAttempts = 4;
 
 // What moving points does not mend soon is left to a repair that may cut otherwise.
 constexpr std::size_t kMostRounds = 1;
@@ -83,37 +87,37 @@ std::vector<std::uint8_t> places_of(const CoveredCells& covered, const Tangles& 
 
 class TangleCutter {
  public:
-  TangleCutter(const CleanSoup& soup, const Orientation& orientation, const Tangles& tangles,
+  TangleCutter(const CleanSoup& soup, const Orientation& orientation, Tangles tangles,
                const RepairOptions& options, RepairReport& report, StageMeter& meter)
       : soup_(soup),
         orientation_(orientation),
-        tangles_(tangles),
+        tangles_(std::move(tangles)),
         options_(options),
         report_(report),
         meter_(meter) {}
 
   std::optional<Surface> run() {
-    meter_.begin("tree");
-    Tree tree = divide_around(soup_, tangles_, options_, report_.tree);
-    const CoveredCells covered = make_cells(tree);
-    meter_.begin("inside");
-    InsideOptions inside = options_.inside;
-    inside.solve.progress = options_.progress;
-    std::optional<TangleLabels> labels =
-        label_tangles(tree, covered, tangles_, orientation_, inside, report_.inside);
-    if (!labels) return std::nullopt;
-    fill_slits(covered, options_, labels->fixed, labels->solid, report_);
-    if (!agree_with_patches(*labels, covered, tangles_, orientation_)) return std::nullopt;
-    report_.parts = find_part_fates(soup_, places_of(covered, tangles_, *labels));
-    meter_.begin("extract");
-    const Surface pieces = extract_pieces(tree, covered, *labels);
-    std::optional<Surface> sewn = sew_pieces(soup_, tangles_, labels->patches, pieces);
-    if (!sewn || sewn->mesh.triangles.empty()) return std::nullopt;
-    report_.set_aside = tangles_.tangled.size() - tangles_.count;
-    return sewn;
+    for (std::size_t attempt = 0; attempt < kMostAttempts && !are_too_many(); ++attempt) {
+      meter_.begin("tree");
+      Tree tree = divide_around(soup_, tangles_, options_, report_.tree);
+      const CoveredCells covered = make_cells(tree);
+      std::optional<TangleLabels> labels = label(tree, covered);
+      if (!labels) return std::nullopt;
+      // Where a slit is filled, a triangle may go in part that nothing else meets.
+      const std::vector<std::uint32_t> more =
+          find_disagreements(*labels, covered, tangles_, orientation_);
+      if (more.empty()) return extract(tree, covered, *labels);
+      add_tangled(more, tangles_);
+    }
+    return std::nullopt;
   }
 
  private:
+  [[nodiscard]] bool are_too_many() const {
+    return static_cast<double>(tangles_.count) >
+           kMostTangled * static_cast<double>(tangles_.tangled.size());
+  }
+
   CoveredCells make_cells(const Tree& tree) {
     meter_.begin("cells");
     BuildCellsOptions cell_options;
@@ -127,6 +131,27 @@ class TangleCutter {
     return covered;
   }
 
+  std::optional<TangleLabels> label(const Tree& tree, const CoveredCells& covered) {
+    meter_.begin("inside");
+    InsideOptions inside = options_.inside;
+    inside.solve.progress = options_.progress;
+    std::optional<TangleLabels> labels =
+        label_tangles(tree, covered, tangles_, orientation_, inside, report_.inside);
+    if (labels) fill_slits(covered, options_, labels->fixed, labels->solid, report_);
+    return labels;
+  }
+
+  std::optional<Surface> extract(Tree& tree, const CoveredCells& covered,
+                                 const TangleLabels& labels) {
+    meter_.begin("extract");
+    report_.parts = find_part_fates(soup_, places_of(covered, tangles_, labels));
+    const Surface pieces = extract_pieces(tree, covered, labels);
+    std::optional<Surface> sewn = sew_pieces(soup_, tangles_, labels.patches, pieces);
+    if (!sewn || sewn->mesh.triangles.empty()) return std::nullopt;
+    report_.set_aside = tangles_.tangled.size() - tangles_.count;
+    return sewn;
+  }
+
   // By the numbers of the triangles as sources, without the sides of what is left undivided.
   Surface extract_pieces(Tree& tree, const CoveredCells& covered, const TangleLabels& labels) {
     for (TriangleId t(0u); t < tree.input.triangles.end_id(); ++t.value) {
@@ -137,20 +162,27 @@ class TangleCutter {
                    [](char tangled) { return tangled == 0 ? 1 : 0; });
     ExtractOptions extract_options = options_.extract;
     extract_options.whole = whole;
+    extract_options.tell_facets = true;
     extract_options.progress = options_.progress;
     Surface pieces = extract_surface(covered.complex, covered.cover, labels.solid, report_.extract,
                                      extract_options);
+    const auto is_undivided = [&](CellId c) {
+      return tree.leaves[covered.complex.cells[c].leaf].undivided;
+    };
     std::vector<char> keep;
-    for (const std::uint32_t source : pieces.source) {
-      keep.push_back(source != Surface::kNoSource ? 1 : 0);
+    for (const FacetId f : report_.extract.facet_of) {
+      const Facet& facet = covered.complex.facets[f];
+      const bool is_end = is_undivided(facet.above) || is_undivided(facet.below);
+      keep.push_back(is_end && !covered.cover[f].opaque() ? 0 : 1);
     }
+    report_.extract.facet_of = {};
     keep_triangles(pieces, keep);
     return pieces;
   }
 
   const CleanSoup& soup_;
   const Orientation& orientation_;
-  const Tangles& tangles_;
+  Tangles tangles_;
   const RepairOptions& options_;
   RepairReport& report_;
   StageMeter& meter_;
@@ -161,13 +193,10 @@ std::optional<Surface> try_to_cut(const CleanSoup& soup, const Orientation& orie
                                   const RepairOptions& options, RepairReport& report,
                                   StageMeter& meter) {
   meter.begin("tangles");
-  const std::optional<Tangles> tangles = find_tangles(soup, orientation.winding, options.progress);
-  if (!tangles || static_cast<double>(tangles->count) >
-                      kMostTangled * static_cast<double>(tangles->tangled.size())) {
-    return std::nullopt;
-  }
+  std::optional<Tangles> tangles = find_tangles(soup, orientation.winding, options.progress);
+  if (!tangles) return std::nullopt;
   std::optional<Surface> sewn =
-      TangleCutter(soup, orientation, *tangles, options, report, meter).run();
+      TangleCutter(soup, orientation, std::move(*tangles), options, report, meter).run();
   if (!sewn) return std::nullopt;
   RepairOptions finishing = options;
   finishing.examine = nullptr;

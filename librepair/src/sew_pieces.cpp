@@ -28,8 +28,8 @@ class PieceSewer {
     std::uint32_t next = 0;
     for (std::uint32_t i = 0; i < pieces_.mesh.triangles.size(); ++i) {
       const std::uint32_t source = pieces_.source[i];
-      if (tangles_.tangled[source] == 0) continue;
-      for (; next < source; ++next) add_if_kept(next);
+      if (is_set_aside(source)) continue;
+      for (; next < source && source != Surface::kNoSource; ++next) add_if_kept(next);
       IndexTriangle corners = pieces_.mesh.triangles[i];
       for (std::uint32_t& corner : corners) corner += first_of_pieces();
       add(corners, source);
@@ -45,6 +45,10 @@ class PieceSewer {
     return static_cast<std::uint32_t>(soup_.points.size());
   }
 
+  [[nodiscard]] bool is_set_aside(std::uint32_t source) const {
+    return source != Surface::kNoSource && tangles_.tangled[source] == 0;
+  }
+
   void mark_points_of_tangles() {
     of_tangles_.assign(soup_.points.size(), 0);
     for (std::size_t t = 0; t < tangles_.tangled.size(); ++t) {
@@ -57,7 +61,7 @@ class PieceSewer {
   void find_shared_corners() {
     for (std::uint32_t i = 0; i < pieces_.mesh.triangles.size(); ++i) {
       const std::uint32_t source = pieces_.source[i];
-      if (tangles_.tangled[source] != 0) continue;
+      if (!is_set_aside(source)) continue;
       for (const std::uint32_t v : pieces_.mesh.triangles[i]) {
         if (pieces_.input_point[v] == 0) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -90,7 +94,9 @@ class PieceSewer {
 
   void add(const IndexTriangle& corners, std::uint32_t triangle) {
     corners_.push_back(corners);
-    result_.source.push_back(soup_.triangles[TriangleId(triangle)].source);
+    static_assert(Surface::kNoSource == Triangle::kNoSource);
+    result_.source.push_back(
+        triangle == Surface::kNoSource ? triangle : soup_.triangles[TriangleId(triangle)].source);
   }
 
   // Whether every edge has two triangles, turned alike.

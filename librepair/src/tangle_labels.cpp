@@ -172,21 +172,25 @@ class TangleLabeller {
 
 }  // namespace
 
-bool agree_with_patches(const TangleLabels& labels, const CoveredCells& covered,
-                        const Tangles& tangles, const Orientation& orientation) {
+std::vector<std::uint32_t> find_disagreements(const TangleLabels& labels,
+                                              const CoveredCells& covered, const Tangles& tangles,
+                                              const Orientation& orientation) {
   const CellComplex& complex = covered.complex;
+  const auto is_fixed = [&](CellId c) { return !c.valid() || labels.fixed[c.index()] != 0; };
+  std::vector<std::uint32_t> found;
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
     const Facet& facet = complex.facets[f];
     const TriangleId t = covered.cover[f].triangle;
     if (!t.valid() || tangles.tangled[t.index()] != 0) continue;
-    const auto is_fixed = [&](CellId c) { return !c.valid() || labels.fixed[c.index()] != 0; };
     if (is_fixed(facet.above) && is_fixed(facet.below)) continue;
     if (labels.patches[tangles.patch_of[t.index()]] !=
         sides_of(labels.solid, facet.above, facet.below, orientation.winding[t])) {
-      return false;
+      found.push_back(t.value);
     }
   }
-  return true;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 std::optional<TangleLabels> label_tangles(const Tree& tree, const CoveredCells& covered,

@@ -26,9 +26,11 @@ struct TangleLabels {
   std::vector<PatchSides> patches;
 };
 
-// Whether all cells beside each patch are as it says.
-[[nodiscard]] bool agree_with_patches(const TangleLabels& labels, const CoveredCells& covered,
-                                      const Tangles& tangles, const Orientation& orientation);
+// The triangles of patches, ascending, beside which cells are not as their patch says.
+[[nodiscard]] std::vector<std::uint32_t> find_disagreements(const TangleLabels& labels,
+                                                            const CoveredCells& covered,
+                                                            const Tangles& tangles,
+                                                            const Orientation& orientation);
 
 // What label_cells() says of all cells of the soup, for InsideRule::winding, and for `automatic`
 // where nothing is in doubt. `tree` leaves undivided only what no tangled triangle touches; the

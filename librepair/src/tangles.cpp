@@ -15,6 +15,25 @@
 namespace meshrepair::internal {
 namespace {
 
+void find_patches(const EdgeTable& table, Tangles& tangles) {
+  const std::vector<char>& tangled = tangles.tangled;
+  tangles.count = static_cast<std::size_t>(std::count(tangled.begin(), tangled.end(), 1));
+  DisjointSets sets(tangled.size());
+  table.for_each_edge([&](std::span<const std::uint32_t> sides) {
+    if (sides.size() != 2) return;
+    const std::uint32_t a = sides[0] / 3, b = sides[1] / 3;
+    if (tangled[a] == 0 && tangled[b] == 0) sets.join(a, b);
+  });
+  tangles.patches = 0;
+  tangles.patch_of.assign(tangled.size(), kNone);
+  for (std::uint32_t t = 0; t < tangled.size(); ++t) {
+    if (tangled[t] != 0) continue;
+    // The lowest triangle stands for its set, so it comes first.
+    const std::uint32_t root = sets.root(t);
+    tangles.patch_of[t] = root == t ? tangles.patches++ : tangles.patch_of[root];
+  }
+}
+
 class TangleFinder {
  public:
   TangleFinder(const CleanSoup& soup, const IdVector<TriangleId, std::int32_t>& winding) {
@@ -30,9 +49,7 @@ class TangleFinder {
   std::optional<Tangles> run(ProgressObserver* progress) {
     const EdgeTable table(result_.on_grid.triangles);
     if (!look_at_edges(table) || !look_at_pairs(progress)) return std::nullopt;
-    result_.count =
-        static_cast<std::size_t>(std::count(result_.tangled.begin(), result_.tangled.end(), 1));
-    find_patches(table);
+    find_patches(table, result_);
     return std::move(result_);
   }
 
@@ -70,22 +87,6 @@ class TangleFinder {
     return found.pairs.size() == found.count;
   }
 
-  void find_patches(const EdgeTable& table) {
-    DisjointSets sets(result_.tangled.size());
-    table.for_each_edge([&](std::span<const std::uint32_t> sides) {
-      if (sides.size() != 2) return;
-      const std::uint32_t a = sides[0] / 3, b = sides[1] / 3;
-      if (result_.tangled[a] == 0 && result_.tangled[b] == 0) sets.join(a, b);
-    });
-    result_.patch_of.assign(result_.tangled.size(), kNone);
-    for (std::uint32_t t = 0; t < result_.tangled.size(); ++t) {
-      if (result_.tangled[t] != 0) continue;
-      // The lowest triangle stands for its set, so it comes first.
-      const std::uint32_t root = sets.root(t);
-      result_.patch_of[t] = root == t ? result_.patches++ : result_.patch_of[root];
-    }
-  }
-
   Tangles result_;
 };
 
@@ -95,6 +96,11 @@ std::optional<Tangles> find_tangles(const CleanSoup& soup,
                                     const IdVector<TriangleId, std::int32_t>& winding,
                                     ProgressObserver* progress) {
   return TangleFinder(soup, winding).run(progress);
+}
+
+void add_tangled(std::span<const std::uint32_t> triangles, Tangles& tangles) {
+  for (const std::uint32_t t : triangles) tangles.tangled[t] = 1;
+  find_patches(EdgeTable(tangles.on_grid.triangles), tangles);
 }
 
 }  // namespace meshrepair::internal

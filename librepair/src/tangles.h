@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <bsp/clean_soup.h>
@@ -31,5 +32,8 @@ struct Tangles {
 [[nodiscard]] std::optional<Tangles> find_tangles(const CleanSoup& soup,
                                                   const IdVector<TriangleId, std::int32_t>& winding,
                                                   ProgressObserver* progress);
+
+// Takes some more for tangled.
+void add_tangled(std::span<const std::uint32_t> triangles, Tangles& tangles);
 
 }  // namespace meshrepair::internal

@@ -18,6 +18,7 @@ struct ExtractOptions {
   // Of each triangle of the soup, whether it is not cut, though only a part of it may be among the
   // cells' facets: nothing is merged with it. Empty: what is cut is seen there.
   std::span<const char> whole = {};
+  bool tell_facets = false;  // ExtractReport::facet_of
 };
 
 struct ExtractReport {
@@ -28,6 +29,7 @@ struct ExtractReport {
   std::size_t singular_vertices = 0;
   std::size_t middle_vertices = 0;  // put into edges at which solids touch, see MiddleVertices
   std::size_t polygons_apart = 0;   // in a loose complex: facets that could not be merged
+  std::vector<FacetId> facet_of;    // of each triangle, if asked for: one in the same region
 };
 
 // `solid` has one entry for each cell. Points of the input keep their original coordinates bit for
