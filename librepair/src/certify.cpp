@@ -92,7 +92,7 @@ class Certifier {
     report_.pairs_at_first = current_.found.count;
     if (current_.faults() > 0) {
       best_ = current_;
-      if (options_.most_rounds > 0) {
+      if (options_.most_rounds > 0 && report_.pairs_at_first <= options_.most_pairs_at_first) {
         if (best_.misplaced() > 0 && options_.precision == Precision::float64) move_to_grid();
         if (best_.misplaced() > 0) improve();
         mend();

@@ -35,8 +35,14 @@ constexpr std::size_t kSmallRegion = 24;
 // How often more triangles may be found to be tangled.
 constexpr std::size_t kMostAttempts = 4;
 
-// What moving points does not mend soon is left to a repair that may cut otherwise.
+// Of the surface, the share that may go with slits and fins: with more, a format is too coarse for
+// the mesh, and where slits end depends on cells farther away.
+constexpr double kMostFilled = 0.01;
+
+// What moving points does not mend soon is left to a repair that may cut otherwise; and so are more
+// pairs of triangles that rounding makes meet than may be chance.
 constexpr std::size_t kMostRounds = 1;
+constexpr std::size_t kMostPairs = 32;
 
 bool is_wanted(const RepairOptions& options) {
   const InsideRule rule = options.inside.rule;
@@ -137,7 +143,10 @@ class TangleCutter {
     inside.solve.progress = options_.progress;
     std::optional<TangleLabels> labels =
         label_tangles(tree, covered, tangles_, orientation_, inside, report_.inside);
-    if (labels) fill_slits(covered, options_, labels->fixed, labels->solid, report_);
+    if (!labels) return std::nullopt;
+    fill_slits(covered, options_, labels->fixed, labels->solid, report_);
+    const double filled = report_.slits_area + report_.fins_area;
+    if (filled > kMostFilled * report_.input_area) return std::nullopt;
     return labels;
   }
 
@@ -201,6 +210,7 @@ std::optional<Surface> try_to_cut(const CleanSoup& soup, const Orientation& orie
   RepairOptions finishing = options;
   finishing.examine = nullptr;
   finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kMostRounds);
+  finishing.certify.most_pairs_at_first = kMostPairs;
   Surface surface = finish_surface(soup, std::move(*sewn), finishing, report, meter);
   if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
   return surface;

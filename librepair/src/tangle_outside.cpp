@@ -1,10 +1,10 @@
 #include "tangle_outside.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -29,13 +29,14 @@ constexpr double kFar = 8.0 * kGridRadius;
 class OutsideFinder {
  public:
   OutsideFinder(CellGraph& graph, std::span<const char> beside, const Tangles& tangles,
-                const TangleWinding& winding, TangleRays& rays)
+                const TangleWinding& winding, TangleRays& rays, ProgressObserver* progress)
       : graph_(graph),
         beside_(beside),
         tangles_(tangles),
         winding_(winding),
         rays_(rays),
-        sets_(graph.cells() + tangles.patches) {}
+        sets_(graph.cells() + tangles.patches),
+        check_(progress) {}
 
   bool run() {
     connect();
@@ -47,6 +48,7 @@ class OutsideFinder {
       if (beside_[c.index()] != 0) of_set = std::max(of_set, Fate::unknown);
       if (graph_.unbounded(c)) of_set = Fate::outside;
     }
+    list_members(fate);
     for (const CellId c : seekers_) {
       const std::uint32_t set = sets_.root(c.value);
       if (fate[set] == Fate::unknown && !sees_infinity(set)) return false;
@@ -61,6 +63,15 @@ class OutsideFinder {
  private:
   // Of a set of empty cells: sealed if all cells around it are known.
   enum class Fate : std::uint8_t { sealed, unknown, outside };
+
+  // A set, and what is in it.
+  using Member = std::pair<std::uint32_t, std::uint32_t>;
+
+  static std::span<const Member> members_of(std::uint32_t set, const std::vector<Member>& all) {
+    const auto first = std::lower_bound(all.begin(), all.end(), Member{set, 0});
+    const auto last = std::lower_bound(first, all.end(), Member{set + 1, 0});
+    return {first, last};
+  }
 
   [[nodiscard]] bool is_empty(CellId c) const { return winding_.of_cell[c.index()] == 0; }
 
@@ -87,28 +98,38 @@ class OutsideFinder {
     }
   }
 
-  bool sees_infinity(std::uint32_t set) {
-    std::vector<CellId> members;
-    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
-      if (is_empty(c) && sets_.root(c.value) == set) members.push_back(c);
+  // Of the sets that have to be looked at.
+  void list_members(const std::vector<Fate>& fate) {
+    std::vector<char> wanted(fate.size(), 0);
+    for (const CellId c : seekers_) {
+      const std::uint32_t set = sets_.root(c.value);
+      if (fate[set] == Fate::unknown) wanted[set] = 1;
     }
-    for (const CellId c : largest_cells(graph_, beside_, std::move(members), kMostCells)) {
+    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
+      const std::uint32_t set = sets_.root(c.value);
+      if (is_empty(c) && wanted[set] != 0) cells_.push_back({set, c.value});
+    }
+    const auto cells = static_cast<std::uint32_t>(graph_.cells());
+    for (std::uint32_t t = 0; t < tangles_.patch_of.size(); ++t) {
+      if (tangles_.tangled[t] != 0) continue;
+      const std::uint32_t set = sets_.root(cells + tangles_.patch_of[t]);
+      if (wanted[set] != 0) triangles_.push_back({set, t});
+    }
+    std::sort(cells_.begin(), cells_.end());
+    std::sort(triangles_.begin(), triangles_.end());
+  }
+
+  bool sees_infinity(std::uint32_t set) {
+    std::vector<CellId> cells;
+    for (const Member& m : members_of(set, cells_)) cells.emplace_back(m.second);
+    for (const CellId c : largest_cells(graph_, beside_, std::move(cells), kMostCells)) {
       const std::optional<Vec3d> place = rays_.place_in(c);
       if (place && sees_infinity(*place)) return true;
     }
-    return triangle_sees_infinity(set);
-  }
-
-  bool triangle_sees_infinity(std::uint32_t set) {
-    const auto cells = static_cast<std::uint32_t>(graph_.cells());
-    std::vector<std::uint32_t> members;
-    for (std::uint32_t t = 0; t < tangles_.patch_of.size(); ++t) {
-      if (tangles_.tangled[t] != 0) continue;
-      if (sets_.root(cells + tangles_.patch_of[t]) == set) members.push_back(t);
-    }
-    const std::size_t step = members.size() / kMostTriangles + 1;
-    for (std::size_t i = 0; i < members.size(); i += step) {
-      const std::optional<Vec3d> place = place_before(members[i]);
+    const std::span<const Member> triangles = members_of(set, triangles_);
+    const std::size_t step = triangles.size() / kMostTriangles + 1;
+    for (std::size_t i = 0; i < triangles.size(); i += step) {
+      const std::optional<Vec3d> place = place_before(triangles[i].second);
       if (place && sees_infinity(*place)) return true;
     }
     return false;
@@ -140,6 +161,7 @@ class OutsideFinder {
   }
 
   bool sees_infinity(const Vec3d& place) {
+    check_.tick();
     for (int x = -1; x <= 1; ++x) {
       for (int y = -1; y <= 1; ++y) {
         for (int z = -1; z <= 1; ++z) {
@@ -158,13 +180,15 @@ class OutsideFinder {
   TangleRays& rays_;
   DisjointSets sets_;  // of the cells, then of the patches
   std::vector<CellId> seekers_;
+  std::vector<Member> cells_, triangles_;  // by their sets
+  CancelCheck check_;
 };
 
 }  // namespace
 
 bool mark_outside(CellGraph& graph, std::span<const char> beside, const Tangles& tangles,
-                  const TangleWinding& winding, TangleRays& rays) {
-  return OutsideFinder(graph, beside, tangles, winding, rays).run();
+                  const TangleWinding& winding, TangleRays& rays, ProgressObserver* progress) {
+  return OutsideFinder(graph, beside, tangles, winding, rays, progress).run();
 }
 
 }  // namespace meshrepair::internal

@@ -79,6 +79,7 @@ class WindingWalk {
     std::vector<CellId> group = {first};
     walk(group);
     for (const CellId c : largest_cells(graph_, beside_, group, kMostPlaces)) {
+      check_.tick();
       const std::optional<Vec3d> place = rays_.place_in(c);
       if (!place) continue;
       const double missing = rays_.rays().winding_at(*place) - result_.of_cell[c.index()];
@@ -115,6 +116,7 @@ class WindingWalk {
     for (std::uint32_t t = 0; t < tangles_.patch_of.size(); ++t) {
       const std::uint32_t patch = tangles_.patch_of[t];
       if (patch == kNone || known[patch] != 0) continue;
+      check_.tick();
       const std::optional<std::int32_t> above = rays_.rays().winding_above(t);
       if (!above) continue;
       const bool faces_up = rays_.rays().facing(t) * tangles_.winding[t] > 0;

@@ -26,6 +26,8 @@ struct CertifyOptions {
   // How often the places that fail may be brought onto a coarser grid and repaired again. 0: they
   // are left as they are, but for solids that a format without indices would join.
   std::size_t most_rounds = 6;
+  // With more triangles that intersect than so many pairs, once rounded, no point is moved, either.
+  std::size_t most_pairs_at_first = ~std::size_t{0};
 };
 
 struct CertifyReport {
