@@ -21,7 +21,7 @@ struct RimEdge {
   std::uint32_t rim = 0;  // the lowest of its points
 };
 
-struct Box {
+struct ScanBox {
   Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
   Vec3d high = -low;
 
@@ -104,7 +104,7 @@ class BaseBuilder {
 
   // Of each part the rim whose bounding box has the longest diagonal, seen along the axis.
   void choose_rims() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Box> rims;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, ScanBox> rims;
     for (const RimEdge& edge : edges_) {
       if (is_kept_[edge.part] != 0) rims[{edge.part, edge.rim}].add(soup_.points[edge.from]);
     }
@@ -125,11 +125,11 @@ class BaseBuilder {
 
   // That rims of the parts that are kept need.
   [[nodiscard]] std::map<std::uint32_t, double> least_widths() {
-    std::map<std::uint32_t, Box> boxes;
+    std::map<std::uint32_t, ScanBox> boxes;
     for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
       const std::uint32_t part = parts_.root(t);
       if (is_kept_[part] == 0) continue;
-      Box& box = boxes[part];
+      ScanBox& box = boxes[part];
       for (const std::uint32_t p : soup_.triangles[t]) box.add(soup_.points[p]);
     }
     std::map<std::uint32_t, double> widths;
@@ -140,7 +140,7 @@ class BaseBuilder {
   }
 
   void add_skirts() {
-    Box box;
+    ScanBox box;
     for (const auto& triangle : result_.triangles) {
       for (const std::uint32_t p : triangle) box.add(soup_.points[p]);
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bsp/error.h>
+#include <bsp/float32.h>
 #include <bsp/soup_io.h>
 #include <extract/check_surface.h>
 #include <extract/self_intersections.h>
@@ -81,6 +82,23 @@ TEST(Certify, MovesNothingWhenNoRoundsAreAllowed) {
 }
 
 // A corner just above a face, rounded onto it.
+TEST(Certify, MovesNothingWhereTooManyMeetAtFirst) {
+  TriangleSoup soup = box({-1, -1, -1}, {1, 1, 1.0 / 3});
+  append(soup, moved(cube(), {0.5, 0.25, 1.0 / 3}));
+  CertifyOptions options;
+  options.precision = Precision::float32;
+  CertifyReport report;
+  (void)certified(surface_of(soup), options, report);
+  ASSERT_GT(report.pairs_at_first, 0u);
+  options.most_pairs_at_first = report.pairs_at_first - 1;
+  const Surface result = certified(surface_of(soup), options, report);
+  EXPECT_EQ(report.pairs, report.pairs_at_first);
+  EXPECT_EQ(report.rounds, 0u);
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    EXPECT_EQ(result.mesh.points[i], rounded_to_float32(soup.points[i]));
+  }
+}
+
 TEST(Certify, NudgesPointsOffTheFacesThatTheyFellOn) {
   TriangleSoup soup = box({-1, -1, -1}, {1, 1, 1.0 / 3});
   TriangleSoup tip;

@@ -217,6 +217,39 @@ TEST(CutTangles, PocketsInCavitiesAreLeftToAllCells) {
   EXPECT_FALSE(cuts_tangles(soup, {}));
 }
 
+TEST(CutTangles, SolidsThatTouchAreSewnAsAsked) {
+  TriangleSoup along_edge = divided(cube(), 3);
+  append(along_edge, moved(divided(cube(), 3), {1, 1, 0.5}));
+  TriangleSoup in_corner = divided(cube(), 3);
+  append(in_corner, moved(divided(cube(), 3), {1, 1, 1}));
+  TriangleSoup in_face = divided(cube(), 3);
+  append(in_face, scaled(moved(divided(cube(), 3), {0.25, 0.25, 2}), 0.5));
+  for (const Touching touching : {Touching::separate, Touching::join}) {
+    RepairOptions options;
+    options.extract.touching = touching;
+    EXPECT_TRUE(cuts_tangles(along_edge, options, Dividing::any));
+    EXPECT_TRUE(cuts_tangles(in_corner, options, Dividing::any));
+    EXPECT_TRUE(cuts_tangles(in_face, options, Dividing::any));
+  }
+}
+
+// Sheets nearer to each other than the numbers of a file: what lies between goes, also where one of
+// them meets nothing else.
+TEST(CutTangles, SlitsAreFilledAroundTangles) {
+  constexpr double kSlit = 0x1p-22;
+  TriangleSoup soup = divided(cube(), 4);
+  append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kSlit})));
+  append(soup, box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8}));
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  const RepairResult all = repair(soup, options);
+  ASSERT_GT(all.report.thin_cells.filled, 0u);
+  const RepairResult result = repair_sparing(soup, options);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_NEAR(result.report.output_volume, all.report.output_volume, 1e-9);
+  EXPECT_NEAR(result.report.output_area, all.report.output_area, 1e-6);
+}
+
 TEST(CutTangles, OtherRulesAskAllCells) {
   const TriangleSoup soup = two_overlapping_spheres(4000);
   RepairOptions options;

@@ -8,6 +8,7 @@
 #include <extract/mesh_distance.h>
 #include <repair/repair.h>
 
+#include "complexes.h"
 #include "shapes.h"
 
 namespace meshrepair {
@@ -75,6 +76,19 @@ TEST(ThinCells, WhatIsNothingButThinStays) {
   EXPECT_EQ(result.report.thin_cells.emptied, 0u);
   EXPECT_EQ(result.report.fins_area, 0);
   EXPECT_NEAR(result.report.output_area, 4 * 4, 1e-4);
+}
+
+TEST(ThinCells, FixedCellsStay) {
+  const TriangleSoup post = box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8});
+  Cells cells = cells_of(together(together(cube(), lid), post));
+  const auto cover = cover_of(cells);
+  const double within = 2 * kSlit / cells.complex.soup().grid.unit;
+  std::vector<char> solid = enclosed_cells(cells.complex, cover);
+  const std::vector<char> before = solid;
+  const std::vector<char> fixed(solid.size(), 1);
+  EXPECT_EQ(relabel_thin_cells(cells.complex, cover, within, solid, nullptr, fixed).filled, 0u);
+  EXPECT_EQ(solid, before);
+  EXPECT_GT(relabel_thin_cells(cells.complex, cover, within, solid).filled, 0u);
 }
 
 TEST(ThinCells, TheVolumeChangesByAFewStepsOfTheNumbers) {
