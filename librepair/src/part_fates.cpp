@@ -18,7 +18,7 @@ bool is_solid(const std::vector<char>& solid, CellId cell) {
 std::vector<std::uint8_t> places_of_triangles(const CellComplex& complex,
                                               const IdVector<FacetId, Cover>& cover,
                                               const std::vector<char>& solid) {
-  std::vector<std::uint8_t> places(complex.soup().triangles.size(), kNowhere);
+  std::vector<std::uint8_t> places(complex.soup().triangles.size(), 0);
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
     if (!cover[f].opaque()) continue;
     places[cover[f].triangle.index()] |= place_between(is_solid(solid, complex.facets[f].above),

@@ -28,11 +28,13 @@ struct PartFates {
   std::size_t outside_triangles = 0;
 };
 
-// Where the pieces of a triangle lie.
-enum PiecePlace : std::uint8_t { kNowhere = 0, kOnBoundary = 1, kInside = 2, kOutside = 4 };
+// Where the pieces of a triangle lie: bits; none of them where it has no piece of its own.
+inline constexpr std::uint8_t kOnBoundary = 1;
+inline constexpr std::uint8_t kInside = 2;
+inline constexpr std::uint8_t kOutside = 4;
 
 // Of a piece that has what is solid, or not, on its two sides.
-[[nodiscard]] constexpr PiecePlace place_between(bool one_solid, bool other_solid) {
+[[nodiscard]] constexpr std::uint8_t place_between(bool one_solid, bool other_solid) {
   if (one_solid != other_solid) return kOnBoundary;
   return one_solid ? kInside : kOutside;
 }
