@@ -101,8 +101,9 @@ class TangleLabeller {
     for (std::uint32_t p = 0; p < tangles_.patches; ++p) {
       if (winding_.in_front[p] < 0 && winding_.patch_has_cells[p] == 0) return false;
     }
-    if (!mark_outside(graph_, beside_, tangles_, winding_, rays_, options_.solve.progress))
-      return false;
+    const bool outside_is_known =
+        mark_outside(graph_, beside_, tangles_, winding_, rays_, options_.solve.progress);
+    if (!outside_is_known) return false;
     const OuterPockets pockets =
         turn_outer_pockets(graph_, orientation_.part_of, all_solid_areas(), w);
     report_.left_out_folds = pockets.left_out;

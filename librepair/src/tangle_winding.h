@@ -35,9 +35,10 @@ class TangleRays {
 
 struct TangleWinding {
   std::vector<double> of_cell;  // those without links: 0
-  std::vector<std::int32_t>
-      in_front;                       // of each patch, as Tangles::winding turns it; behind: 1 more
-  std::vector<char> patch_has_cells;  // of each patch: cells with links lie on both sides somewhere
+  // Of each patch, as Tangles::winding turns it; behind it is 1 more.
+  std::vector<std::int32_t> in_front;
+  // Of each patch, whether cells with links lie on both sides of it somewhere.
+  std::vector<char> patch_has_cells;
 };
 
 // The graph has no links to cells that were left undivided; `beside` marks the cells next to these.
