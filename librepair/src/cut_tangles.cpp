@@ -26,7 +26,7 @@ namespace meshrepair::internal {
 namespace {
 
 // With a larger share of its triangles tangled, dividing all of the soup takes no longer.
-constexpr double kMostTangled = 0.25;
+constexpr double kMostTangled = 0.2;
 
 // Regions with more fragments than this are cut across an axis: smaller ones than where all is
 // divided, as most of what is cut off is left undivided.
