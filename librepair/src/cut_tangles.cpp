@@ -28,12 +28,16 @@ namespace {
 // With a larger share of its triangles tangled, dividing all of the soup takes no longer.
 constexpr double kMostTangled = 0.2;
 
+// In fragments at nodes for each triangle, of which all of a soup has about two: with more,
+// neither.
+constexpr double kMostDivided = 1.5;
+
 // Regions with more fragments than this are cut across an axis: smaller ones than where all is
 // divided, as most of what is cut off is left undivided.
 constexpr std::size_t kSmallRegion = 24;
 
-// How often more triangles may be found to be tangled.
-constexpr std::size_t kMostAttempts = 4;
+// Each attempt but the last may find that more triangles are tangled.
+constexpr std::size_t kMostAttempts = 3;
 
 // Of the surface, the share that may go with slits and fins: with more, a format is too coarse for
 // the mesh, and where slits end depends on cells farther away.
@@ -44,10 +48,13 @@ constexpr double kMostFilled = 0.01;
 constexpr std::size_t kMostRounds = 1;
 constexpr std::size_t kMostPairs = 32;
 
-bool is_wanted(const RepairOptions& options) {
-  const InsideRule rule = options.inside.rule;
-  return may_spare_cells(options) && !may_fill(options.inside) &&
-         (rule == InsideRule::automatic || rule == InsideRule::winding);
+bool is_wanted(const Orientation& orientation, const RepairOptions& options) {
+  if (!may_spare_cells(options) || may_fill(options.inside)) return false;
+  if (options.inside.rule == InsideRule::winding) return true;
+  // Of parts that may face either way all cells have to tell.
+  return options.inside.rule == InsideRule::automatic &&
+         std::all_of(orientation.parts.begin(), orientation.parts.end(),
+                     [](const OrientedPart& p) { return p.believed; });
 }
 
 std::vector<Box> boxes_of_tangles(const Tangles& tangles) {
@@ -98,6 +105,7 @@ class TangleCutter {
       : soup_(soup),
         orientation_(orientation),
         tangles_(std::move(tangles)),
+        rays_(tangles_),
         options_(options),
         report_(report),
         meter_(meter) {}
@@ -106,6 +114,7 @@ class TangleCutter {
     for (std::size_t attempt = 0; attempt < kMostAttempts && !are_too_many(); ++attempt) {
       meter_.begin("tree");
       Tree tree = divide_around(soup_, tangles_, options_, report_.tree);
+      if (is_divided_too_far(tree)) return std::nullopt;
       const CoveredCells covered = make_cells(tree);
       std::optional<TangleLabels> labels = label(tree, covered);
       if (!labels) return std::nullopt;
@@ -122,6 +131,11 @@ class TangleCutter {
   [[nodiscard]] bool are_too_many() const {
     return static_cast<double>(tangles_.count) >
            kMostTangled * static_cast<double>(tangles_.tangled.size());
+  }
+
+  [[nodiscard]] bool is_divided_too_far(const Tree& tree) const {
+    return static_cast<double>(tree.node_triangles.size()) >
+           kMostDivided * static_cast<double>(tangles_.tangled.size());
   }
 
   CoveredCells make_cells(const Tree& tree) {
@@ -142,11 +156,12 @@ class TangleCutter {
     InsideOptions inside = options_.inside;
     inside.solve.progress = options_.progress;
     std::optional<TangleLabels> labels =
-        label_tangles(tree, covered, tangles_, orientation_, inside, report_.inside);
+        label_tangles(tree, covered, tangles_, orientation_, rays_, inside, report_.inside);
     if (!labels) return std::nullopt;
-    fill_slits(covered, options_, labels->fixed, labels->solid, report_);
+    fill_slits(covered, options_, labels->states, labels->solid, report_);
     const double filled = report_.slits_area + report_.fins_area;
-    if (filled > kMostFilled * report_.input_area) return std::nullopt;
+    const bool is_minor = filled <= kMostFilled * report_.input_area;
+    if (!is_minor || report_.thin_cells.reaches_fixed) return std::nullopt;
     return labels;
   }
 
@@ -157,6 +172,7 @@ class TangleCutter {
     const Surface pieces = extract_pieces(tree, covered, labels);
     std::optional<Surface> sewn = sew_pieces(soup_, tangles_, labels.patches, pieces);
     if (!sewn || sewn->mesh.triangles.empty()) return std::nullopt;
+    report_.links = labels.links;
     report_.set_aside = tangles_.tangled.size() - tangles_.count;
     return sewn;
   }
@@ -192,6 +208,7 @@ class TangleCutter {
   const CleanSoup& soup_;
   const Orientation& orientation_;
   Tangles tangles_;
+  TangleRays rays_;
   const RepairOptions& options_;
   RepairReport& report_;
   StageMeter& meter_;
@@ -221,7 +238,7 @@ std::optional<Surface> try_to_cut(const CleanSoup& soup, const Orientation& orie
 std::optional<Surface> cut_tangles(const CleanSoup& soup, const Orientation& orientation,
                                    const RepairOptions& options, RepairReport& report,
                                    StageMeter& meter) {
-  if (!is_wanted(options)) return std::nullopt;
+  if (!is_wanted(orientation, options)) return std::nullopt;
   RepairReport attempt = report;
   std::optional<Surface> surface = try_to_cut(soup, orientation, options, attempt, meter);
   if (!surface) return std::nullopt;

@@ -14,7 +14,7 @@ bool fills_slits(const CoveredCells& covered, const RepairOptions& options) {
 }
 
 void fill_slits(const CoveredCells& covered, const RepairOptions& options,
-                std::span<const char> fixed, std::vector<char>& solid, RepairReport& report) {
+                std::span<const CellState> states, std::vector<char>& solid, RepairReport& report) {
   report.thin_cells = {};
   report.slits_area = report.fins_area = 0;
   if (!fills_slits(covered, options)) return;
@@ -25,7 +25,7 @@ void fill_slits(const CoveredCells& covered, const RepairOptions& options,
   const double unit = soup.grid.unit;
   report.thin_cells =
       relabel_thin_cells(covered.complex, covered.cover, options.slit_steps * spacing / unit, solid,
-                         options.progress, fixed);
+                         options.progress, states);
   report.slits_area = report.thin_cells.filled_area * unit * unit;
   report.fins_area = report.thin_cells.emptied_area * unit * unit;
 }

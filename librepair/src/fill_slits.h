@@ -14,8 +14,8 @@ namespace meshrepair::internal {
 [[nodiscard]] bool fills_slits(const CoveredCells& covered, const RepairOptions& options);
 
 // Changes `solid`, of each cell, where sheets would cross once they are written, as they are so
-// near to each other; says so in the report. `fixed` as relabel_thin_cells() has it.
+// near to each other; says so in the report. `states` as relabel_thin_cells() has it.
 void fill_slits(const CoveredCells& covered, const RepairOptions& options,
-                std::span<const char> fixed, std::vector<char>& solid, RepairReport& report);
+                std::span<const CellState> states, std::vector<char>& solid, RepairReport& report);
 
 }  // namespace meshrepair::internal

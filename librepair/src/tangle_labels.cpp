@@ -48,7 +48,8 @@ PatchSides sides_of(const std::vector<char>& solid, CellId above, CellId below,
 class TangleLabeller {
  public:
   TangleLabeller(const Tree& tree, const CoveredCells& covered, const Tangles& tangles,
-                 const Orientation& orientation, const InsideOptions& options, InsideReport& report)
+                 const Orientation& orientation, TangleRays& rays, const InsideOptions& options,
+                 InsideReport& report)
       : complex_(covered.complex),
         tangles_(tangles),
         orientation_(orientation),
@@ -57,11 +58,11 @@ class TangleLabeller {
         undivided_(undivided_cells(tree, complex_)),
         beside_(cells_beside(complex_, undivided_)),
         graph_(complex_, covered.cover, options.solve.progress, covered.layers, undivided_),
-        rays_(complex_, tangles) {}
+        rays_(rays) {}
 
   std::optional<TangleLabels> run() {
     std::optional<TangleWinding> found = find_tangle_winding(
-        graph_, beside_, tangles_, orientation_, rays_, options_.solve.progress);
+        complex_, graph_, beside_, tangles_, orientation_, rays_, options_.solve.progress);
     if (!found) return std::nullopt;
     winding_ = std::move(*found);
     report_ = {};
@@ -102,7 +103,7 @@ class TangleLabeller {
       if (winding_.in_front[p] < 0 && winding_.patch_has_cells[p] == 0) return false;
     }
     const bool outside_is_known =
-        mark_outside(graph_, beside_, tangles_, winding_, rays_, options_.solve.progress);
+        mark_outside(complex_, graph_, beside_, tangles_, winding_, rays_, options_.solve.progress);
     if (!outside_is_known) return false;
     const OuterPockets pockets =
         turn_outer_pockets(graph_, orientation_.part_of, all_solid_areas(), w);
@@ -145,8 +146,11 @@ class TangleLabeller {
           sides_of(labels.solid, link.above, link.below, orientation_.winding[link.triangle]);
     }
     for (std::size_t c = 0; c < undivided_.size(); ++c) {
-      labels.fixed.push_back(undivided_[c] != 0 || beside_[c] != 0 ? 1 : 0);
+      labels.states.push_back(undivided_[c] != 0 ? CellState::unknown
+                              : beside_[c] != 0  ? CellState::fixed
+                                                 : CellState::free);
     }
+    labels.links = graph_.links().size();
     return labels;
   }
 
@@ -168,7 +172,7 @@ class TangleLabeller {
   InsideReport& report_;
   std::vector<char> undivided_, beside_;
   CellGraph graph_;
-  TangleRays rays_;
+  TangleRays& rays_;
   TangleWinding winding_;
 };
 
@@ -178,13 +182,15 @@ std::vector<std::uint32_t> find_disagreements(const TangleLabels& labels,
                                               const CoveredCells& covered, const Tangles& tangles,
                                               const Orientation& orientation) {
   const CellComplex& complex = covered.complex;
-  const auto is_fixed = [&](CellId c) { return !c.valid() || labels.fixed[c.index()] != 0; };
+  const auto stays = [&](CellId c) {
+    return !c.valid() || labels.states[c.index()] != CellState::free;
+  };
   std::vector<std::uint32_t> found;
   for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
     const Facet& facet = complex.facets[f];
     const TriangleId t = covered.cover[f].triangle;
     if (!t.valid() || tangles.tangled[t.index()] != 0) continue;
-    if (is_fixed(facet.above) && is_fixed(facet.below)) continue;
+    if (stays(facet.above) && stays(facet.below)) continue;
     if (labels.patches[tangles.patch_of[t.index()]] !=
         sides_of(labels.solid, facet.above, facet.below, orientation.winding[t])) {
       found.push_back(t.value);
@@ -197,8 +203,9 @@ std::vector<std::uint32_t> find_disagreements(const TangleLabels& labels,
 
 std::optional<TangleLabels> label_tangles(const Tree& tree, const CoveredCells& covered,
                                           const Tangles& tangles, const Orientation& orientation,
-                                          const InsideOptions& options, InsideReport& report) {
-  return TangleLabeller(tree, covered, tangles, orientation, options, report).run();
+                                          TangleRays& rays, const InsideOptions& options,
+                                          InsideReport& report) {
+  return TangleLabeller(tree, covered, tangles, orientation, rays, options, report).run();
 }
 
 }  // namespace meshrepair::internal

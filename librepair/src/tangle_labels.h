@@ -1,6 +1,8 @@
 // What is solid around the tangles of a soup, whose cells alone are divided, and beside the rest.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -8,8 +10,10 @@
 #include <bsp/tree.h>
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
+#include <repair/thin_cells.h>
 
 #include "covered_cells.h"
+#include "tangle_winding.h"
 #include "tangles.h"
 
 namespace meshrepair::internal {
@@ -22,8 +26,10 @@ struct PatchSides {
 
 struct TangleLabels {
   std::vector<char> solid;  // of each cell; not of those that were left undivided
-  std::vector<char> fixed;  // of each cell: undivided, or has a facet in common with one that is
+  // Of each cell: undivided ones are unknown, those that have a facet in common with one are fixed.
+  std::vector<CellState> states;
   std::vector<PatchSides> patches;
+  std::size_t links = 0;  // between cells that are known
 };
 
 // The triangles of patches, ascending, beside which cells are not as their patch says.
@@ -39,6 +45,7 @@ struct TangleLabels {
 // outside.
 [[nodiscard]] std::optional<TangleLabels> label_tangles(
     const Tree& tree, const CoveredCells& covered, const Tangles& tangles,
-    const Orientation& orientation, const InsideOptions& options, InsideReport& report);
+    const Orientation& orientation, TangleRays& rays, const InsideOptions& options,
+    InsideReport& report);
 
 }  // namespace meshrepair::internal

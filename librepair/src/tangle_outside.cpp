@@ -28,9 +28,11 @@ constexpr double kFar = 8.0 * kGridRadius;
 
 class OutsideFinder {
  public:
-  OutsideFinder(CellGraph& graph, std::span<const char> beside, const Tangles& tangles,
-                const TangleWinding& winding, TangleRays& rays, ProgressObserver* progress)
-      : graph_(graph),
+  OutsideFinder(const CellComplex& complex, CellGraph& graph, std::span<const char> beside,
+                const Tangles& tangles, const TangleWinding& winding, TangleRays& rays,
+                ProgressObserver* progress)
+      : complex_(complex),
+        graph_(graph),
         beside_(beside),
         tangles_(tangles),
         winding_(winding),
@@ -123,7 +125,7 @@ class OutsideFinder {
     std::vector<CellId> cells;
     for (const Member& m : members_of(set, cells_)) cells.emplace_back(m.second);
     for (const CellId c : largest_cells(graph_, beside_, std::move(cells), kMostCells)) {
-      const std::optional<Vec3d> place = rays_.place_in(c);
+      const std::optional<Vec3d> place = place_in(complex_, c);
       if (place && sees_infinity(*place)) return true;
     }
     const std::span<const Member> triangles = members_of(set, triangles_);
@@ -154,7 +156,7 @@ class OutsideFinder {
         return std::nullopt;
       }
     }
-    if (orientation(before, behind, a, b) == 0 || !rays_.rays().sees(before, behind, t)) {
+    if (orientation(before, behind, a, b) == 0 || !rays_.get().sees(before, behind, t)) {
       return std::nullopt;
     }
     return before;
@@ -166,13 +168,14 @@ class OutsideFinder {
       for (int y = -1; y <= 1; ++y) {
         for (int z = -1; z <= 1; ++z) {
           if (x == 0 && y == 0 && z == 0) continue;
-          if (rays_.rays().sees(place, place + kFar * Vec3d(x, y, z))) return true;
+          if (rays_.get().sees(place, place + kFar * Vec3d(x, y, z))) return true;
         }
       }
     }
     return false;
   }
 
+  const CellComplex& complex_;
   CellGraph& graph_;
   std::span<const char> beside_;
   const Tangles& tangles_;
@@ -186,9 +189,10 @@ class OutsideFinder {
 
 }  // namespace
 
-bool mark_outside(CellGraph& graph, std::span<const char> beside, const Tangles& tangles,
-                  const TangleWinding& winding, TangleRays& rays, ProgressObserver* progress) {
-  return OutsideFinder(graph, beside, tangles, winding, rays, progress).run();
+bool mark_outside(const CellComplex& complex, CellGraph& graph, std::span<const char> beside,
+                  const Tangles& tangles, const TangleWinding& winding, TangleRays& rays,
+                  ProgressObserver* progress) {
+  return OutsideFinder(complex, graph, beside, tangles, winding, rays, progress).run();
 }
 
 }  // namespace meshrepair::internal

@@ -16,8 +16,9 @@ namespace meshrepair::internal {
 // leads to infinity that no triangle is in. False if of one it is certain neither that it is
 // unbounded nor that it is in a cavity, with all cells of that known. `progress` is asked whether
 // to go on.
-[[nodiscard]] bool mark_outside(CellGraph& graph, std::span<const char> beside,
-                                const Tangles& tangles, const TangleWinding& winding,
-                                TangleRays& rays, ProgressObserver* progress);
+[[nodiscard]] bool mark_outside(const CellComplex& complex, CellGraph& graph,
+                                std::span<const char> beside, const Tangles& tangles,
+                                const TangleWinding& winding, TangleRays& rays,
+                                ProgressObserver* progress);
 
 }  // namespace meshrepair::internal

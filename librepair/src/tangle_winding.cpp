@@ -14,13 +14,15 @@ namespace meshrepair::internal {
 namespace {
 
 // So many places are tried for a ray, of the largest cells; one is enough but for slivers.
-constexpr std::size_t kMostPlaces = 16;
+constexpr std::size_t kMostPlaces = 64;
 
 class WindingWalk {
  public:
-  WindingWalk(const CellGraph& graph, std::span<const char> beside, const Tangles& tangles,
-              const Orientation& orientation, TangleRays& rays, ProgressObserver* progress)
-      : graph_(graph),
+  WindingWalk(const CellComplex& complex, const CellGraph& graph, std::span<const char> beside,
+              const Tangles& tangles, const Orientation& orientation, TangleRays& rays,
+              ProgressObserver* progress)
+      : complex_(complex),
+        graph_(graph),
         beside_(beside),
         tangles_(tangles),
         orientation_(orientation),
@@ -80,9 +82,9 @@ class WindingWalk {
     walk(group);
     for (const CellId c : largest_cells(graph_, beside_, group, kMostPlaces)) {
       check_.tick();
-      const std::optional<Vec3d> place = rays_.place_in(c);
+      const std::optional<Vec3d> place = place_in(complex_, c);
       if (!place) continue;
-      const double missing = rays_.rays().winding_at(*place) - result_.of_cell[c.index()];
+      const double missing = rays_.get().winding_at(*place) - result_.of_cell[c.index()];
       for (const CellId d : group) result_.of_cell[d.index()] += missing;
       return true;
     }
@@ -117,15 +119,16 @@ class WindingWalk {
       const std::uint32_t patch = tangles_.patch_of[t];
       if (patch == kNone || known[patch] != 0) continue;
       check_.tick();
-      const std::optional<std::int32_t> above = rays_.rays().winding_above(t);
+      const std::optional<std::int32_t> above = rays_.get().winding_above(t);
       if (!above) continue;
-      const bool faces_up = rays_.rays().facing(t) * tangles_.winding[t] > 0;
+      const bool faces_up = rays_.get().facing(t) * tangles_.winding[t] > 0;
       result_.in_front[patch] = faces_up ? *above : *above - 1;
       known[patch] = 1;
     }
     return std::find(known.begin(), known.end(), 0) == known.end();
   }
 
+  const CellComplex& complex_;
   const CellGraph& graph_;
   std::span<const char> beside_;
   const Tangles& tangles_;
@@ -138,38 +141,38 @@ class WindingWalk {
 
 }  // namespace
 
-const SoupRays& TangleRays::rays() {
+const SoupRays& TangleRays::get() {
   if (!rays_) rays_.emplace(tangles_.on_grid, tangles_.winding);
   return *rays_;
 }
 
-std::optional<Vec3d> TangleRays::place_in(CellId cell) const {
+std::optional<Vec3d> place_in(const CellComplex& complex, CellId cell) {
   std::array<double, 3> sum{};
   double count = 0;
-  complex_.for_each_facet(cell, [&](FacetId f) {
-    complex_.for_each_use(f, [&](UseId u) {
-      const auto& at = complex_.vertices[complex_.origin(complex_.uses[u])].position;
+  complex.for_each_facet(cell, [&](FacetId f) {
+    complex.for_each_use(f, [&](UseId u) {
+      const auto& at = complex.vertices[complex.origin(complex.uses[u])].position;
       for (std::size_t k = 0; k < 3; ++k) sum[k] += at[k];
       ++count;
     });
   });
   for (double& x : sum) x /= count;
   bool inside = true;
-  complex_.for_each_facet(cell, [&](FacetId f) {
-    const Facet& facet = complex_.facets[f];
-    const double distance = signed_distance(sum, complex_.planes[facet.plane]);
+  complex.for_each_facet(cell, [&](FacetId f) {
+    const Facet& facet = complex.facets[f];
+    const double distance = signed_distance(sum, complex.planes[facet.plane]);
     inside &= (facet.above == cell ? distance : -distance) > kDistanceError;
   });
   if (!inside) return std::nullopt;
   return Vec3d(sum[0], sum[1], sum[2]);
 }
 
-std::optional<TangleWinding> find_tangle_winding(const CellGraph& graph,
+std::optional<TangleWinding> find_tangle_winding(const CellComplex& complex, const CellGraph& graph,
                                                  std::span<const char> beside,
                                                  const Tangles& tangles,
                                                  const Orientation& orientation, TangleRays& rays,
                                                  ProgressObserver* progress) {
-  return WindingWalk(graph, beside, tangles, orientation, rays, progress).run();
+  return WindingWalk(complex, graph, beside, tangles, orientation, rays, progress).run();
 }
 
 std::vector<CellId> largest_cells(const CellGraph& graph, std::span<const char> beside,

@@ -16,22 +16,21 @@
 
 namespace meshrepair::internal {
 
-// Rays through all of the soup; what they need is made when the first is asked for.
+// Rays through all of the soup of `tangles`, which outlives them; what they need is made when they
+// are first asked for.
 class TangleRays {
  public:
-  TangleRays(const CellComplex& complex, const Tangles& tangles)
-      : complex_(complex), tangles_(tangles) {}
+  explicit TangleRays(const Tangles& tangles) : tangles_(tangles) {}
 
-  [[nodiscard]] const SoupRays& rays();
-
-  // In its inside, in grid units; nothing if the cell is too thin for rounded numbers to tell.
-  [[nodiscard]] std::optional<Vec3d> place_in(CellId cell) const;
+  [[nodiscard]] const SoupRays& get();
 
  private:
-  const CellComplex& complex_;
   const Tangles& tangles_;
   std::optional<SoupRays> rays_;
 };
+
+// A place inside the cell, in grid units; nothing if it is too thin for rounded numbers to tell.
+[[nodiscard]] std::optional<Vec3d> place_in(const CellComplex& complex, CellId cell);
 
 struct TangleWinding {
   std::vector<double> of_cell;  // those without links: 0
@@ -44,8 +43,9 @@ struct TangleWinding {
 // The graph has no links to cells that were left undivided; `beside` marks the cells next to these.
 // Nothing where a place for a ray cannot be told. `progress` is asked whether to go on.
 [[nodiscard]] std::optional<TangleWinding> find_tangle_winding(
-    const CellGraph& graph, std::span<const char> beside, const Tangles& tangles,
-    const Orientation& orientation, TangleRays& rays, ProgressObserver* progress);
+    const CellComplex& complex, const CellGraph& graph, std::span<const char> beside,
+    const Tangles& tangles, const Orientation& orientation, TangleRays& rays,
+    ProgressObserver* progress);
 
 // The cells of a list by their volumes, the largest first, as far as these are known: at most so
 // many.

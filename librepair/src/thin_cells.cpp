@@ -28,12 +28,12 @@ Vec3d vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 class ThinCells {
  public:
   ThinCells(const CellComplex& complex, const IdVector<FacetId, Cover>& cover, double within,
-            std::vector<char>& solid, std::span<const char> fixed)
+            std::vector<char>& solid, std::span<const CellState> states)
       : complex_(complex),
         cover_(cover),
         within_(within),
         solid_(solid),
-        fixed_(fixed),
+        states_(states),
         moved_(solid.size(), kUnchanged),
         waits_(solid.size(), 0),
         cut_(complex.soup().triangles.size(), 0) {}
@@ -42,13 +42,11 @@ class ThinCells {
   ThinCellsReport run(ProgressObserver* progress) {
     CancelCheck cancel(progress);
     for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
-      if (is_fixed(complex_.facets[f].above) && is_fixed(complex_.facets[f].below)) continue;
+      if (is_unknown(complex_.facets[f].above) || is_unknown(complex_.facets[f].below)) continue;
       if (!is_boundary(f)) {
         cut(f);
         continue;
       }
-      const double moment = measure_facet(complex_, f).moment;
-      volume_ += is_solid(complex_.facets[f].below) ? moment : -moment;
       enqueue(complex_.facets[f].above);
       enqueue(complex_.facets[f].below);
     }
@@ -57,7 +55,7 @@ class ThinCells {
       waits_[queue_[next].index()] = 0;
       consider(queue_[next]);
     }
-    return emptied_volume_ <= kMostFins * volume_ ? report_ : ThinCellsReport{};
+    return emptied_volume_ <= kMostFins * known_volume() ? report_ : ThinCellsReport{};
   }
 
  private:
@@ -93,14 +91,24 @@ class ThinCells {
     return !cover_[f].opaque() || cut_[cover_[f].triangle.index()] != 0;
   }
 
-  [[nodiscard]] bool is_fixed(CellId cell) const {
-    return cell.valid() && !fixed_.empty() && fixed_[cell.index()] != 0;
+  [[nodiscard]] CellState state_of(CellId cell) const {
+    return cell.valid() && !states_.empty() ? states_[cell.index()] : CellState::free;
+  }
+  [[nodiscard]] bool is_unknown(CellId cell) const { return state_of(cell) == CellState::unknown; }
+
+  // Of what was solid at first; looked at only where something became empty.
+  [[nodiscard]] double known_volume() const {
+    double volume = emptied_volume_;
+    if (emptied_volume_ == 0) return volume;
+    for (CellId c(0u); c < complex_.cells.end_id(); ++c.value) {
+      const bool was_solid = is_solid(c) && moved_[c.index()] == kUnchanged;
+      if (was_solid && !is_unknown(c)) volume += cell_volume(complex_, c);
+    }
+    return volume;
   }
 
   void enqueue(CellId cell) {
-    if (!cell.valid() || is_fixed(cell) || waits_[cell.index()] != 0 ||
-        moved_[cell.index()] != kUnchanged)
-      return;
+    if (!cell.valid() || waits_[cell.index()] != 0 || moved_[cell.index()] != kUnchanged) return;
     waits_[cell.index()] = 1;
     queue_.push_back(cell);
   }
@@ -117,7 +125,12 @@ class ThinCells {
     const std::optional<Width> width = find_width();
     if (!width) return;
     const double moved = distance_to_boundary(*width);
-    if (moved <= within_) change(cell, moved, boundary - other);
+    if (!(moved <= within_)) return;
+    if (state_of(cell) == CellState::free) {
+      change(cell, moved, boundary - other);
+    } else {
+      report_.reaches_fixed = true;
+    }
   }
 
   void find_sides(CellId cell) {
@@ -199,13 +212,12 @@ class ThinCells {
   const IdVector<FacetId, Cover>& cover_;
   double within_;
   std::vector<char>& solid_;
-  std::span<const char> fixed_;
+  std::span<const CellState> states_;
   std::vector<double> moved_;  // of each cell that changed, how far that moved the boundary
   std::vector<char> waits_;
   std::vector<char> cut_;  // of each triangle, whether a piece of it is no boundary
   std::vector<CellId> queue_;
   std::vector<Side> sides_;
-  double volume_ = 0;  // at first
   double emptied_volume_ = 0;
   ThinCellsReport report_;
 };
@@ -215,9 +227,9 @@ class ThinCells {
 ThinCellsReport relabel_thin_cells(const CellComplex& complex,
                                    const IdVector<FacetId, Cover>& cover, double within,
                                    std::vector<char>& solid, ProgressObserver* progress,
-                                   std::span<const char> fixed) {
+                                   std::span<const CellState> states) {
   std::vector<char> changed = solid;
-  const ThinCellsReport report = ThinCells(complex, cover, within, changed, fixed).run(progress);
+  const ThinCellsReport report = ThinCells(complex, cover, within, changed, states).run(progress);
   if (report.filled + report.emptied > 0) solid = std::move(changed);
   return report;
 }

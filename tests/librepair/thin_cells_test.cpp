@@ -85,7 +85,7 @@ TEST(ThinCells, FixedCellsStay) {
   const double within = 2 * kSlit / cells.complex.soup().grid.unit;
   std::vector<char> solid = enclosed_cells(cells.complex, cover);
   const std::vector<char> before = solid;
-  const std::vector<char> fixed(solid.size(), 1);
+  const std::vector<CellState> fixed(solid.size(), CellState::fixed);
   EXPECT_EQ(relabel_thin_cells(cells.complex, cover, within, solid, nullptr, fixed).filled, 0u);
   EXPECT_EQ(solid, before);
   EXPECT_GT(relabel_thin_cells(cells.complex, cover, within, solid).filled, 0u);

@@ -30,8 +30,9 @@ class SoupRays {
   [[nodiscard]] int facing(std::uint32_t triangle) const;
 
   // Whether certainly nothing lies between the two points, or nothing but that triangle.
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  [[nodiscard]] bool sees(const Vec3d& from, const Vec3d& to, std::uint32_t but = kNone) const;
+  static constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
+  [[nodiscard]] bool sees(const Vec3d& from, const Vec3d& to,
+                          std::uint32_t but = kNoTriangle) const;
 
  private:
   const TriangleSoup& soup_;
