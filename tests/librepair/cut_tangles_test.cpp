@@ -236,24 +236,24 @@ TEST(CutTangles, SolidsThatTouchAreSewnAsAsked) {
 // Sheets nearer to each other than the numbers of a file: what lies between goes, also where one of
 // them meets nothing else.
 TEST(CutTangles, SlitsAreFilledAroundTangles) {
-  constexpr double kSlit = 0x1p-22;
+  constexpr double kSlit = 0x1p-19;
   TriangleSoup soup = divided(cube(), 4);
   append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kSlit})));
   append(soup, box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8}));
   RepairOptions options;
   options.certify.precision = Precision::float32;
   // Wherever the middle of all lies.
-  for (const double x : {-9.0, 9.0}) {
+  for (const double x : {-16.0, 16.0}) {
     TriangleSoup scene = soup;
-    append(scene, moved(divided(cube(), 4), {x, 1, 2}));
+    append(scene, moved(scaled(divided(cube(), 4), 8), {x, 1, 2}));
     const RepairResult all = repair(scene, options);
     ASSERT_GT(all.report.thin_cells.filled, 0u);
     const RepairResult result = repair_sparing(scene, options);
     EXPECT_GT(result.report.set_aside, 0u);
     EXPECT_TRUE(result.report.certify.passed());
-    EXPECT_NEAR(result.report.slits_area, all.report.slits_area, 1e-6);
-    EXPECT_NEAR(result.report.output_volume, all.report.output_volume, 1e-9);
-    EXPECT_NEAR(result.report.output_area, all.report.output_area, 1e-6);
+    EXPECT_NEAR(result.report.slits_area, all.report.slits_area, 1e-4);
+    EXPECT_NEAR(result.report.output_volume, all.report.output_volume, 1e-4);
+    EXPECT_NEAR(result.report.output_area, all.report.output_area, 1e-4);
   }
 }
 
