@@ -80,7 +80,9 @@ class ThinCells {
   }
 
   [[nodiscard]] bool is_boundary(FacetId f) const {
-    return is_solid(complex_.facets[f].above) != is_solid(complex_.facets[f].below);
+    const Facet& facet = complex_.facets[f];
+    return !is_unknown(facet.above) && !is_unknown(facet.below) &&
+           is_solid(facet.above) != is_solid(facet.below);
   }
 
   void cut(FacetId f) {
