@@ -78,33 +78,32 @@ bool certainly_misses(const Vec3d& from, const Vec3d& to, const Vec3d& a, const 
   return any(1) && any(-1);
 }
 
+// Of the triangles that the ray passes, but for one.
+std::int32_t sum_above(const TriangleSoup& soup, std::span<const std::int32_t> winding,
+                       const BoxTree& tree, const RayStart& start, std::uint32_t but) {
+  std::int32_t sum = 0;
+  internal::visit_column(tree, start.corner, [&](std::uint32_t t) {
+    if (t == but) return;
+    const auto& c = soup.triangles[t];
+    sum += winding[t] *
+           internal::passed_upward(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]], start);
+  });
+  return sum;
+}
+
 }  // namespace
 
 SoupRays::SoupRays(const TriangleSoup& soup, std::span<const std::int32_t> winding)
     : soup_(soup), winding_(winding), tree_(boxes_of(soup)) {}
 
 std::int32_t SoupRays::winding_at(const Vec3d& point) const {
-  std::int32_t sum = 0;
-  const RayStart start = RayStart::at(point);
-  internal::visit_column(tree_, point, [&](std::uint32_t t) {
-    const auto& c = soup_.triangles[t];
-    sum += winding_[t] * internal::passed_upward(soup_.points[c[0]], soup_.points[c[1]],
-                                                 soup_.points[c[2]], start);
-  });
-  return sum;
+  return sum_above(soup_, winding_, tree_, RayStart::at(point), kNoTriangle);
 }
 
 std::optional<std::int32_t> SoupRays::winding_above(std::uint32_t triangle) const {
   if (facing(triangle) == 0) return std::nullopt;
-  std::int32_t sum = 0;
-  const RayStart start = RayStart::in(soup_, soup_.triangles[triangle]);
-  internal::visit_column(tree_, start.corner, [&](std::uint32_t t) {
-    if (t == triangle) return;
-    const auto& c = soup_.triangles[t];
-    sum += winding_[t] * internal::passed_upward(soup_.points[c[0]], soup_.points[c[1]],
-                                                 soup_.points[c[2]], start);
-  });
-  return sum;
+  return sum_above(soup_, winding_, tree_, RayStart::in(soup_, soup_.triangles[triangle]),
+                   triangle);
 }
 
 int SoupRays::facing(std::uint32_t triangle) const {

@@ -5,6 +5,8 @@
 
 #include <extract/cell_complex.h>
 #include <extract/cover_facets.h>
+#include <repair/repair.h>
+#include <repair/stage_meter.h>
 
 namespace meshrepair::internal {
 
@@ -13,5 +15,12 @@ struct CoveredCells {
   IdVector<FacetId, Cover> cover;
   std::vector<CoverLayer> layers;
 };
+
+// The cells of the tree, with `winding` of each triangle against the normal of its plane. The tree
+// has to outlive them.
+[[nodiscard]] CoveredCells make_cells(const Tree& tree,
+                                      const IdVector<TriangleId, std::int32_t>& winding,
+                                      const RepairOptions& options, RepairReport& report,
+                                      StageMeter& meter);
 
 }  // namespace meshrepair::internal

@@ -11,7 +11,6 @@
 
 #include <bsp/build_tree.h>
 #include <extract/box_tree.h>
-#include <extract/build_cells.h>
 #include <extract/extract_surface.h>
 
 #include "covered_cells.h"
@@ -115,7 +114,8 @@ class TangleCutter {
       meter_.begin("tree");
       Tree tree = divide_around(soup_, tangles_, options_, report_.tree);
       if (is_divided_too_far(tree)) return std::nullopt;
-      const CoveredCells covered = make_cells(tree);
+      const CoveredCells covered =
+          make_cells(tree, orientation_.winding, options_, report_, meter_);
       std::optional<TangleLabels> labels = label(tree, covered);
       if (!labels) return std::nullopt;
       // Where a slit is filled, a triangle may go in part that nothing else meets.
@@ -136,19 +136,6 @@ class TangleCutter {
   [[nodiscard]] bool is_divided_too_far(const Tree& tree) const {
     return static_cast<double>(tree.node_triangles.size()) >
            kMostDivided * static_cast<double>(tangles_.tangled.size());
-  }
-
-  CoveredCells make_cells(const Tree& tree) {
-    meter_.begin("cells");
-    BuildCellsOptions cell_options;
-    cell_options.progress = options_.progress;
-    CoveredCells covered{build_cells(tree, cell_options, report_.clip), {}, {}};
-    report_.cells = covered.complex.cells.size();
-    meter_.begin("cover");
-    covered.cover = cover_facets(covered.complex, orientation_.winding, report_.cover,
-                                 options_.progress, &covered.layers);
-    report_.facets = covered.complex.facets.size();
-    return covered;
   }
 
   std::optional<TangleLabels> label(const Tree& tree, const CoveredCells& covered) {

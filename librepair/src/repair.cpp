@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <bsp/error.h>
-#include <extract/build_cells.h>
 #include <repair/cell_graph.h>
 #include <repair/flood.h>
 #include <repair/repair.h>
@@ -18,28 +17,7 @@ namespace meshrepair {
 namespace {
 
 using internal::CoveredCells;
-
-CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_t>& winding,
-                        const RepairOptions& options, RepairReport& report, StageMeter& meter) {
-  meter.begin("cells");
-  BuildCellsOptions cell_options;
-  cell_options.check_every_clip = options.check_cells;
-  cell_options.progress = options.progress;
-  std::optional<FloatEngine> engine;
-  report.predicates = options.predicates;
-  if (options.predicates == Predicates::floating) {
-    report.epsilon = options.epsilon;
-    cell_options.engine = &engine.emplace(tree.input, options.epsilon);
-  }
-  CoveredCells covered{build_cells(tree, cell_options, report.clip), {}, {}};
-  report.cells = covered.complex.cells.size();
-  meter.begin("cover");
-  // Only `automatic` turns parts, and asks what else lies on a facet.
-  auto* layers = options.inside.rule == InsideRule::automatic ? &covered.layers : nullptr;
-  covered.cover = cover_facets(covered.complex, winding, report.cover, options.progress, layers);
-  report.facets = covered.complex.facets.size();
-  return covered;
-}
+using internal::make_cells;
 
 // The parts of the input: oriented for `automatic`, else as they are connected through edges, which
 // does not depend on how their triangles are turned.

@@ -77,12 +77,7 @@ class TangleLabeller {
  private:
   // As turn_parts() has it, which then would look at all cells.
   [[nodiscard]] bool is_in_doubt() const {
-    const auto& parts = orientation_.parts;
-    if (std::any_of(parts.begin(), parts.end(),
-                    [](const OrientedPart& p) { return !p.believed; })) {
-      return true;
-    }
-    return any_negative() && std::any_of(parts.begin(), parts.end(),
+    return any_negative() && std::any_of(orientation_.parts.begin(), orientation_.parts.end(),
                                          [](const OrientedPart& p) { return p.outward != 1; });
   }
 

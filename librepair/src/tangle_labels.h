@@ -39,10 +39,10 @@ struct TangleLabels {
                                                             const Orientation& orientation);
 
 // What label_cells() says of all cells of the soup, for InsideRule::winding, and for `automatic`
-// where nothing is in doubt. `tree` leaves undivided only what no tangled triangle touches; the
+// where all parts are believed. `tree` leaves undivided only what no tangled triangle touches; the
 // cover has the windings of the orientation. Nothing where cells farther away would have to be
-// looked at: where parts may face either way, or wind the wrong way around what is not seen from
-// outside.
+// looked at: where space is wound around the wrong way by parts that do not all face outward, or is
+// not seen from outside.
 [[nodiscard]] std::optional<TangleLabels> label_tangles(
     const Tree& tree, const CoveredCells& covered, const Tangles& tangles,
     const Orientation& orientation, TangleRays& rays, const InsideOptions& options,
