@@ -10,7 +10,6 @@
 
 #include "covered_cells.h"
 #include "cut_tangles.h"
-#include "flat_soup.h"
 #include "keep_valid.h"
 #include "make_surface.h"
 
@@ -42,14 +41,6 @@ void require_space(const CleanSoup& soup) {
                   [&](const Triangle& t) { return t.plane == first; })) {
     throw NoSolidError("all triangles lie in one plane, so they enclose nothing");
   }
-}
-
-// What is solid between triangles that were in one plane is noise.
-void require_thickness(const CleanSoup& soup) {
-  if (!internal::is_flat(soup)) return;
-  throw NoSolidError(
-      "all triangles lie in one plane, as far as the working grid can tell, so they enclose "
-      "nothing");
 }
 
 // Only what the triangles seal off by themselves.
@@ -172,7 +163,6 @@ Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairRep
 void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
   require_space(tree.input);
-  require_thickness(tree.input);
   meter.begin("orient");
   const Orientation orientation = find_parts(tree.input, options, report);
   const CoveredCells covered = make_cells(tree, orientation.winding, options, report, meter);
@@ -204,7 +194,6 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   if (auto mended = internal::keep_mended(clean, orientation, invalid, options, report, meter)) {
     return std::move(*mended);
   }
-  require_thickness(clean);
   if (auto cut = internal::cut_tangles(clean, orientation, options, report, meter)) {
     return std::move(*cut);
   }
