@@ -30,7 +30,7 @@ constexpr double kMostChange = 0.1;
 constexpr double kNearness = 0x1p-10;
 
 // Rounds in which as few points as may be are told to stay; and those after which all do.
-constexpr std::size_t kPatientRounds = 10;
+constexpr std::size_t kPatientRounds = 6;
 constexpr std::size_t kMostRounds = 16;
 
 // More are found in the next round.
