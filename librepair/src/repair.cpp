@@ -10,6 +10,7 @@
 
 #include "covered_cells.h"
 #include "cut_tangles.h"
+#include "flat_sheets.h"
 #include "keep_valid.h"
 #include "make_surface.h"
 
@@ -17,6 +18,8 @@ namespace meshrepair {
 namespace {
 
 using internal::CoveredCells;
+using internal::empty_flat_regions;
+using internal::is_flat_sheet;
 using internal::make_cells;
 
 // The parts of the input: oriented for `automatic`, else as they are connected through edges, which
@@ -41,22 +44,27 @@ void require_space(const CleanSoup& soup) {
                   [&](const Triangle& t) { return t.plane == first; })) {
     throw NoSolidError("all triangles lie in one plane, so they enclose nothing");
   }
+  if (is_flat_sheet(soup)) {
+    throw NoSolidError(
+        "all triangles lie in one plane, but for the rounding of their coordinates, and leave "
+        "edges open, so they enclose nothing");
+  }
 }
 
 // Only what the triangles seal off by themselves.
-void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabels& labels,
-                   InsideReport& report) {
+void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabels& labels) {
   const std::vector<char> sealed =
       flood_from_infinity(graph, std::vector<char>(graph.cells(), 1), progress);
   for (std::size_t i = 0; i < sealed.size(); ++i) {
-    if (sealed[i] != 0 || labels.solid[i] == 0) continue;
-    labels.solid[i] = 0;
-    --report.solid_cells;
+    if (sealed[i] == 0) labels.solid[i] = 0;
   }
 }
 
 std::string why_nothing_is_solid(const RepairReport& report, HoleMode mode) {
   std::string why = "the triangles enclose nothing: ";
+  if (report.flat_regions > 0) {
+    return why + "they are sheets that are flat, but for the rounding of their coordinates";
+  }
   if (mode == HoleMode::none && report.input.open_edges > 0) {
     return why + "holes are not to be closed, and every part has some";
   }
@@ -91,8 +99,11 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   inside_options.solve.progress = options.progress;
   CellLabels labels = label_cells(graph, orientation, inside_options, report.inside);
   if (options.holes.mode == HoleMode::none) {
-    drop_unsealed(graph, options.progress, labels, report.inside);
+    drop_unsealed(graph, options.progress, labels);
   }
+  report.flat_regions = empty_flat_regions(covered, labels.solid);
+  report.inside.solid_cells =
+      static_cast<std::size_t>(std::count(labels.solid.begin(), labels.solid.end(), 1));
   if (report.inside.solid_cells == 0) {
     throw NoSolidError(why_nothing_is_solid(report, options.holes.mode));
   }

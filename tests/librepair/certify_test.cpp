@@ -239,14 +239,20 @@ TEST(Certify, KnowsCavitiesFromPartsThatFaceTheWrongWay) {
 }
 
 // Outward on the working grid, inward with the coordinates that are written.
-TEST(Certify, SheetsThinnerThanTheGridFaceOutward) {
-  const TriangleSoup soup = {
-      {{0, 0, 0}, {-1.4285714285714284, 0, -0.5714285714285714}, {5, 0, 2}, {0, 2, 0}},
-      {{{2, 0, 3}}, {{1, 3, 2}}}};
+TEST(Certify, PartsThinnerThanTheGridFaceOutward) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {0.5, 0.5, 0.5}));
+  append(soup, {{{2.5081722740751675, 2.507611432376327, 2.3310263058714513},
+                 {2.3053153145270384, 2.0891390237203473, 2.5021949650502648},
+                 {2.8306086442236915, 2.8668177844750513, 2.4147015896881228},
+                 {2.5762897387212793, 2.5257522472903715, 2.4158470142890671}},
+                {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}});
   for (const Precision precision : {Precision::float64, Precision::float32}) {
     RepairOptions options;
     options.certify.precision = precision;
     const RepairResult result = repair(soup, options);
+    EXPECT_EQ(result.report.certify.dropped_parts, 1u);
+    EXPECT_EQ(result.report.output.parts, 1u);
     EXPECT_TRUE(result.report.certify.passed());
     EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
   }

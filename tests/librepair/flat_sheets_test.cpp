@@ -1,0 +1,118 @@
+// Sheets that only rounding keeps from being flat enclose nothing, however they are turned.
+#include "flat_sheets.h"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include <extract/check_surface.h>
+#include <repair/repair.h>
+
+#include "number_spacing.h"
+#include "open_surfaces.h"
+#include "shapes.h"
+#include "triangles_by_place.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+TriangleSoup flat_sheet(std::uint32_t n) {
+  TriangleSoup sheet = wavy_sheet(n);
+  for (Vec3d& p : sheet.points) p.z() = 0;
+  return sheet;
+}
+
+TriangleSoup in_single_precision(TriangleSoup soup) {
+  for (Vec3d& p : soup.points) p = internal::rounded_to(p, Precision::float32);
+  return soup;
+}
+
+// Turned about, and moved away from the origin.
+TriangleSoup placed(const TriangleSoup& soup, std::uint64_t seed) {
+  Random random(seed);
+  const Eigen::Matrix3d turn = random_rotation(random);
+  const Vec3d by(random.real(-9, 9), random.real(-9, 9), random.real(-9, 9));
+  return moved(transformed(soup, turn), by);
+}
+
+TEST(FlatSheets, EncloseNothing) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    for (const std::uint32_t n : {1u, 2u, 9u}) {
+      const TriangleSoup sheet = placed(flat_sheet(n), seed);
+      EXPECT_THROW((void)repair(sheet), NoSolidError) << seed;
+      EXPECT_THROW((void)repair(in_single_precision(sheet)), NoSolidError) << seed;
+    }
+  }
+}
+
+TEST(FlatSheets, SeveralEncloseNothing) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    TriangleSoup sheets = flat_sheet(6);
+    append(sheets, moved(transformed(flat_sheet(5), Eigen::AngleAxisd(1, Vec3d::UnitX()).matrix()),
+                         {5, 0, 0}));
+    EXPECT_THROW((void)repair(placed(sheets, seed)), NoSolidError) << seed;
+  }
+}
+
+TEST(FlatSheets, LeaveASolidBesideThemAsItIs) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const TriangleSoup solid = placed(box({1, 1, 1}, {2, 3, 2}), seed);
+    TriangleSoup scene = solid;
+    append(scene, placed(flat_sheet(8), seed));
+    const RepairResult result = repair(scene);
+    EXPECT_EQ(triangles_by_place(result.surface.mesh), triangles_by_place(solid)) << seed;
+    EXPECT_EQ(result.report.parts.enclosing_nothing.parts, 1u) << seed;
+  }
+}
+
+// Each is flat; what they enclose together is not.
+TEST(FlatSheets, EncloseABoxTogether) {
+  TriangleSoup walls;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double at : {0.0, 1.0}) {
+      TriangleSoup wall;
+      for (const auto& [u, v] : {std::pair{-0.1, -0.1}, {1.1, -0.1}, {1.1, 1.1}, {-0.1, 1.1}}) {
+        Vec3d p;
+        p[axis] = at;
+        p[(axis + 1) % 3] = u;
+        p[(axis + 2) % 3] = v;
+        wall.points.push_back(p);
+      }
+      wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+      append(walls, at > 0 ? wall : flipped(wall));
+    }
+  }
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const RepairResult result = repair(placed(walls, seed));
+    EXPECT_NEAR(result.report.output_volume, 1, 1e-6) << seed;
+    EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid()) << seed;
+  }
+}
+
+bool is_flat(const TriangleSoup& soup) {
+  CleanReport report;
+  return internal::is_flat_sheet(clean_soup(soup, report));
+}
+
+TEST(FlatSheets, AreToldFromThinSolidsAndFromWavyOnes) {
+  EXPECT_TRUE(is_flat(flat_sheet(4)));
+  EXPECT_FALSE(is_flat(wavy_sheet(4)));
+  EXPECT_FALSE(is_flat(box({0, 0, 0}, {1, 1, 0x1p-25})));
+  TriangleSoup open = box({0, 0, 0}, {1, 1, 0x1p-20});
+  open.triangles.pop_back();
+  EXPECT_FALSE(is_flat(open));
+}
+
+TEST(FlatSheets, TellTheRoundingOfTheirCoordinates) {
+  CleanReport report;
+  // A step of single precision below 16 is 2^-20, of the grid over 4 units 2^-23.
+  const TriangleSoup far = moved(flat_sheet(3), {9.1, 9.3, 9.7});
+  const CleanSoup in_double = clean_soup(far, report);
+  const CleanSoup in_single = clean_soup(in_single_precision(far), report);
+  EXPECT_DOUBLE_EQ(internal::rounding_of(in_single), 8 * internal::rounding_of(in_double));
+}
+
+}  // namespace
+}  // namespace meshrepair
