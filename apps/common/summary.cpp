@@ -208,7 +208,7 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   };
   add(repair.parts.enclosing_nothing, "no wall of the solid");
   add(repair.parts.inside_solid, "inside the solid");
-  add_count(texts, repair.flat_regions, "region", "between sheets that are flat but for rounding");
+  add_count(texts, repair.open_regions, "region", "that open sheets hardly enclose");
   add_count(texts, repair.crumbs, "part", "thinner than a step of the working grid");
   add_count(texts, repair.thin_cells.filled, "piece",
             "of slits that are narrower than what the format holds");

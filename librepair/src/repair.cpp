@@ -13,12 +13,13 @@
 #include "flat_sheets.h"
 #include "keep_valid.h"
 #include "make_surface.h"
+#include "open_regions.h"
 
 namespace meshrepair {
 namespace {
 
 using internal::CoveredCells;
-using internal::empty_flat_regions;
+using internal::empty_open_regions;
 using internal::is_flat_sheet;
 using internal::make_cells;
 
@@ -62,9 +63,6 @@ void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabel
 
 std::string why_nothing_is_solid(const RepairReport& report, HoleMode mode) {
   std::string why = "the triangles enclose nothing: ";
-  if (report.flat_regions > 0) {
-    return why + "they are sheets that are flat, but for the rounding of their coordinates";
-  }
   if (mode == HoleMode::none && report.input.open_edges > 0) {
     return why + "holes are not to be closed, and every part has some";
   }
@@ -72,6 +70,7 @@ std::string why_nothing_is_solid(const RepairReport& report, HoleMode mode) {
     return why + "open sheets, whose rims are too large for holes (" +
            std::to_string(report.holes.too_large) + ")";
   }
+  if (report.open_regions > 0) return why + "what they surround is as open as it is closed";
   return why + "no part of space is inside";
 }
 
@@ -101,7 +100,7 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   if (options.holes.mode == HoleMode::none) {
     drop_unsealed(graph, options.progress, labels);
   }
-  report.flat_regions = empty_flat_regions(covered, labels.solid);
+  report.open_regions = empty_open_regions(covered, labels.solid);
   report.inside.solid_cells =
       static_cast<std::size_t>(std::count(labels.solid.begin(), labels.solid.end(), 1));
   if (report.inside.solid_cells == 0) {

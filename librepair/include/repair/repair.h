@@ -93,8 +93,9 @@ struct RepairReport {
   OrientReport orient;
   std::size_t links = 0;
   InsideReport inside;
-  // Solid but that only open sheets bounded it that are flat, but for rounding: made empty.
-  std::size_t flat_regions = 0;
+  // Solid but that only open sheets were around it, flat but for rounding, or hardly more than what
+  // was uncovered: made empty.
+  std::size_t open_regions = 0;
   PartFates parts;
   ExtractReport extract;
   ThinCellsReport thin_cells;  // changed so that a file in single precision can hold the rest

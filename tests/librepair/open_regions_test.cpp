@@ -1,13 +1,15 @@
-// Sheets that only rounding keeps from being flat enclose nothing, however they are turned.
-#include "flat_sheets.h"
+// Open sheets that are flat but for rounding, or hardly bent, enclose nothing, however they are
+// turned.
 
 #include <cstdint>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include <extract/check_surface.h>
 #include <repair/repair.h>
 
+#include "flat_sheets.h"
 #include "number_spacing.h"
 #include "open_surfaces.h"
 #include "shapes.h"
@@ -37,7 +39,7 @@ TriangleSoup placed(const TriangleSoup& soup, std::uint64_t seed) {
   return moved(transformed(soup, turn), by);
 }
 
-TEST(FlatSheets, EncloseNothing) {
+TEST(OpenRegions, OfFlatSheetsAreEmpty) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     for (const std::uint32_t n : {1u, 2u, 9u}) {
       const TriangleSoup sheet = placed(flat_sheet(n), seed);
@@ -47,7 +49,7 @@ TEST(FlatSheets, EncloseNothing) {
   }
 }
 
-TEST(FlatSheets, SeveralEncloseNothing) {
+TEST(OpenRegions, OfSeveralFlatSheetsAreEmpty) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     TriangleSoup sheets = flat_sheet(6);
     append(sheets, moved(transformed(flat_sheet(5), Eigen::AngleAxisd(1, Vec3d::UnitX()).matrix()),
@@ -56,7 +58,18 @@ TEST(FlatSheets, SeveralEncloseNothing) {
   }
 }
 
-TEST(FlatSheets, LeaveASolidBesideThemAsItIs) {
+TEST(OpenRegions, OfSheetsThatAreHardlyBentAreEmpty) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    for (const double height : {1e-6, 1e-3, 0.05}) {
+      Random random(seed);
+      TriangleSoup sheet = flat_sheet(16);
+      for (Vec3d& p : sheet.points) p.z() = random.real(0, height);
+      EXPECT_THROW((void)repair(placed(sheet, seed)), NoSolidError) << seed << ' ' << height;
+    }
+  }
+}
+
+TEST(OpenRegions, BesideASolidLeaveItAsItIs) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const TriangleSoup solid = placed(box({1, 1, 1}, {2, 3, 2}), seed);
     TriangleSoup scene = solid;
@@ -68,7 +81,7 @@ TEST(FlatSheets, LeaveASolidBesideThemAsItIs) {
 }
 
 // Each is flat; what they enclose together is not.
-TEST(FlatSheets, EncloseABoxTogether) {
+TEST(OpenRegions, ThatSheetsEncloseTogetherAreSolid) {
   TriangleSoup walls;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double at : {0.0, 1.0}) {
