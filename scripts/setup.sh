@@ -23,6 +23,7 @@ build_packages=(
   g++
   git
   libbenchmark-dev
+  libboost-dev
   libcli11-dev
   libeigen3-dev
   libgmock-dev

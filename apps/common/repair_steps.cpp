@@ -68,16 +68,18 @@ double share_of_surface(double area, const RepairReport& repair) {
   return area > 0 ? area / (area + repair.output_area) : 0;
 }
 
-// Where that is much, other numbers would have kept it.
+// Where that is much: in single precision other numbers would have kept it.
 void warn_of_coarse_numbers(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   constexpr double kWorthAWarning = 0.01;
   const auto warn = [&](std::string_view what, double share) {
     if (!(share > kWorthAWarning)) return;
-    spdlog::warn(
-        "{}: {}, {:.0f} % of the surface: OBJ, OFF and PLY in double precision hold finer "
-        "ones",
-        findings.output_name(), what, 100 * share);
+    const std::string_view why =
+        repair.precision == Precision::float32
+            ? "OBJ, OFF and PLY in double precision hold finer ones"
+            : "sheets were nearer to each other than two steps of the working grid";
+    spdlog::warn("{}: {}, {:.0f} % of the surface: {}", findings.output_name(), what, 100 * share,
+                 why);
   };
   warn("parts that are too thin for its numbers are left out",
        repair.certify.dropped_share + share_of_surface(repair.fins_area, repair));

@@ -38,8 +38,8 @@ constexpr std::size_t kSmallRegion = 24;
 // Each attempt but the last may find that more triangles are tangled.
 constexpr std::size_t kMostAttempts = 3;
 
-// Of the surface, the share that may go with slits and fins: with more, a format is too coarse for
-// the mesh, and where slits end depends on cells farther away.
+// Of the surface, the share that may go with slits and fins in single precision: with more, a
+// format is too coarse for the mesh, and where slits end depends on cells farther away.
 constexpr double kMostFilled = 0.01;
 
 // What moving points does not mend soon is left to a repair that may cut otherwise; and so are more
@@ -145,11 +145,22 @@ class TangleCutter {
     std::optional<TangleLabels> labels =
         label_tangles(tree, covered, tangles_, orientation_, rays_, inside, report_.inside);
     if (!labels) return std::nullopt;
-    fill_slits(covered, options_, labels->states, labels->solid, report_);
+    const bool is_single = options_.certify.precision == Precision::float32;
+    // Where sheets must not be so near to each other, others are divided as well.
+    const std::vector<char> stays = is_single ? std::vector<char>{} : untangled();
+    fill_slits(covered, options_, labels->states, stays, labels->solid, report_);
     const double filled = report_.slits_area + report_.fins_area;
-    const bool is_minor = filled <= kMostFilled * report_.input_area;
+    const bool is_minor = !is_single || filled <= kMostFilled * report_.input_area;
     if (!is_minor || report_.thin_cells.reaches_fixed) return std::nullopt;
     return labels;
+  }
+
+  // Of each triangle, whether it is.
+  [[nodiscard]] std::vector<char> untangled() const {
+    std::vector<char> whole(tangles_.tangled.size());
+    std::transform(tangles_.tangled.begin(), tangles_.tangled.end(), whole.begin(),
+                   [](char tangled) { return tangled == 0 ? 1 : 0; });
+    return whole;
   }
 
   std::optional<Surface> extract(Tree& tree, const CoveredCells& covered,
@@ -169,9 +180,7 @@ class TangleCutter {
     for (TriangleId t(0u); t < tree.input.triangles.end_id(); ++t.value) {
       tree.input.triangles[t].source = t.value;
     }
-    std::vector<char> whole(tangles_.tangled.size());
-    std::transform(tangles_.tangled.begin(), tangles_.tangled.end(), whole.begin(),
-                   [](char tangled) { return tangled == 0 ? 1 : 0; });
+    const std::vector<char> whole = untangled();
     ExtractOptions extract_options = options_.extract;
     extract_options.whole = whole;
     extract_options.tell_facets = true;

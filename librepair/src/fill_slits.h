@@ -1,4 +1,4 @@
-// Slits and fins of a solid that a format cannot hold.
+// Slits and fins of a solid that are thinner than its numbers tell.
 #pragma once
 
 #include <span>
@@ -10,12 +10,14 @@
 
 namespace meshrepair::internal {
 
-// Whether any are to be filled and dropped.
-[[nodiscard]] bool fills_slits(const CoveredCells& covered, const RepairOptions& options);
+// Whether wider ones may be filled and dropped in another attempt.
+[[nodiscard]] bool widens_slits(const CoveredCells& covered, const RepairOptions& options);
 
-// Changes `solid`, of each cell, where sheets would cross once they are written, as they are so
-// near to each other; says so in the report. `states` as relabel_thin_cells() has it.
+// Changes `solid`, of each cell, where sheets are nearer to each other than steps of the working
+// grid, or so near that they would cross once they are written; says so in the report. `states` as
+// relabel_thin_cells() has it.
 void fill_slits(const CoveredCells& covered, const RepairOptions& options,
-                std::span<const CellState> states, std::vector<char>& solid, RepairReport& report);
+                std::span<const CellState> states, std::span<const char> stays,
+                std::vector<char>& solid, RepairReport& report);
 
 }  // namespace meshrepair::internal

@@ -43,7 +43,7 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
 Surface extract(const CoveredCells& covered, std::vector<char> solid, const RepairOptions& options,
                 RepairReport& report) {
   report.extract = {};
-  fill_slits(covered, options, {}, solid, report);
+  fill_slits(covered, options, {}, {}, solid, report);
   report.parts = find_part_fates(covered.complex.soup(),
                                  places_of_triangles(covered.complex, covered.cover, solid));
   ExtractOptions extract_options = options.extract;
@@ -130,7 +130,7 @@ class SurfaceMaker {
 
   Surface run() {
     meter_.begin("extract");
-    const bool may_widen = fills_slits(*covered_, options_);
+    const bool may_widen = widens_slits(*covered_, options_);
     Surface extracted = extract(*covered_, solid_, options_, report_);
     if (!options_.certify.wanted || !may_widen) covered_.reset();
     const RepairReport at_first = report_;

@@ -257,6 +257,25 @@ TEST(CutTangles, SlitsAreFilledAroundTangles) {
   }
 }
 
+// In double precision what meets nothing stays, and no more is divided for the sake of slits.
+TEST(CutTangles, SlitsOfTheGridCostNoMoreAttempts) {
+  constexpr double kSlit = 0x1p-21;  // a step of the grid
+  TriangleSoup soup = divided(cube(), 4);
+  append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kSlit})));
+  append(soup, box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8}));
+  append(soup, moved(scaled(divided(cube(), 5), 8), {16, 1, 2}));
+  const RepairResult all = repair(soup), result = repair_sparing(soup);
+  EXPECT_GT(all.report.thin_cells.filled, 0u);
+  EXPECT_GT(result.report.set_aside, 0u);
+  const std::vector<StageReport>& stages = result.report.stages;
+  EXPECT_EQ(std::count_if(stages.begin(), stages.end(),
+                          [](const StageReport& stage) { return stage.name == "tree"; }),
+            1);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
+  EXPECT_NEAR(result.report.output_volume, all.report.output_volume, 1e-5);
+}
+
 TEST(CutTangles, OtherRulesAskAllCells) {
   const TriangleSoup soup = two_overlapping_spheres(4000);
   RepairOptions options;

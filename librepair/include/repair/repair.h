@@ -53,9 +53,10 @@ struct RepairOptions {
   // How far the surface may move to have fewer triangles where it was cut, as a share of the
   // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
   double simplify = 0;
-  // In single precision, slits and fins thinner than so many steps of its numbers are filled and
-  // dropped where triangles are cut, as their sheets would cross once they are written; wider ones,
-  // up to 16 times, where few faults are left else. 0: none are.
+  // Slits and fins thinner than two steps of the working grid are filled and dropped where
+  // triangles are cut; in single precision also those thinner than so many steps of its numbers, as
+  // their sheets would cross once they are written, and wider ones, up to 16 times, where few
+  // faults are left else. 0: none are, in either precision.
   double slit_steps = 4;
   CertifyOptions certify;
   // Told what the result will be, but for what certification moves, which may take much longer than
@@ -98,9 +99,10 @@ struct RepairReport {
   std::size_t open_regions = 0;
   PartFates parts;
   ExtractReport extract;
-  ThinCellsReport thin_cells;  // changed so that a file in single precision can hold the rest
-  double slits_area = 0;       // of the surface that went with those filled, in the input's units
-  double fins_area = 0;        // the same of those emptied
+  ThinCellsReport thin_cells;                // changed, as they are thinner than what numbers tell
+  Precision precision = Precision::float64;  // for which they were too thin
+  double slits_area = 0;    // of the surface that went with those filled, in the input's units
+  double fins_area = 0;     // the same of those emptied
   std::size_t crumbs = 0;   // parts of cut pieces alone, thinner than a step of the grid: dropped
   SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;

@@ -1,4 +1,4 @@
-// Filling slits and dropping fins that are thinner than what a file can hold.
+// Filling slits and dropping fins that are thinner than numbers can tell.
 #pragma once
 
 #include <cstddef>
@@ -29,17 +29,25 @@ enum class CellState : char {
             // one
 };
 
-// Where cutting left two sheets of the boundary nearer to each other than `within`, in grid units,
-// what lies between them changes sides, and both go. Cells do so one by one, each at most once, if
-// that makes the boundary clearly smaller, if all of one of their broad sides is boundary, and if
-// on one of them lies no triangle that is boundary as a whole: what nothing cuts stays as it is. So
-// the new boundary is not farther than `within` from the old one. Widths are rounded numbers;
-// nothing else depends on them. `states` has the state of each cell; empty: all are free. `solid`
-// has one entry for each cell; it stays as it is where a tenth of the volume would go with cells
-// that become empty. Linear in the complex. Throws Cancelled.
+struct ThinCellsOptions {
+  double within = 0;                  // how thin, in grid units
+  std::span<const CellState> states;  // of each cell; empty: all are free
+  // Of each triangle of the soup, whether it is to come out as it went in: cells that touch it in
+  // more than points stay, and are none that ThinCellsReport::reaches_fixed tells of. Empty: of
+  // none.
+  std::span<const char> stays;
+  ProgressObserver* progress = nullptr;
+};
+
+// Where cutting left sheets of the boundary nearer to each other than `within`, the cells between
+// them change sides, and the sheets go: stacks of cells where many sheets nearly coincide,
+// together, such that the boundary has the least area. Cells that are wider stay, and so does what
+// nothing cuts: of cells that change together, one has a facet of a triangle of which some is no
+// boundary. The new boundary is not farther than 2 `within` from the old one. Widths and areas are
+// rounded numbers; nothing else depends on them. `solid` has one entry for each cell; it stays as
+// it is where a tenth of the volume would go with cells that become empty. Throws Cancelled.
 ThinCellsReport relabel_thin_cells(const CellComplex& complex,
-                                   const IdVector<FacetId, Cover>& cover, double within,
-                                   std::vector<char>& solid, ProgressObserver* progress = nullptr,
-                                   std::span<const CellState> states = {});
+                                   const IdVector<FacetId, Cover>& cover,
+                                   const ThinCellsOptions& options, std::vector<char>& solid);
 
 }  // namespace meshrepair
