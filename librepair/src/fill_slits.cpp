@@ -5,6 +5,7 @@
 #include <repair/thin_cells.h>
 
 #include "number_spacing.h"
+#include "open_regions.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -41,6 +42,8 @@ void fill_slits(const CoveredCells& covered, const RepairOptions& options,
   thin.within = widest_slit(soup, options);
   thin.states = states;
   thin.stays = stays;
+  const std::vector<char> open = triangles_of_open_parts(soup);
+  thin.open = open;
   thin.progress = options.progress;
   report.thin_cells = relabel_thin_cells(covered.complex, covered.cover, thin, solid);
   const double unit = soup.grid.unit;

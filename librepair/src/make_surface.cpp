@@ -44,6 +44,9 @@ Surface extract(const CoveredCells& covered, std::vector<char> solid, const Repa
                 RepairReport& report) {
   report.extract = {};
   fill_slits(covered, options, {}, {}, solid, report);
+  if (std::count(solid.begin(), solid.end(), 1) == 0) {
+    throw NoSolidError("the triangles enclose nothing: open sheets, as thick as their rounding");
+  }
   report.parts = find_part_fates(covered.complex.soup(),
                                  places_of_triangles(covered.complex, covered.cover, solid));
   ExtractOptions extract_options = options.extract;

@@ -47,6 +47,10 @@ constexpr double kCostOfChange = 0.05;
 // Of the volume: if more would go with what becomes empty, that is no fin but what there is.
 constexpr double kMostFins = 0.1;
 
+// In grid units, what only open parts surround and is not wider does not count for that: a sheet
+// may be as thick when its points are put on the grid.
+constexpr double kSheet = 2;
+
 // The last round leaves out what is still wanted and must not be.
 constexpr int kMostRounds = 8;
 
@@ -67,7 +71,9 @@ class ThinCells {
         solid_(solid),
         cancel_(options.progress),
         node_of_(solid.size(), kUnseen),
-        cut_(complex.soup().triangles.size(), 0) {}
+        cut_(options.open.begin(), options.open.end()) {
+    cut_.resize(complex.soup().triangles.size(), 0);
+  }
 
   // Nothing changed if the report says so.
   ThinCellsReport run() {
@@ -368,22 +374,32 @@ class ThinCells {
         const double area = facet_area(complex_, f);
         gain += is_boundary(f) ? area : -area;
       });
-      change(cell, gain);
+      change(nodes_[n], gain);
     }
     share_gain();
   }
 
-  void change(CellId cell, double gain) {
-    char& solid = solid_[cell.index()];
+  void change(const Node& node, double gain) {
+    char& solid = solid_[node.cell.index()];
     if (solid == 0) {
       ++report_.filled;
       report_.filled_area += gain;
     } else {
       ++report_.emptied;
       report_.emptied_area += gain;
-      emptied_volume_ += cell_volume(complex_, cell);
+      if (!is_in_sheet(node)) emptied_volume_ += cell_volume(complex_, node.cell);
     }
     solid = solid == 0 ? 1 : 0;
+  }
+
+  [[nodiscard]] bool is_in_sheet(const Node& node) const {
+    if (options_.open.empty() || node.width.width > kSheet) return false;
+    bool only_open = true;
+    complex_.for_each_facet(node.cell, [&](FacetId f) {
+      const TriangleId t = cover_[f].triangle;
+      only_open = only_open && (!t.valid() || options_.open[t.index()] != 0);
+    });
+    return only_open;
   }
 
   // What one kind costs is for the sake of the other one.
@@ -414,7 +430,7 @@ class ThinCells {
   std::vector<char>& solid_;
   CancelCheck cancel_;
   std::vector<std::uint32_t> node_of_;  // of each cell
-  std::vector<char> cut_;               // of each triangle, whether a piece of it is no boundary
+  std::vector<char> cut_;  // of each triangle, whether a piece of it is no boundary, or may be
   std::vector<Node> nodes_;
   std::vector<CutNode> costs_;
   std::vector<CutEdge> edges_;

@@ -36,6 +36,10 @@ struct ThinCellsOptions {
   // more than points stay, and are none that ThinCellsReport::reaches_fixed tells of. Empty: of
   // none.
   std::span<const char> stays;
+  // Of each triangle, whether it is of a part with open edges: it may go as a whole, and with what
+  // is no thicker than rounding and has no other triangles around it, whatever its volume. Empty:
+  // none is.
+  std::span<const char> open;
   ProgressObserver* progress = nullptr;
 };
 
