@@ -211,9 +211,9 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   add_count(texts, repair.open_regions, "region", "that open sheets hardly enclose");
   add_count(texts, repair.crumbs, "part", "thinner than a step of the working grid");
   add_count(texts, repair.thin_cells.filled, "piece",
-            "of slits that are narrower than what its numbers tell");
+            "of slits that are narrower than what numbers tell");
   add_count(texts, repair.thin_cells.emptied, "piece",
-            "of fins that are thinner than what its numbers tell");
+            "of fins that are thinner than what numbers tell");
   add_count(texts, repair.certify.dropped_parts, "part", "too thin for the numbers of the format");
   return texts;
 }
