@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include <bsp/disjoint_sets.h>
-#include <bsp/topology.h>
+#include <bsp/edge_table.h>
+#include <bsp/ids.h>
 #include <repair/orient_parts.h>
 
 #include "flat_sheets.h"
@@ -103,13 +105,27 @@ class OpenRegions {
 }  // namespace
 
 std::vector<char> triangles_of_open_parts(const CleanSoup& soup) {
-  TopologyPlaces places;
-  const Topology topology = examine_topology(index_triangles(soup), soup.points.size(), &places);
-  std::vector<char> is_open(topology.parts, 0);
-  for (const std::uint32_t side : places.open_sides) is_open[places.parts[side / 3]] = 1;
-  std::vector<char> open;
-  open.reserve(places.parts.size());
-  for (const std::uint32_t part : places.parts) open.push_back(is_open[part]);
+  const auto is_sided = [&](std::uint32_t t) { return soup.triangles[TriangleId(t)].winding != 0; };
+  const std::vector<IndexTriangle> triangles = index_triangles(soup);
+  DisjointSets parts(triangles.size());
+  std::vector<char> open(triangles.size(), 0);
+  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+    std::uint32_t first = kNone;
+    std::size_t count = 0;
+    for (const std::uint32_t side : sides) {
+      const std::uint32_t t = side / 3;
+      if (!is_sided(t)) continue;
+      if (++count == 1) first = t;
+      parts.join(first, t);
+    }
+    if (count == 1) open[first] = 1;
+  });
+  for (std::uint32_t t = 0; t < open.size(); ++t) {
+    if (open[t] != 0) open[parts.root(t)] = 1;
+  }
+  for (std::uint32_t t = 0; t < open.size(); ++t) {
+    open[t] = is_sided(t) ? open[parts.root(t)] : 1;
+  }
   return open;
 }
 

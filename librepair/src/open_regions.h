@@ -10,7 +10,8 @@
 
 namespace meshrepair::internal {
 
-// Of each triangle, whether its part, connected through edges, has an edge with one triangle.
+// Of each triangle, whether its part, connected through edges, has an edge with one triangle. Those
+// that are there as often the one way as the other are no part of it, and open themselves.
 [[nodiscard]] std::vector<char> triangles_of_open_parts(const CleanSoup& soup);
 
 // Makes empty what only open parts surround, if all of their triangles around it lie in one plane

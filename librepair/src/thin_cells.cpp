@@ -47,8 +47,8 @@ constexpr double kCostOfChange = 0.05;
 // Of the volume: if more would go with what becomes empty, that is no fin but what there is.
 constexpr double kMostFins = 0.1;
 
-// In grid units, what only open parts surround and is not wider does not count for that: a sheet
-// may be as thick when its points are put on the grid.
+// In grid units, what only open parts surround and is not wider counts for nothing: a sheet may be
+// as thick when its points are put on the grid.
 constexpr double kSheet = 2;
 
 // The last round leaves out what is still wanted and must not be.
@@ -386,8 +386,10 @@ class ThinCells {
       report_.filled_area += gain;
     } else {
       ++report_.emptied;
-      report_.emptied_area += gain;
-      if (!is_in_sheet(node)) emptied_volume_ += cell_volume(complex_, node.cell);
+      if (!is_in_sheet(node)) {
+        report_.emptied_area += gain;
+        emptied_volume_ += cell_volume(complex_, node.cell);
+      }
     }
     solid = solid == 0 ? 1 : 0;
   }

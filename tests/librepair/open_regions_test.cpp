@@ -80,6 +80,33 @@ TEST(OpenRegions, BesideASolidLeaveItAsItIs) {
   }
 }
 
+// A ground under a box that stands on it, or through which it runs, is no part of the box. Where
+// the planes of its triangles cross by chance, something of it may be thicker than rounding, and
+// stay.
+TEST(OpenRegions, LeaveNoFinsOnASolid) {
+  int fins = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    for (const double height : {0.0, 0.3}) {
+      TriangleSoup scene = box({1, 1, -height}, {2, 3, 1 - height});
+      append(scene, flat_sheet(8));
+      const RepairReport report = repair(placed(scene, seed)).report;
+      EXPECT_NEAR(report.output_volume, 2, 1e-6) << seed;
+      fins += report.output_area > 10.001 ? 1 : 0;
+    }
+  }
+  EXPECT_LT(fins, 5);
+}
+
+TEST(OpenRegions, OfFlatSheetsThatCrossAreEmpty) {
+  TriangleSoup cross = flat_sheet(8);
+  TriangleSoup upright = flat_sheet(8);
+  for (Vec3d& p : upright.points) p = Vec3d(2, p.y(), p.x() - 2);
+  append(cross, upright);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    EXPECT_THROW((void)repair(placed(cross, seed)), NoSolidError) << seed;
+  }
+}
+
 // Each is flat; what they enclose together is not.
 TEST(OpenRegions, ThatSheetsEncloseTogetherAreSolid) {
   TriangleSoup walls;

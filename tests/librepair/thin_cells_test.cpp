@@ -138,20 +138,25 @@ std::size_t attempts(const RepairReport& report) {
                     [](const StageReport& stage) { return stage.name == "extract"; }));
 }
 
+// Which faults are left is a matter of last bits.
 TEST(ThinCells, SlitsAreWidenedWhereFewFaultsAreLeft) {
   RepairOptions options;
   options.certify.precision = Precision::float32;
   options.certify.most_rounds = 1;
-  options.slit_steps = 1;
-  const TriangleSoup soup = nearly_equal_balls(0);
-  const RepairResult result = repair(soup, options);
-  EXPECT_GT(attempts(result.report), 1u);
-  EXPECT_LE(attempts(result.report), 3u);
-  EXPECT_TRUE(result.report.certify.passed());
-  EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
-  const RepairReport in_double = repaired(soup, Precision::float64).report;
-  EXPECT_LT(std::abs(in_double.output_volume - result.report.output_volume),
-            2 * 16 * options.slit_steps * 0x1p-20 * in_double.output_area);
+  options.slit_steps = 0.25;
+  std::size_t widened = 0;
+  for (const std::uint64_t seed : {3u, 8u}) {
+    const TriangleSoup soup = nearly_equal_balls(seed);
+    const RepairResult result = repair(soup, options);
+    widened += attempts(result.report) > 1 ? 1 : 0;
+    EXPECT_LE(attempts(result.report), 3u);
+    EXPECT_TRUE(result.report.certify.passed());
+    EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
+    const RepairReport in_double = repaired(soup, Precision::float64).report;
+    EXPECT_LT(std::abs(in_double.output_volume - result.report.output_volume),
+              2 * 16 * options.slit_steps * 0x1p-20 * in_double.output_area);
+  }
+  EXPECT_GT(widened, 0u);
 }
 
 TEST(ThinCells, SlitsCanBeLeftAlone) {

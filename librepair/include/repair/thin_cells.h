@@ -14,7 +14,8 @@ namespace meshrepair {
 struct ThinCellsReport {
   std::size_t filled = 0;   // empty cells that became solid
   std::size_t emptied = 0;  // solid cells that became empty
-  // By which the boundary became smaller with the one and the other, in grid units, squared.
+  // By which the boundary became smaller with the one and the other, in grid units, squared;
+  // without what only open parts surround, no thicker than rounding.
   double filled_area = 0;
   double emptied_area = 0;
   // A cell that had to stay would have changed.
