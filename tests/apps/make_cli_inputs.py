@@ -159,6 +159,7 @@ def main():
                           + lines_of(sphere_points(1500)[:3]),
         "cut_sphere.pcd": binary_pcd(sphere_points(1500), promised=10 ** 15),
         "hills.xyz": lines_of(hill_points(2000)),
+        "cap.xyz": lines_of(p for p in sphere_points(4000) if p[2] > 0.4),
         "noise.xyz": lines_of(noise_points(2000)),
         "line.xyz": lines_of([(i, 2 * i, 3 * i) for i in range(100)]),
         "plane.xyz": lines_of([(i % 20, i // 20, 0) for i in range(400)]),
