@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include <repair/orient_parts.h>
 #include <repair/thin_cells.h>
 
+#include "flat_sheets.h"
 #include "number_spacing.h"
-#include "open_regions.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -42,7 +43,7 @@ void fill_slits(const CoveredCells& covered, const RepairOptions& options,
   thin.within = widest_slit(soup, options);
   thin.states = states;
   thin.stays = stays;
-  const std::vector<char> open = triangles_of_open_parts(soup);
+  const std::vector<char> open = triangles_of_open_parts(index_triangles(soup), soup.points.size());
   thin.open = open;
   thin.progress = options.progress;
   report.thin_cells = relabel_thin_cells(covered.complex, covered.cover, thin, solid);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <Eigen/Core>
@@ -56,14 +57,29 @@ bool is_flat(const std::vector<Vec3d>& points, double rounding) {
   });
 }
 
+std::vector<char> triangles_of_open_parts(std::span<const IndexTriangle> triangles,
+                                          std::size_t points) {
+  TopologyPlaces places;
+  const Topology topology = examine_topology(triangles, points, &places);
+  std::vector<char> is_open(topology.parts, 0);
+  for (const std::uint32_t side : places.open_sides) is_open[places.parts[side / 3]] = 1;
+  std::vector<char> open;
+  open.reserve(places.parts.size());
+  for (const std::uint32_t part : places.parts) open.push_back(is_open[part]);
+  return open;
+}
+
 bool is_flat_sheet(const CleanSoup& soup) {
-  std::vector<Vec3d> places;
-  places.reserve(soup.points.size());
-  for (PointId p(0u); p < soup.points.end_id(); ++p.value) {
-    places.push_back(original_place(soup, p));
+  std::vector<IndexTriangle> triangles = index_triangles(soup);
+  std::vector<Vec3d> corners;
+  for (const Triangle& t : soup.triangles) {
+    if (t.source == Triangle::kNoSource) break;
+    for (const PointId p : t.corners) corners.push_back(original_place(soup, p));
   }
-  if (!is_flat(places, rounding_of(soup))) return false;
-  return examine_topology(index_triangles(soup), soup.points.size()).open_edges > 0;
+  if (!is_flat(corners, rounding_of(soup))) return false;
+  triangles.resize(corners.size() / 3);
+  const std::vector<char> open = triangles_of_open_parts(triangles, soup.points.size());
+  return std::all_of(open.begin(), open.end(), [](char x) { return x != 0; });
 }
 
 }  // namespace meshrepair::internal

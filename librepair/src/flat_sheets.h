@@ -1,9 +1,12 @@
-// Open sheets that lie in one plane, but for the rounding of their coordinates.
+// Sheets that lie in one plane, but for the rounding of their coordinates.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include <bsp/clean_soup.h>
+#include <bsp/edge_table.h>
 
 namespace meshrepair::internal {
 
@@ -18,8 +21,13 @@ namespace meshrepair::internal {
 // `rounding`: the plane of three that are far from each other tells.
 [[nodiscard]] bool is_flat(const std::vector<Vec3d>& points, double rounding);
 
-// All triangles, of which there are some, lie in one plane but for the rounding, and some edge has
-// one triangle alone.
+// Of each triangle, whether its part, connected through edges, has an edge with one triangle.
+// Indices are below `points`.
+[[nodiscard]] std::vector<char> triangles_of_open_parts(std::span<const IndexTriangle> triangles,
+                                                        std::size_t points);
+
+// All triangles but those that close holes, of which there are some, are of open parts, and lie in
+// one plane but for the rounding.
 [[nodiscard]] bool is_flat_sheet(const CleanSoup& soup);
 
 }  // namespace meshrepair::internal

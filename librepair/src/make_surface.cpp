@@ -35,6 +35,8 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   again.examine = nullptr;
   again.keep_valid = false;
   again.certify.wanted = false;
+  // Points that are on the grid now, and coarser, say what they say.
+  if (options.certify.precision == Precision::float64) again.slit_steps = 0;
   again.progress = &quiet;
   RepairReport report;
   return repair(soup, again, report);
@@ -135,14 +137,16 @@ class SurfaceMaker {
     meter_.begin("extract");
     const bool may_widen = widens_slits(*covered_, options_);
     Surface extracted = extract(*covered_, solid_, options_, report_);
-    if (!options_.certify.wanted || !may_widen) covered_.reset();
+    const bool may_leave = !may_widen && report_.thin_cells.filled + report_.thin_cells.emptied > 0;
+    if (!options_.certify.wanted || !(may_widen || may_leave)) covered_.reset();
     const RepairReport at_first = report_;
     std::optional<Surface> with_all_triangles;
     if (options_.certify.wanted && options_.simplify > 0) with_all_triangles = extracted;
     surface_ = finish_surface(input_, std::move(extracted), options_, report_, meter_);
+    if (covered_ && may_leave) leave_slits();
     // Many are left where the surface is finer than the numbers, and would be again.
     if (report_.certify.faults() > kFewFaults) return std::move(surface_);
-    if (covered_) widen_slits();
+    if (covered_ && may_widen) widen_slits();
     if (with_all_triangles) leave_all_triangles(std::move(*with_all_triangles), at_first);
     return std::move(surface_);
   }
@@ -163,6 +167,17 @@ class SurfaceMaker {
       last = report.thin_cells;
       attempt(std::move(surface), wider, std::move(report));
     }
+  }
+
+  // Where most is as thin as slits, what stays between those that go may have more faults.
+  void leave_slits() {
+    if (report_.certify.passed()) return;
+    RepairOptions plain = options_;
+    plain.slit_steps = 0;
+    meter_.begin("extract");
+    RepairReport report = report_;
+    Surface surface = extract(*covered_, solid_, plain, report);
+    attempt(std::move(surface), plain, std::move(report));
   }
 
   // The surface with all its triangles may have no faults.

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 #include <utility>
 
 #include <bsp/disjoint_sets.h>
-#include <bsp/edge_table.h>
-#include <bsp/ids.h>
 #include <repair/orient_parts.h>
 
 #include "flat_sheets.h"
@@ -20,14 +17,16 @@ constexpr double kMostUncovered = 0.95;
 
 using RegionTriangle = std::pair<std::uint32_t, std::uint32_t>;
 
-// Regions are connected through facets; the lowest of its cells stands for a region.
+// Regions are connected through uncovered facets: what is walled in has nothing to do with what is
+// solid beside it. The lowest of its cells stands for a region.
 class OpenRegions {
  public:
   OpenRegions(const CoveredCells& covered, std::vector<char>& solid)
       : complex_(covered.complex),
         cover_(covered.cover),
         solid_(solid),
-        open_(triangles_of_open_parts(complex_.soup())),
+        open_(triangles_of_open_parts(index_triangles(complex_.soup()),
+                                      complex_.soup().points.size())),
         regions_(solid.size()) {}
 
   std::size_t run() {
@@ -50,8 +49,11 @@ class OpenRegions {
   [[nodiscard]] bool is_solid(CellId c) const { return c.valid() && solid_[c.index()] != 0; }
 
   void find_regions() {
-    for (const Facet& f : complex_.facets) {
-      if (is_solid(f.above) && is_solid(f.below)) regions_.join(f.above.value, f.below.value);
+    for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
+      const Facet& facet = complex_.facets[f];
+      if (!cover_[f].opaque() && is_solid(facet.above) && is_solid(facet.below)) {
+        regions_.join(facet.above.value, facet.below.value);
+      }
     }
   }
 
@@ -61,12 +63,15 @@ class OpenRegions {
     uncovered_area_.resize(solid_.size());
     for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
       const Facet& facet = complex_.facets[f];
-      if (is_solid(facet.above) == is_solid(facet.below)) continue;
-      const CellId inside = is_solid(facet.above) ? facet.above : facet.below;
-      const std::uint32_t region = regions_.root(inside.value);
       const bool is_covered = cover_[f].opaque();
-      (is_covered ? covered_area_ : uncovered_area_)[region] += facet_area(complex_, f);
-      if (is_covered) walls_.emplace_back(region, cover_[f].triangle.value);
+      if (!is_covered && is_solid(facet.above) == is_solid(facet.below)) continue;
+      const double area = facet_area(complex_, f);
+      for (const CellId cell : {facet.above, facet.below}) {
+        if (!is_solid(cell)) continue;
+        const std::uint32_t region = regions_.root(cell.value);
+        (is_covered ? covered_area_ : uncovered_area_)[region] += area;
+        if (is_covered) walls_.emplace_back(region, cover_[f].triangle.value);
+      }
     }
     std::sort(walls_.begin(), walls_.end());
     walls_.erase(std::unique(walls_.begin(), walls_.end()), walls_.end());
@@ -103,31 +108,6 @@ class OpenRegions {
 };
 
 }  // namespace
-
-std::vector<char> triangles_of_open_parts(const CleanSoup& soup) {
-  const auto is_sided = [&](std::uint32_t t) { return soup.triangles[TriangleId(t)].winding != 0; };
-  const std::vector<IndexTriangle> triangles = index_triangles(soup);
-  DisjointSets parts(triangles.size());
-  std::vector<char> open(triangles.size(), 0);
-  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
-    std::uint32_t first = kNone;
-    std::size_t count = 0;
-    for (const std::uint32_t side : sides) {
-      const std::uint32_t t = side / 3;
-      if (!is_sided(t)) continue;
-      if (++count == 1) first = t;
-      parts.join(first, t);
-    }
-    if (count == 1) open[first] = 1;
-  });
-  for (std::uint32_t t = 0; t < open.size(); ++t) {
-    if (open[t] != 0) open[parts.root(t)] = 1;
-  }
-  for (std::uint32_t t = 0; t < open.size(); ++t) {
-    open[t] = is_sided(t) ? open[parts.root(t)] : 1;
-  }
-  return open;
-}
 
 std::size_t empty_open_regions(const CoveredCells& covered, std::vector<char>& solid) {
   return OpenRegions(covered, solid).run();

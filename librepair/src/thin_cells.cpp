@@ -327,7 +327,7 @@ class ThinCells {
       moved[which] = std::max(moved[which], bounds ? 0 : moved_there);
     }
     double best = kFar;
-    for (const std::size_t which : {0, 1}) {
+    for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
       if (may_go && is_there[which]) best = std::min(best, moved[which] + node.width.width);
     }
     return best;
