@@ -145,7 +145,7 @@ TEST(ThinCells, SlitsAreWidenedWhereFewFaultsAreLeft) {
   options.certify.most_rounds = 1;
   options.slit_steps = 0.125;
   std::size_t widened = 0;
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < 4 && widened == 0; ++seed) {
     const TriangleSoup soup = nearly_equal_balls(seed);
     const RepairResult result = repair(soup, options);
     widened += attempts(result.report) > 1 ? 1 : 0;
@@ -245,7 +245,7 @@ TEST(ThinCells, StacksOfSlitsAreFilledInDoublePrecisionToo) {
 // In steps of the grid that the soup's points were put on.
 TEST(ThinCells, WhatNearlyCoincidesStaysAValidSolidOfItsVolume) {
   std::size_t changed = 0;
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TriangleSoup solid = seed % 2 == 0 ? turned_box(random) : noisy_sphere(100, 0.2, seed);
