@@ -14,8 +14,8 @@ namespace meshrepair::internal {
 [[nodiscard]] bool widens_slits(const CoveredCells& covered, const RepairOptions& options);
 
 // Changes `solid`, of each cell, where sheets are nearer to each other than steps of the working
-// grid, or so near that they would cross once they are written; says so in the report. `states` as
-// relabel_thin_cells() has it.
+// grid, or so near that they would cross once they are written; says so in the report. `states` and
+// `stays` as ThinCellsOptions has them.
 void fill_slits(const CoveredCells& covered, const RepairOptions& options,
                 std::span<const CellState> states, std::span<const char> stays,
                 std::vector<char>& solid, RepairReport& report);

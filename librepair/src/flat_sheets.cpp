@@ -70,13 +70,13 @@ std::vector<char> triangles_of_open_parts(std::span<const IndexTriangle> triangl
 }
 
 bool is_flat_sheet(const CleanSoup& soup) {
-  std::vector<IndexTriangle> triangles = index_triangles(soup);
   std::vector<Vec3d> corners;
   for (const Triangle& t : soup.triangles) {
     if (t.source == Triangle::kNoSource) break;
     for (const PointId p : t.corners) corners.push_back(original_place(soup, p));
   }
   if (!is_flat(corners, rounding_of(soup))) return false;
+  std::vector<IndexTriangle> triangles = index_triangles(soup);
   triangles.resize(corners.size() / 3);
   const std::vector<char> open = triangles_of_open_parts(triangles, soup.points.size());
   return std::all_of(open.begin(), open.end(), [](char x) { return x != 0; });

@@ -78,12 +78,19 @@ TEST(ThinCells, WhatIsNothingButThinStays) {
   EXPECT_NEAR(result.report.output_area, 4 * 4, 1e-4);
 }
 
-TEST(ThinCells, FixedCellsStay) {
+Cells cells_with_slit() {
   const TriangleSoup post = box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8});
-  Cells cells = cells_of(together(together(cube(), lid), post));
+  return cells_of(together(together(cube(), lid), post));
+}
+
+// Twice the width of that slit, in grid units.
+double bound_above_slit(const Cells& cells) { return 2 * kSlit / cells.complex.soup().grid.unit; }
+
+TEST(ThinCells, FixedCellsStay) {
+  Cells cells = cells_with_slit();
   const auto cover = cover_of(cells);
   ThinCellsOptions options;
-  options.within = 2 * kSlit / cells.complex.soup().grid.unit;
+  options.within = bound_above_slit(cells);
   std::vector<char> solid = enclosed_cells(cells.complex, cover);
   const std::vector<char> before = solid;
   const std::vector<CellState> fixed(solid.size(), CellState::fixed);
@@ -269,11 +276,10 @@ TEST(ThinCells, WhatNearlyCoincidesStaysAValidSolidOfItsVolume) {
 }
 
 TEST(ThinCells, TrianglesThatAreToStayStay) {
-  const TriangleSoup post = box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8});
-  Cells cells = cells_of(together(together(cube(), lid), post));
+  Cells cells = cells_with_slit();
   const auto cover = cover_of(cells);
   ThinCellsOptions options;
-  options.within = 2 * kSlit / cells.complex.soup().grid.unit;
+  options.within = bound_above_slit(cells);
   const std::vector<char> at_first = enclosed_cells(cells.complex, cover);
   const std::vector<char> stays(cells.complex.soup().triangles.size(), 1);
   std::vector<char> solid = at_first;
