@@ -2,16 +2,16 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <spdlog/spdlog.h>
 
+#include <base/error.h>
 #include <boolean/boolean.h>
-#include <bsp/error.h>
 #include <repair/repair.h>
 
 #include "common/choice_option.h"

@@ -4,9 +4,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <bsp/atomic_file.h>
-#include <bsp/error.h>
-#include <extract/check_surface.h>
+#include <base/atomic_file.h>
+#include <base/error.h>
+#include <check/check_surface.h>
 
 #include "common/check_report.h"
 #include "common/repair_steps.h"

@@ -4,8 +4,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <bsp/error.h>
-#include <extract/mesh_distance.h>
+#include <base/error.h>
+#include <check/mesh_distance.h>
 
 #include "common/distance_report.h"
 #include "common/repair_steps.h"

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <bsp/error.h>
-#include <bsp/soup_io.h>
-#include <repair/stage_meter.h>
+#include <base/error.h>
+#include <base/stage_meter.h>
+#include <mesh/soup_io.h>
 
 #include "shapes.h"
 

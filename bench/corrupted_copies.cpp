@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include <bsp/error.h>
-#include <bsp/soup_io.h>
-#include <bsp/topology.h>
+#include <base/error.h>
 #include <extract/build_cells.h>
 #include <extract/cover_facets.h>
+#include <mesh/soup_io.h>
+#include <mesh/topology.h>
 #include <repair/cell_graph.h>
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>

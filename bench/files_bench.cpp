@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include <bsp/soup_io.h>
+#include <mesh/soup_io.h>
 
 #include "bench_cases.h"
 

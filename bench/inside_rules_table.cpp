@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <bsp/error.h>
-#include <bsp/soup_io.h>
+#include <base/error.h>
+#include <mesh/soup_io.h>
 #include <repair/repair.h>
 
 #include "shapes.h"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <bsp/soup_io.h>
+#include <mesh/soup_io.h>
 
 #include "models.h"
 #include "shapes.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <bsp/soup.h>
+#include <mesh/soup.h>
 
 namespace meshrepair::bench {
 

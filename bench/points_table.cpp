@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include <bsp/error.h>
-#include <bsp/soup_io.h>
-#include <extract/mesh_distance.h>
+#include <base/error.h>
+#include <check/mesh_distance.h>
+#include <mesh/soup_io.h>
+#include <points/point_soup.h>
 #include <repair/drop_small_parts.h>
-#include <repair/point_soup.h>
 #include <repair/repair.h>
 
 #include "bench_cases.h"

@@ -2,7 +2,7 @@
 // process's resident memory, per input triangle.
 #include <cstdio>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <repair/repair.h>
 
 #include "bench_cases.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include <bsp/soup_io.h>
+#include <mesh/soup_io.h>
 
 #include "models.h"
 

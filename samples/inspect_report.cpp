@@ -9,8 +9,8 @@
 #include <exception>
 #include <set>
 
-#include <bsp/error.h>
-#include <bsp/soup_io.h>
+#include <base/error.h>
+#include <mesh/soup_io.h>
 #include <repair/repair.h>
 
 namespace {

@@ -9,9 +9,9 @@
 #include <exception>
 #include <vector>
 
-#include <bsp/error.h>
-#include <bsp/openmesh.h>
-#include <bsp/soup_io.h>
+#include <base/error.h>
+#include <mesh/openmesh.h>
+#include <mesh/soup_io.h>
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <exception>
 
-#include <bsp/soup_io.h>
+#include <mesh/soup_io.h>
 #include <repair/repair.h>
 
 int main(int argc, char** argv) {

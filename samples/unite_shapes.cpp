@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <exception>
 
-#include <bsp/openmesh.h>
-#include <bsp/soup_io.h>
+#include <mesh/openmesh.h>
+#include <mesh/soup_io.h>
 #include <repair/repair.h>
 
 namespace {

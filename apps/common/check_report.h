@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <bsp/coloured_ply.h>
-#include <extract/check_surface.h>
+#include <check/check_surface.h>
+#include <mesh/coloured_ply.h>
 
 #include "common/json_report.h"
 

@@ -12,7 +12,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <bsp/error.h>
+#include <base/error.h>
 
 namespace meshrepair {
 namespace {

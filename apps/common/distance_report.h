@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <extract/mesh_distance.h>
+#include <check/mesh_distance.h>
 #include <repair/fidelity.h>
 
 #include "common/json_report.h"

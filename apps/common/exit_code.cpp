@@ -7,7 +7,7 @@
 #include <iostream>
 #include <new>
 
-#include <bsp/error.h>
+#include <base/error.h>
 
 #include "common/signals.h"
 

@@ -4,7 +4,7 @@
 #include <sys/resource.h>
 #include <utility>
 
-#include <bsp/assert.h>
+#include <base/assert.h>
 
 #include "common/common_options.h"
 

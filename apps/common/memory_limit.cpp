@@ -19,7 +19,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 
 namespace meshrepair {
 namespace {

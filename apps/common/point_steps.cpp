@@ -9,7 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <repair/drop_small_parts.h>
 
 #include "common/summary.h"

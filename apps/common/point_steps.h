@@ -5,9 +5,9 @@
 
 #include <CLI/App.hpp>
 
-#include <bsp/point_cloud.h>
-#include <bsp/soup.h>
-#include <repair/scan_base.h>
+#include <mesh/point_cloud.h>
+#include <mesh/soup.h>
+#include <points/scan_base.h>
 
 #include "common/repair_steps.h"
 

@@ -11,8 +11,8 @@
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
 
-#include <bsp/atomic_file.h>
-#include <bsp/error.h>
+#include <base/atomic_file.h>
+#include <base/error.h>
 
 #include "common/logging.h"
 #include "common/memory_limit.h"

@@ -8,7 +8,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 
 #include "common/memory_limit.h"
 #include "common/signals.h"

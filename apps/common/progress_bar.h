@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include <bsp/error.h>
-#include <bsp/progress.h>
+#include <base/error.h>
+#include <base/progress.h>
 
 #include "common/exit_code.h"
 

@@ -5,7 +5,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 
 #include "common/choice_option.h"
 

@@ -6,8 +6,8 @@
 
 #include <CLI/App.hpp>
 
-#include <bsp/soup_io.h>
 #include <extract/cut_nonmanifold.h>
+#include <mesh/soup_io.h>
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <string_view>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <bsp/atomic_file.h>
-#include <bsp/error.h>
+#include <base/atomic_file.h>
+#include <base/error.h>
 
 #include "common/report_sections.h"
 #include "common/summary.h"

@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include <bsp/point_io.h>
-#include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
+#include <mesh/point_io.h>
+#include <mesh/soup_io.h>
+#include <points/point_soup.h>
+#include <points/scan_base.h>
 #include <repair/fidelity.h>
-#include <repair/point_soup.h>
 #include <repair/repair.h>
-#include <repair/scan_base.h>
 
 #include "common/program.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <repair/stage_meter.h>
+#include <base/stage_meter.h>
 
 #include "common/json_report.h"
 #include "common/repair_steps.h"

@@ -4,7 +4,7 @@
 #include <csignal>
 #include <unistd.h>
 
-#include <bsp/atomic_file.h>
+#include <base/atomic_file.h>
 
 namespace meshrepair {
 namespace {

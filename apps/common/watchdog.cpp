@@ -8,7 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include <bsp/atomic_file.h>
+#include <base/atomic_file.h>
 
 namespace meshrepair {
 namespace {

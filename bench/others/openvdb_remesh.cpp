@@ -4,14 +4,15 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+#include <vector>
+
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/VolumeToMesh.h>
-#include <string>
-#include <vector>
 
-#include <extract/mesh_distance.h>
+#include <check/mesh_distance.h>
 
 #include "../models.h"
 

@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
+#include <base/error.h>
 #include <boolean/boolean.h>
 #include <boolean/label_beside_triangles.h>
 #include <bsp/common_grid.h>
-#include <bsp/error.h>
 
 namespace meshrepair {
 namespace {

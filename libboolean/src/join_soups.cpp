@@ -1,8 +1,9 @@
 #include <algorithm>
 
+#include <base/error.h>
+#include <base/hash_index.h>
 #include <boolean/join_soups.h>
-#include <bsp/error.h>
-#include <bsp/hash_index.h>
+#include <exact/grid_hash.h>
 
 namespace meshrepair {
 namespace {

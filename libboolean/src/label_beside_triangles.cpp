@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <boolean/label_beside_triangles.h>
-#include <extract/check_surface.h>
+#include <check/check_surface.h>
 #include <extract/clip_cell.h>
 
 namespace meshrepair {

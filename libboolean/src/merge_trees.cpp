@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include <base/error.h>
 #include <boolean/collapse_tree.h>
 #include <boolean/join_soups.h>
 #include <boolean/merge_trees.h>
-#include <bsp/error.h>
 
 #include "region_tracker.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <bsp/region_volume.h>
 #include <bsp/tree.h>
+#include <exact/region_volume.h>
 #include <extract/clip_cell.h>
 
 namespace meshrepair::internal {

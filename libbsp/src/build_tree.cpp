@@ -23,8 +23,8 @@
 #include <utility>
 #include <vector>
 
+#include <base/error.h>
 #include <bsp/build_tree.h>
-#include <bsp/error.h>
 
 #include "candidate_planes.h"
 #include "fragment_pool.h"

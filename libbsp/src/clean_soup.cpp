@@ -5,10 +5,11 @@
 
 #include <Eigen/Geometry>
 
+#include <base/error.h>
+#include <base/hash_index.h>
 #include <bsp/clean_soup.h>
 #include <bsp/common_grid.h>
-#include <bsp/error.h>
-#include <bsp/hash_index.h>
+#include <exact/grid_hash.h>
 
 #include "count_layers.h"
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <bsp/disjoint_sets.h>
-#include <bsp/edge_table.h>
-#include <bsp/ids.h>
+#include <base/disjoint_sets.h>
+#include <base/ids.h>
+#include <mesh/edge_table.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <bsp/predicates.h>
+#include <exact/predicates.h>
 
 namespace meshrepair::internal {
 namespace {

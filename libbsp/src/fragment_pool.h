@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <bsp/clean_soup.h>
-#include <bsp/point.h>
+#include <exact/point.h>
 
 namespace meshrepair::internal {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include <bsp/build_tree.h>
-#include <bsp/plane.h>
+#include <exact/plane.h>
 
 #include "fragment_pool.h"
 

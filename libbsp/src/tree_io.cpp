@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include <bsp/atomic_file.h>
-#include <bsp/predicates.h>
+#include <base/atomic_file.h>
+#include <base/file_bytes.h>
 #include <bsp/tree_io.h>
+#include <exact/predicates.h>
+#include <mesh/recognize_format.h>
 
-#include "file_bytes.h"
-#include "recognize_format.h"
 #include "tree_sections.h"
 
 namespace meshrepair {
@@ -18,7 +18,6 @@ namespace {
 using internal::SectionReader;
 using internal::SectionWriter;
 
-constexpr std::string_view kSignature("BSP\r\n\x1A\n\0", 8);
 constexpr std::uint32_t kVersion = 1;
 constexpr std::uint32_t kSections = 7;
 
@@ -265,7 +264,7 @@ std::string why_no_tree(std::string_view bytes) {
 }  // namespace
 
 std::string format_tree(const Tree& tree) {
-  std::string out(kSignature);
+  std::string out(kTreeSignature);
   internal::put_number(out, kVersion);
   internal::put_number(out, kSections);
   write_grid(tree.input.grid, out);
@@ -277,12 +276,10 @@ std::string format_tree(const Tree& tree) {
   return out;
 }
 
-bool looks_like_tree(std::string_view bytes) { return bytes.starts_with(kSignature.substr(0, 4)); }
-
 Tree parse_tree(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   const MeshSource source = {bytes, name, options};
   SectionReader in(source);
-  in.skip(kSignature, bytes.starts_with(kSignature) ? std::string() : why_no_tree(bytes));
+  in.skip(kTreeSignature, bytes.starts_with(kTreeSignature) ? std::string() : why_no_tree(bytes));
   const std::uint32_t version = in.header_number();
   if (version != kVersion) {
     in.fail("has version " + std::to_string(version) + "; this program reads version " +

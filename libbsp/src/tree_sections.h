@@ -9,11 +9,10 @@
 #include <string>
 #include <string_view>
 
-#include <bsp/error.h>
-
-#include "byte_order.h"
-#include "mesh_source.h"
-#include "read_guard.h"
+#include <base/byte_order.h>
+#include <base/error.h>
+#include <mesh/mesh_source.h>
+#include <mesh/read_guard.h>
 
 namespace meshrepair::internal {
 

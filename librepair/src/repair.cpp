@@ -3,17 +3,17 @@
 #include <string>
 #include <utility>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <repair/cell_graph.h>
 #include <repair/flood.h>
 #include <repair/repair.h>
 
-#include "covered_cells.h"
-#include "cut_tangles.h"
-#include "flat_sheets.h"
-#include "keep_valid.h"
-#include "make_surface.h"
-#include "open_regions.h"
+#include "cells/covered_cells.h"
+#include "finish/make_surface.h"
+#include "open/flat_sheets.h"
+#include "open/open_regions.h"
+#include "tangles/cut_tangles.h"
+#include "valid/keep_valid.h"
 
 namespace meshrepair {
 namespace {
@@ -160,10 +160,6 @@ void require_labels(const Tree& tree) {
 }
 
 }  // namespace
-
-std::string_view predicates_name(Predicates predicates) {
-  return predicates == Predicates::exact ? "exact" : "float";
-}
 
 Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   StageMeter meter(report.stages, options.progress);

@@ -1,12 +1,12 @@
-#include "common/exit_code.h"
-
 #include <exception>
 #include <new>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
+
+#include "common/exit_code.h"
 
 namespace meshrepair {
 namespace {

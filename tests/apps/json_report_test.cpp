@@ -1,11 +1,11 @@
-#include "common/json_report.h"
-
-#include <gmock/gmock.h>
 #include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
+
+#include "common/json_report.h"
 
 namespace meshrepair {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <tbb/global_control.h>
 
-#include <bsp/assert.h>
-#include <bsp/error.h>
+#include <base/assert.h>
+#include <base/error.h>
 
 #include "common/program.h"
 

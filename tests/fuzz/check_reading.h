@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include <bsp/error.h>
-#include <bsp/soup_io.h>
+#include <base/error.h>
+#include <mesh/soup_io.h>
 
 #include "fuzz_input.h"
 

@@ -3,8 +3,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <bsp/error.h>
-#include <bsp/openmesh.h>
+#include <base/error.h>
+#include <mesh/openmesh.h>
 
 #include "check_reading.h"
 

@@ -1,8 +1,8 @@
 // The readers of points, and the local triangulation of what they read.
 #include <array>
 
-#include <bsp/point_io.h>
-#include <repair/point_soup.h>
+#include <mesh/point_io.h>
+#include <points/point_soup.h>
 
 #include "check_reading.h"
 

@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include <base/error.h>
 #include <bsp/clean_soup.h>
-#include <bsp/error.h>
-#include <bsp/float32.h>
-#include <bsp/soup_io.h>
 #include <bsp/tree_io.h>
-#include <extract/check_surface.h>
-#include <extract/self_intersections.h>
+#include <check/check_surface.h>
+#include <check/self_intersections.h>
+#include <mesh/float32.h>
+#include <mesh/soup_io.h>
 #include <repair/repair.h>
 
 #include "repair_request.h"

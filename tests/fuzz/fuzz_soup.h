@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <bsp/soup.h>
+#include <mesh/soup.h>
 
 #include "fuzz_input.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <bsp/tree_io.h>
 #include <extract/build_cells.h>
 #include <extract/check_complex.h>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include <extract/check_surface.h>
+#include <check/check_surface.h>
 
 #include "fuzz_input.h"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include <bsp/soup_io.h>
+#include <mesh/soup_io.h>
 
 #include "repair_request.h"
 

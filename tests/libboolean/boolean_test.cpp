@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <base/error.h>
 #include <boolean/boolean.h>
-#include <bsp/error.h>
 
 #include "shapes.h"
 #include "triangles_by_place.h"

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <base/error.h>
 #include <boolean/collapse_tree.h>
 #include <boolean/merge_trees.h>
 #include <bsp/common_grid.h>
-#include <bsp/error.h>
 #include <extract/build_cells.h>
 #include <repair/repair.h>
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <base/error.h>
 #include <bsp/build_tree.h>
-#include <bsp/error.h>
 #include <bsp/tree_io.h>
 
 #include "degenerate_soups.h"

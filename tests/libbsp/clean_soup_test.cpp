@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <base/error.h>
 #include <bsp/clean_soup.h>
-#include <bsp/edge_table.h>
-#include <bsp/error.h>
-#include <bsp/predicates.h>
+#include <exact/predicates.h>
+#include <mesh/edge_table.h>
 
 #include "degenerate_soups.h"
 #include "random_geometry.h"

@@ -8,8 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <bsp/tree_io.h>
+#include <mesh/recognize_format.h>
 
 #include "shapes.h"
 #include "temporary_folder.h"

@@ -1,6 +1,4 @@
 // What bounds nothing gives a solid, or none and a reason: never anything between.
-#include "open_surfaces.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 #include <repair/repair.h>
 
 #include "complexes.h"
+#include "open_surfaces.h"
 
 namespace meshrepair {
 namespace {

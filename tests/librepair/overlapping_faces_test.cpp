@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <extract/mesh_distance.h>
+#include <check/mesh_distance.h>
 #include <repair/repair.h>
 
 #include "random_geometry.h"

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <exception>
 
-#include <bsp/openmesh.h>
-#include <bsp/soup_io.h>
+#include <mesh/openmesh.h>
+#include <mesh/soup_io.h>
 #include <repair/repair.h>
 
 int main(int argc, char** argv) {

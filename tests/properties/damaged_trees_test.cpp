@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <bsp/tree_io.h>
 #include <repair/repair.h>
 

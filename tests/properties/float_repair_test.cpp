@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <bsp/tree_io.h>
-#include <extract/self_intersections.h>
+#include <check/self_intersections.h>
 #include <repair/repair.h>
 
 #include "complexes.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/error.h>
+#include <base/error.h>
 #include <repair/repair.h>
 
 #include "complexes.h"

@@ -9,12 +9,12 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/predicates.h>
-#include <bsp/topology.h>
+#include <exact/predicates.h>
 #include <extract/build_cells.h>
 #include <extract/cell_complex.h>
 #include <extract/cover_facets.h>
 #include <extract/extract_surface.h>
+#include <mesh/topology.h>
 
 #include "trees.h"
 

@@ -12,9 +12,9 @@
 
 #include <Eigen/Geometry>
 
-#include <bsp/point_cloud.h>
-#include <bsp/soup.h>
-#include <bsp/topology.h>
+#include <mesh/point_cloud.h>
+#include <mesh/soup.h>
+#include <mesh/topology.h>
 
 #include "random_geometry.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <random>
 
-#include <bsp/grid.h>
-#include <bsp/soup.h>
+#include <exact/grid.h>
+#include <mesh/soup.h>
 
 namespace meshrepair::testing {
 

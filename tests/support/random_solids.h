@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <bsp/soup.h>
+#include <mesh/soup.h>
 
 #include "random_geometry.h"
 #include "shapes.h"

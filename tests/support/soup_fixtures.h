@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include <bsp/error.h>
-#include <bsp/soup_io.h>
+#include <base/error.h>
+#include <mesh/soup_io.h>
 
 namespace meshrepair {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <bsp/soup.h>
+#include <mesh/soup.h>
 
 namespace meshrepair::testing {
 

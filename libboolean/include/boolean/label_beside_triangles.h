@@ -1,7 +1,7 @@
 // Labels for the tree of a surface that bounds a solid, without making its cells.
 #pragma once
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <bsp/tree.h>
 
 namespace meshrepair {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <base/progress.h>
 #include <boolean/set_operation.h>
-#include <bsp/progress.h>
 #include <bsp/tree.h>
 
 namespace meshrepair {

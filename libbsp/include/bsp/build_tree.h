@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <functional>
 
+#include <base/progress.h>
 #include <bsp/clean_soup.h>
-#include <bsp/progress.h>
 #include <bsp/tree.h>
 
 namespace meshrepair {

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <bsp/grid.h>
-#include <bsp/ids.h>
-#include <bsp/plane_table.h>
-#include <bsp/progress.h>
-#include <bsp/soup.h>
+#include <base/ids.h>
+#include <base/progress.h>
+#include <exact/grid.h>
+#include <exact/plane_table.h>
+#include <mesh/soup.h>
 
 namespace meshrepair {
 
@@ -58,11 +58,6 @@ struct CleanReport {
 
 // In the input's units.
 [[nodiscard]] double area_of(const CleanSoup& soup, const Triangle& triangle);
-
-// An axis-parallel box with integer corners, inclusive.
-struct GridBox {
-  GridPoint low, high;
-};
 
 // The smallest box that holds all points; a point at the origin when there are none.
 [[nodiscard]] GridBox bounding_box(const CleanSoup& soup);

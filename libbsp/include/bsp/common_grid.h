@@ -3,10 +3,10 @@
 
 #include <span>
 
+#include <base/progress.h>
 #include <bsp/clean_soup.h>
-#include <bsp/grid.h>
-#include <bsp/progress.h>
-#include <bsp/soup.h>
+#include <exact/grid.h>
+#include <mesh/soup.h>
 
 namespace meshrepair {
 

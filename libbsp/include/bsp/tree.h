@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <base/ids.h>
 #include <bsp/clean_soup.h>
-#include <bsp/ids.h>
 
 namespace meshrepair {
 

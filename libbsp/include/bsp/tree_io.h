@@ -30,9 +30,9 @@
 #include <string>
 #include <string_view>
 
-#include <bsp/progress.h>
-#include <bsp/soup_io.h>
+#include <base/progress.h>
 #include <bsp/tree.h>
+#include <mesh/soup_io.h>
 
 namespace meshrepair {
 
@@ -44,9 +44,6 @@ namespace meshrepair {
 // InputError naming the section, LimitError.
 [[nodiscard]] Tree parse_tree(std::string_view bytes, const std::string& name,
                               const ReadOptions& options = {});
-
-// Whether the bytes begin like a .bsp file.
-[[nodiscard]] bool looks_like_tree(std::string_view bytes);
 
 // Files; "-" is standard output or input. Throw OutputError, InputError, LimitError. `progress` is
 // asked while the bytes are written whether to go on.

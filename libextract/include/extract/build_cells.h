@@ -1,7 +1,7 @@
 // From a tree to its cell complex (WM Procedures 1 and 2).
 #pragma once
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <bsp/tree.h>
 #include <extract/cell_complex.h>
 #include <extract/clip_cell.h>

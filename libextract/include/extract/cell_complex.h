@@ -11,11 +11,11 @@
 #include <cstdint>
 #include <vector>
 
+#include <base/ids.h>
 #include <bsp/clean_soup.h>
-#include <bsp/ids.h>
-#include <bsp/plane_table.h>
-#include <bsp/point.h>
 #include <bsp/tree.h>
+#include <exact/plane_table.h>
+#include <exact/point.h>
 
 namespace meshrepair {
 

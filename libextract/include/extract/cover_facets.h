@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <extract/cell_complex.h>
 
 namespace meshrepair {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <bsp/ids.h>
-#include <bsp/progress.h>
+#include <base/ids.h>
+#include <base/progress.h>
 #include <extract/boundary.h>
 
 namespace meshrepair {

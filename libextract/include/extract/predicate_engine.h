@@ -1,11 +1,19 @@
 // How the clipper asks about geometry: the only door through which numbers reach the topology.
 #pragma once
 
-#include <bsp/plane_table.h>
-#include <bsp/point.h>
-#include <bsp/predicates.h>
+#include <string_view>
+
+#include <exact/plane_table.h>
+#include <exact/point.h>
+#include <exact/predicates.h>
 
 namespace meshrepair {
+
+// Who says on which side of a plane a point of the cells lies. The rest is exact in either case:
+// the working grid, the tree, the certificate.
+enum class Predicates { exact, floating };
+
+[[nodiscard]] std::string_view predicates_name(Predicates predicates);
 
 // An engine may be wrong about sides: the clipper keeps the topology valid whatever it says.
 class PredicateEngine {

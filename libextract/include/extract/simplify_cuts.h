@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <extract/surface.h>
 
 namespace meshrepair {

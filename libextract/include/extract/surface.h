@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <bsp/soup.h>
+#include <mesh/soup.h>
 
 namespace meshrepair {
 

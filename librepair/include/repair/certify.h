@@ -4,16 +4,14 @@
 #include <cstddef>
 #include <functional>
 
-#include <bsp/grid.h>
-#include <bsp/progress.h>
-#include <bsp/soup.h>
+#include <base/progress.h>
+#include <exact/grid.h>
 #include <extract/cut_nonmanifold.h>
 #include <extract/surface.h>
+#include <mesh/precision.h>
+#include <mesh/soup.h>
 
 namespace meshrepair {
-
-// What the numbers in a file can hold.
-enum class Precision { float64, float32 };
 
 struct CertifyOptions {
   bool wanted = true;

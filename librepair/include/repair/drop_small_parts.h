@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include <extract/surface.h>
-#include <repair/repair.h>
+#include <repair/repair_report.h>
 
 namespace meshrepair {
 

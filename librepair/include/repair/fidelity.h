@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <optional>
 
-#include <bsp/progress.h>
-#include <bsp/soup.h>
-#include <extract/mesh_distance.h>
+#include <base/progress.h>
+#include <check/mesh_distance.h>
 #include <extract/surface.h>
+#include <mesh/soup.h>
 #include <repair/certify.h>
 
 namespace meshrepair {

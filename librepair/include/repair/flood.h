@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <repair/cell_graph.h>
 
 namespace meshrepair {

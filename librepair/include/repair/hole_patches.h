@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include <base/progress.h>
 #include <bsp/clean_soup.h>
-#include <bsp/progress.h>
 
 namespace meshrepair {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <base/progress.h>
 #include <bsp/clean_soup.h>
-#include <bsp/progress.h>
 
 namespace meshrepair {
 

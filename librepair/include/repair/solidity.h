@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <repair/cell_graph.h>
 
 namespace meshrepair {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <extract/cell_complex.h>
 #include <extract/cover_facets.h>
 

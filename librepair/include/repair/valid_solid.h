@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <optional>
 
+#include <base/progress.h>
 #include <bsp/clean_soup.h>
-#include <bsp/progress.h>
-#include <bsp/soup.h>
 #include <extract/surface.h>
+#include <mesh/soup.h>
 #include <repair/certify.h>
 #include <repair/orient_parts.h>
 

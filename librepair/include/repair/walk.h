@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <bsp/progress.h>
+#include <base/progress.h>
 #include <repair/cell_graph.h>
 
 namespace meshrepair {

@@ -1,0 +1,58 @@
+// How a long computation tells its caller where it is, and how the caller stops it.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include <base/error.h>
+
+namespace meshrepair {
+
+// Called from one thread at a time. All functions may be left as they are.
+class ProgressObserver {
+ public:
+  ProgressObserver() = default;
+  ProgressObserver(const ProgressObserver&) = delete;
+  ProgressObserver& operator=(const ProgressObserver&) = delete;
+  virtual ~ProgressObserver() = default;
+
+  // A stage begins ("read", "tree", "cells", ...).
+  virtual void stage(std::string_view /*name*/) {}
+  // The current stage is done to this share, 0 to 1, not decreasing within a stage.
+  virtual void advance(double /*share*/) {}
+  // Asked every few milliseconds; true makes the computation throw Cancelled. An observer may throw
+  // an exception of its own instead (LimitError, say).
+  virtual bool cancelled() { return false; }
+};
+
+// Passes on the wish to stop alone, for work that is a small part of a stage.
+class CancelOnly : public ProgressObserver {
+ public:
+  // `observer` may be null.
+  explicit CancelOnly(ProgressObserver* observer) : observer_(observer) {}
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  ProgressObserver* observer_;
+};
+
+// For loops whose turns are too short to ask in each: asks in one of a thousand.
+class CancelCheck {
+ public:
+  // `progress` may be null.
+  explicit CancelCheck(ProgressObserver* progress) : progress_(progress) {}
+
+  // Throws Cancelled when the observer says so.
+  void tick() {
+    if (++ticks_ % kTicksPerQuestion != 0 || progress_ == nullptr) return;
+    if (progress_->cancelled()) throw Cancelled();
+  }
+
+ private:
+  static constexpr std::size_t kTicksPerQuestion = 1024;
+
+  ProgressObserver* progress_;
+  std::size_t ticks_ = 0;
+};
+
+}  // namespace meshrepair

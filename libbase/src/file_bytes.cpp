@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <new>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+#include <base/error.h>
+#include <base/file_bytes.h>
+
+#include "wait_for_descriptor.h"
+
+namespace meshrepair {
+namespace {
+
+// Some milliseconds of work, so that there is time to ask in between.
+constexpr std::size_t kBytesAtOnce = std::size_t{4} << 20;
+
+class Descriptor {
+ public:
+  Descriptor(int number, bool owned) : number_(number), owned_(owned) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (owned_) ::close(number_);
+  }
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+  bool owned_;
+};
+
+[[noreturn]] void fail(const std::string& name, const std::string& what, int error) {
+  throw InputError(name + ": " + what + ": " + std::generic_category().message(error));
+}
+
+// A pipe that nobody writes into yet would be waited for in open(), where nobody can be asked. What
+// is waited for later has to be waited for as ever.
+int open_to_read(const std::filesystem::path& path, bool at_once) {
+  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (at_once ? O_NONBLOCK : 0));
+  if (number >= 0 && at_once) ::fcntl(number, F_SETFL, ::fcntl(number, F_GETFL) & ~O_NONBLOCK);
+  return number;
+}
+
+}  // namespace
+
+FileBytes::FileBytes(const std::filesystem::path& path, ProgressObserver* progress) {
+  const bool is_stdin = path == "-";
+  const std::string name = is_stdin ? "standard input" : path.string();
+  const int number = is_stdin ? STDIN_FILENO : open_to_read(path, progress != nullptr);
+  if (number < 0) fail(name, "cannot be opened", errno);
+  const Descriptor file(number, !is_stdin);
+
+  struct stat status {};
+  if (::fstat(number, &status) != 0) fail(name, "cannot be read", errno);
+  if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a folder, not a file");
+  // One byte more than there should be, to see the end without another step.
+  if (S_ISREG(status.st_mode)) reserve(static_cast<std::size_t>(status.st_size) + 1);
+  read_to_end(number, name, progress);
+}
+
+void FileBytes::reserve(std::size_t capacity) {
+  char* const moved = static_cast<char*>(std::realloc(buffer_.get(), capacity));
+  if (moved == nullptr) throw std::bad_alloc();
+  static_cast<void>(buffer_.release());
+  buffer_.reset(moved);
+  capacity_ = capacity;
+}
+
+void FileBytes::read_to_end(int descriptor, const std::string& name, ProgressObserver* progress) {
+  for (;;) {
+    if (size_ == capacity_) reserve(2 * capacity_ + kBytesAtOnce);
+    if (progress != nullptr) wait_for_descriptor(descriptor, POLLIN, *progress);
+    const std::size_t room = std::min(capacity_ - size_, kBytesAtOnce);
+    const ssize_t count = ::read(descriptor, buffer_.get() + size_, room);
+    // With nobody to ask, an interrupted read is an error like any other: a program that handles
+    // signals is to stop then, and a read begun anew would wait on.
+    if (count < 0 && errno == EINTR && progress != nullptr) continue;
+    if (count < 0) fail(name, "cannot be read", errno);
+    if (count == 0) return;
+    size_ += static_cast<std::size_t>(count);
+  }
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,19 @@
+// How sheets of a surface touch along edges.
+#pragma once
+
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+// What the sheets are at the places where several edges lie: each joins the walls of what is solid
+// beside the edge, or of what is empty there (cut_nonmanifold.h). Both if nothing touches.
+struct EdgeContacts {
+  bool separate = true;
+  bool joined = true;
+};
+
+// Of a closed, oriented 2-manifold; edges of several indices may lie in one place. Where triangles
+// meet in more than corners and edges, it says nothing. Exact. n log n.
+[[nodiscard]] EdgeContacts examine_edge_contacts(const TriangleSoup& mesh);
+
+}  // namespace meshrepair

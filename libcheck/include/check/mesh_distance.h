@@ -1,0 +1,57 @@
+// How far are two meshes apart, as surfaces?
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <base/progress.h>
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+struct DistanceOptions {
+  std::size_t samples = 200000;  // each way, evenly by area
+  std::uint64_t seed = 1;        // the same seed gives the same samples
+  bool bound = false;            // also fill OneSidedDistance::bound
+  double bound_factor = 1.1;     // the bound aims at this times the largest distance found; above 1
+  std::size_t most_pieces = 4'000'000;   // that are looked at for the bound, each way
+  ProgressObserver* progress = nullptr;  // not owned; stages "sample" and "bound", each way
+};
+
+// From each point of one mesh to the nearest point of the other.
+struct OneSidedDistance {
+  std::size_t samples = 0;  // 0 where the mesh has no area
+  double mean = 0;
+  double rms = 0;
+  double largest = 0;        // over the samples and all corners: the Hausdorff distance from below
+  Vec3d at = Vec3d::Zero();  // where that is
+  // Not exceeded anywhere, rounding included.
+  std::optional<double> bound;
+};
+
+struct MeshDistance {
+  OneSidedDistance forth;  // from the first to the second
+  OneSidedDistance back;
+  double diagonal = 0;         // of the first mesh's bounding box
+  std::size_t not_finite = 0;  // triangles of both that were left out
+
+  // The two-sided Hausdorff distance, from below and from above.
+  [[nodiscard]] double largest() const;
+  [[nodiscard]] std::optional<double> bound() const;
+};
+
+// In the unit of the coordinates, whose magnitudes are to be below 1e150. The same for any number
+// of threads. Throws InputError where a mesh has no triangle that is finite, UsageError where the
+// options make no sense, Cancelled.
+[[nodiscard]] MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second,
+                                         const DistanceOptions& options = {});
+
+// The one way alone: from the points of one mesh to the other. As above; `bound` too.
+[[nodiscard]] OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup& to,
+                                                  const DistanceOptions& options = {});
+
+// Of the box around the triangles that are finite. Throws InputError where there is none.
+[[nodiscard]] double bounding_diagonal(const TriangleSoup& soup);
+
+}  // namespace meshrepair

@@ -1,0 +1,45 @@
+// Which triangles of a mesh intersect while some of its points move by little.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <base/progress.h>
+#include <check/box_tree.h>
+#include <mesh/soup.h>
+
+namespace meshrepair::internal {
+
+// Knows which triangles may meet those that move, as long as no point is farther than `reach` from
+// where it was at first. Asking again costs what is near, not the mesh.
+class NearbyIntersections {
+ public:
+  using Pair = std::array<std::uint32_t, 2>;
+
+  // `moving` are triangles. The mesh must outlive it; its points may move, and nothing else.
+  NearbyIntersections(const TriangleSoup& mesh, std::span<const std::uint32_t> moving,
+                      double reach);
+
+  // As self_intersections() of `among`, which are moving, with the points as they are now.
+  [[nodiscard]] std::vector<Pair> find(std::span<const std::uint32_t> among,
+                                       ProgressObserver* progress);
+
+ private:
+  [[nodiscard]] Box box_around(std::uint32_t triangle, double reach) const;
+  void find_around(std::span<const std::uint32_t> moving, double reach);
+  void add(std::uint32_t triangle);
+
+  const TriangleSoup& mesh_;
+  std::vector<std::uint32_t> around_;  // triangles near those that move, and these themselves
+  std::vector<Box> boxes_;             // of each of them, wherever it goes
+  BoxTree tree_;
+  std::vector<std::uint32_t> part_index_;  // of each point of the mesh in part_, or kNone
+  std::vector<char> is_in_part_;           // of each triangle of the mesh
+  TriangleSoup part_;                      // what is near the triangles asked for; scratch
+  std::vector<std::uint32_t> part_triangles_, part_points_;  // which of the mesh they are
+};
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,43 @@
+// Winding numbers at single places, where no cells tell them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <check/box_tree.h>
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+class SoupRays {
+ public:
+  // `winding` says for each triangle how often it counts, turned as its corners are; at every edge
+  // what is turned the one way balances what is turned the other way. Both must outlive the object.
+  // n log n; a ray costs about the square root of n.
+  SoupRays(const TriangleSoup& soup, std::span<const std::int32_t> winding);
+
+  // At a point that lies on no triangle, exactly.
+  [[nodiscard]] std::int32_t winding_at(const Vec3d& point) const;
+
+  // Right above the triangle, on the side of it to which z grows, at a place inside it near its
+  // first corner, exactly. Nothing if it is parallel to z. No other triangle passes through it.
+  [[nodiscard]] std::optional<std::int32_t> winding_above(std::uint32_t triangle) const;
+
+  // 1 where the triangle, turned as its corners are, faces up, to where z grows, -1 where it faces
+  // down, 0 where it is parallel to z.
+  [[nodiscard]] int facing(std::uint32_t triangle) const;
+
+  // Whether certainly nothing lies between the two points, or nothing but that triangle.
+  static constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
+  [[nodiscard]] bool sees(const Vec3d& from, const Vec3d& to,
+                          std::uint32_t but = kNoTriangle) const;
+
+ private:
+  const TriangleSoup& soup_;
+  std::span<const std::int32_t> winding_;
+  BoxTree tree_;
+};
+
+}  // namespace meshrepair

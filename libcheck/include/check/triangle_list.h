@@ -1,0 +1,60 @@
+// The triangles of a soup that have an area, with what comparing them needs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <check/box_tree.h>
+#include <check/triangle_pair.h>
+#include <mesh/soup.h>
+
+namespace meshrepair::internal {
+
+[[nodiscard]] Box box_of(const TriangleSoup& soup, std::uint32_t triangle);
+
+enum class Fetched { usable, degenerate, not_finite };
+
+// Which corners of a soup count as one: those of one index or, welded, those of equal coordinates.
+class SoupCorners {
+ public:
+  SoupCorners(const TriangleSoup& soup, bool weld);
+
+  [[nodiscard]] const TriangleSoup& soup() const { return soup_; }
+  [[nodiscard]] std::uint32_t corner(std::uint32_t point) const {
+    return welded_.empty() ? point : welded_[point];
+  }
+  // Only if it is usable, `fetched` is one.
+  [[nodiscard]] Fetched fetch(std::uint32_t triangle, CornerTriangle& fetched) const;
+
+ private:
+  const TriangleSoup& soup_;
+  std::vector<std::uint32_t> welded_;  // empty: by index
+};
+
+class TriangleList {
+ public:
+  explicit TriangleList(const SoupCorners& corners);
+  TriangleList(const SoupCorners& corners, std::span<const std::uint32_t> among);
+
+  [[nodiscard]] std::size_t size() const { return ids_.size(); }
+  [[nodiscard]] std::span<const CornerTriangle> triangles() const { return triangles_; }
+  [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
+  // Their numbers in the soup.
+  [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
+  [[nodiscard]] std::size_t degenerate() const { return degenerate_; }
+  [[nodiscard]] std::size_t not_finite() const { return not_finite_; }
+
+ private:
+  void reserve(std::size_t count);
+  void add(const SoupCorners& corners, std::uint32_t id);
+
+  std::vector<CornerTriangle> triangles_;
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> ids_;
+  std::size_t degenerate_ = 0;
+  std::size_t not_finite_ = 0;
+};
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,285 @@
+// Points are spread over the first mesh in proportion to area, one in each of as many equal shares
+// of it, and the nearest point of the second is looked up in a tree of its triangles. What is
+// random about a point depends on its number alone, and sums are taken in a fixed order, so that
+// threads do not matter. What lies on a triangle that both meshes have is not looked up: it is at
+// no distance, and around the tip of a cone all boxes are near, so that a look-up takes long.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <tbb/parallel_for.h>
+
+#include <base/error.h>
+#include <base/hash_index.h>
+#include <base/ids.h>
+#include <base/shared_progress.h>
+#include <check/mesh_distance.h>
+
+#include "distance_bound.h"
+#include "nearest_triangle.h"
+
+namespace meshrepair {
+namespace {
+
+using internal::Corners;
+using internal::Nearest;
+using internal::NearestTriangle;
+
+constexpr std::size_t kPointsPerTask = 2048;
+
+// A number in [0, 1) for each seed and position: the mixing function splitmix64 of both.
+double random_share(std::uint64_t seed, std::uint64_t position) {
+  std::uint64_t x = seed * 0xD1342543DE82EF95u + position * 0x9E3779B97F4A7C15u;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  x ^= x >> 31;
+  return static_cast<double>(x >> 11) * 0x1p-53;
+}
+
+struct FiniteMesh {
+  std::vector<Corners> triangles;
+  std::vector<std::array<std::uint32_t, 3>> corner_of;  // of each triangle, in `corners`
+  std::vector<Vec3d> corners;                           // each point of a triangle once
+  std::vector<double> area_up_to;                       // of the triangles before and this one
+  Box box;
+  std::size_t not_finite = 0;
+
+  [[nodiscard]] double magnitude() const {
+    double most = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      most = std::max({most, std::abs(box.low[k]), std::abs(box.high[k])});
+    }
+    return most;
+  }
+  [[nodiscard]] double diagonal() const {
+    const Vec3d low(box.low[0], box.low[1], box.low[2]);
+    const Vec3d high(box.high[0], box.high[1], box.high[2]);
+    return (high - low).norm();
+  }
+};
+
+FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
+  FiniteMesh mesh;
+  mesh.triangles.reserve(soup.triangles.size());
+  std::vector<std::uint32_t> place(soup.points.size(), kNone);
+  double area = 0;
+  for (const auto& t : soup.triangles) {
+    const Corners corners = {soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]};
+    if (!corners[0].allFinite() || !corners[1].allFinite() || !corners[2].allFinite()) {
+      ++mesh.not_finite;
+      continue;
+    }
+    for (const Vec3d& p : corners) mesh.box.add(p);
+    for (const std::uint32_t p : t) {
+      if (place[p] != kNone) continue;
+      place[p] = static_cast<std::uint32_t>(mesh.corners.size());
+      mesh.corners.push_back(soup.points[p]);
+    }
+    mesh.corner_of.push_back({place[t[0]], place[t[1]], place[t[2]]});
+    area += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    mesh.triangles.push_back(corners);
+    mesh.area_up_to.push_back(area);
+  }
+  if (mesh.triangles.empty()) throw InputError(name + ": no triangle has finite coordinates");
+  return mesh;
+}
+
+// Which triangles of a mesh are in another one, too, with the same corners in any order?
+std::vector<char> common_triangles(const FiniteMesh& mesh, const FiniteMesh& other) {
+  const auto key = [](Corners corners) {
+    std::sort(corners.begin(), corners.end(), [](const Vec3d& p, const Vec3d& q) {
+      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    });
+    return corners;
+  };
+  const auto hash = [](const Corners& corners) {
+    std::uint64_t sum = 0;
+    for (const Vec3d& p : corners) {
+      // -0 is 0.
+      for (const double x : p) sum = internal::hash_mix(sum, std::bit_cast<std::uint64_t>(x + 0.0));
+    }
+    return sum;
+  };
+  internal::HashIndex index(other.triangles.size());
+  const auto is_at = [&](const Corners& corners) {
+    return [&](std::uint32_t candidate) { return key(other.triangles[candidate]) == corners; };
+  };
+  for (std::uint32_t t = 0; t < other.triangles.size(); ++t) {
+    const Corners corners = key(other.triangles[t]);
+    index.find_or_insert(hash(corners), t, is_at(corners));
+  }
+  std::vector<char> common;
+  common.reserve(mesh.triangles.size());
+  for (const Corners& t : mesh.triangles) {
+    const Corners corners = key(t);
+    const std::uint32_t found = index.find(hash(corners), is_at(corners));
+    common.push_back(found != internal::HashIndex::kNone ? 1 : 0);
+  }
+  return common;
+}
+
+struct Sample {
+  std::size_t triangle;
+  Vec3d point;
+};
+
+// Sample `i` of `samples`.
+Sample sample_point(const FiniteMesh& mesh, std::size_t i, const DistanceOptions& options) {
+  const auto random = [&](std::uint64_t k) { return random_share(options.seed, 3 * i + k); };
+  const double share = (static_cast<double>(i) + random(0)) / static_cast<double>(options.samples);
+  const auto found = std::upper_bound(mesh.area_up_to.begin(), mesh.area_up_to.end(),
+                                      share * mesh.area_up_to.back());
+  const auto last = static_cast<std::ptrdiff_t>(mesh.triangles.size()) - 1;
+  const auto triangle = static_cast<std::size_t>(std::min(found - mesh.area_up_to.begin(), last));
+  const Corners& t = mesh.triangles[triangle];
+  const double root = std::sqrt(random(1));
+  const double to_c = root * random(2);
+  return {triangle, (1 - root) * t[0] + (root - to_c) * t[1] + to_c * t[2]};
+}
+
+struct Sums {
+  double sum = 0;
+  double squares = 0;
+  double largest = -1;  // squared
+  Vec3d at = Vec3d::Zero();
+
+  void note_largest(double squared_distance, const Vec3d& point) {
+    if (squared_distance <= largest) return;
+    largest = squared_distance;
+    at = point;
+  }
+  void add(const Sums& other) {
+    sum += other.sum;
+    squares += other.squares;
+    note_largest(other.largest, other.at);
+  }
+};
+
+class OneWay {
+ public:
+  // `common`: the triangles that `to` has, too.
+  OneWay(const FiniteMesh& from, const NearestTriangle& to, const std::vector<char>& common,
+         const DistanceOptions& options)
+      : from_(from),
+        to_(to),
+        options_(options),
+        common_(common),
+        common_corners_(from.corners.size(), 0) {
+    for (std::size_t t = 0; t < common.size(); ++t) {
+      if (common[t] == 0) continue;
+      for (const std::uint32_t p : from.corner_of[t]) common_corners_[p] = 1;
+    }
+  }
+
+  OneSidedDistance run() const {
+    if (options_.progress != nullptr) options_.progress->stage("sample");
+    OneSidedDistance distance;
+    distance.samples = from_.area_up_to.back() > 0 ? options_.samples : 0;
+    const std::size_t points = distance.samples + from_.corners.size();
+    const std::size_t tasks = (points + kPointsPerTask - 1) / kPointsPerTask;
+    std::vector<Sums> sums(tasks);
+    SharedProgress progress(options_.progress, tasks);
+    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+      const std::size_t end = std::min(points, (task + 1) * kPointsPerTask);
+      sums[task] = measure(task * kPointsPerTask, end, distance.samples);
+      progress.done();
+    });
+    Sums all;
+    for (const Sums& part : sums) all.add(part);
+    if (distance.samples > 0) {
+      distance.mean = all.sum / static_cast<double>(distance.samples);
+      distance.rms = std::sqrt(all.squares / static_cast<double>(distance.samples));
+    }
+    distance.largest = std::sqrt(all.largest);
+    distance.at = all.at;
+    return distance;
+  }
+
+ private:
+  // The first points are the samples, the others all corners.
+  [[nodiscard]] Sums measure(std::size_t begin, std::size_t end, std::size_t samples) const {
+    Sums sums;
+    std::uint32_t hint = 0;
+    for (std::size_t i = begin; i < end && i < samples; ++i) {
+      const Sample sample = sample_point(from_, i, options_);
+      const double squared = squared_distance(sample.point, common_[sample.triangle] != 0, hint);
+      sums.note_largest(squared, sample.point);
+      sums.sum += std::sqrt(squared);
+      sums.squares += squared;
+    }
+    for (std::size_t i = std::max(begin, samples); i < end; ++i) {
+      const Vec3d& corner = from_.corners[i - samples];
+      const bool is_common = common_corners_[i - samples] != 0;
+      sums.note_largest(squared_distance(corner, is_common, hint), corner);
+    }
+    return sums;
+  }
+
+  [[nodiscard]] double squared_distance(const Vec3d& point, bool is_common,
+                                        std::uint32_t& hint) const {
+    if (is_common) return 0;
+    const Nearest nearest = to_.find(point, hint);
+    hint = nearest.triangle;
+    return nearest.squared_distance;
+  }
+
+  const FiniteMesh& from_;
+  const NearestTriangle& to_;
+  const DistanceOptions& options_;
+  const std::vector<char>& common_;
+  std::vector<char> common_corners_;
+};
+
+void require_sense(const DistanceOptions& options) {
+  if (options.samples == 0) throw UsageError("no samples were asked for");
+  if (!(options.bound_factor > 1)) throw UsageError("the bound's factor has to be above 1");
+}
+
+OneSidedDistance distance_between(const FiniteMesh& from, const FiniteMesh& to,
+                                  const DistanceOptions& options) {
+  const NearestTriangle nearest(to.triangles);
+  const std::vector<char> common = common_triangles(from, to);
+  OneSidedDistance distance = OneWay(from, nearest, common, options).run();
+  if (!options.bound) return distance;
+  if (options.progress != nullptr) options.progress->stage("bound");
+  const internal::BoundOptions bound = {options.bound_factor, options.most_pieces, distance.largest,
+                                        std::max(from.magnitude(), to.magnitude()),
+                                        options.progress};
+  distance.bound = internal::distance_bound(from.triangles, nearest, bound);
+  return distance;
+}
+
+}  // namespace
+
+double MeshDistance::largest() const { return std::max(forth.largest, back.largest); }
+
+std::optional<double> MeshDistance::bound() const {
+  if (!forth.bound || !back.bound) return std::nullopt;
+  return std::max(*forth.bound, *back.bound);
+}
+
+MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second,
+                           const DistanceOptions& options) {
+  require_sense(options);
+  const FiniteMesh a = finite_mesh(first, "A");
+  const FiniteMesh b = finite_mesh(second, "B");
+  MeshDistance distance;
+  distance.forth = distance_between(a, b, options);
+  distance.back = distance_between(b, a, options);
+  distance.diagonal = a.diagonal();
+  distance.not_finite = a.not_finite + b.not_finite;
+  return distance;
+}
+
+OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup& to,
+                                    const DistanceOptions& options) {
+  require_sense(options);
+  return distance_between(finite_mesh(from, "A"), finite_mesh(to, "B"), options);
+}
+
+double bounding_diagonal(const TriangleSoup& soup) { return finite_mesh(soup, "A").diagonal(); }
+
+}  // namespace meshrepair

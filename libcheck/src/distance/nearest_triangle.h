@@ -1,0 +1,41 @@
+// The triangle of a mesh that is nearest to a point.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <check/box_tree.h>
+#include <mesh/soup.h>
+
+namespace meshrepair::internal {
+
+using Corners = std::array<Vec3d, 3>;
+
+// The square of the distance to a point of the triangle that is the nearest but for rounding. The
+// point is on the triangle whatever was rounded, so the true distance is not larger by more than
+// the rounding of one sum of coordinates.
+[[nodiscard]] double squared_distance(const Vec3d& p, const Corners& triangle);
+
+struct Nearest {
+  double squared_distance = 0;
+  std::uint32_t triangle = 0;  // a position in NearestTriangle::triangles()
+};
+
+class NearestTriangle {
+ public:
+  // All triangles are finite; there is at least one.
+  explicit NearestTriangle(const std::vector<Corners>& triangles);
+
+  // `hint` is any triangle, best one that is near: it makes the search faster.
+  [[nodiscard]] Nearest find(const Vec3d& p, std::uint32_t hint) const;
+
+  // In the order of the tree.
+  [[nodiscard]] const std::vector<Corners>& triangles() const { return triangles_; }
+
+ private:
+  BoxTree tree_;
+  std::vector<Corners> triangles_;
+};
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <base/ids.h>
+#include <check/nearby_intersections.h>
+#include <check/self_intersections.h>
+
+namespace meshrepair::internal {
+namespace {
+
+// More say no more about where the faults are.
+constexpr std::size_t kMostPairs = 200'000;
+
+}  // namespace
+
+NearbyIntersections::NearbyIntersections(const TriangleSoup& mesh,
+                                         std::span<const std::uint32_t> moving, double reach)
+    : mesh_(mesh),
+      tree_({}),
+      part_index_(mesh.points.size(), kNone),
+      is_in_part_(mesh.triangles.size(), 0) {
+  find_around(moving, reach);
+  boxes_.reserve(around_.size());
+  for (const std::uint32_t t : around_) boxes_.push_back(box_around(t, reach));
+  tree_ = BoxTree(boxes_);
+}
+
+Box NearbyIntersections::box_around(std::uint32_t triangle, double reach) const {
+  Box box;
+  for (const std::uint32_t p : mesh_.triangles[triangle]) box.add(mesh_.points[p]);
+  box.widen(reach);
+  return box;
+}
+
+void NearbyIntersections::find_around(std::span<const std::uint32_t> moving, double reach) {
+  std::vector<Box> boxes;
+  boxes.reserve(moving.size());
+  for (const std::uint32_t t : moving) boxes.push_back(box_around(t, reach));
+  const BoxTree tree(boxes);
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const Box box = box_around(t, reach);
+    bool is_near = false;
+    tree.visit([&](const Box& other) { return !is_near && other.meets(box); },
+               [&](std::uint32_t i) { is_near = is_near || boxes[i].meets(box); });
+    if (is_near) around_.push_back(t);
+  }
+}
+
+void NearbyIntersections::add(std::uint32_t triangle) {
+  if (is_in_part_[triangle] != 0) return;
+  is_in_part_[triangle] = 1;
+  part_triangles_.push_back(triangle);
+  std::array<std::uint32_t, 3> corners = mesh_.triangles[triangle];
+  for (std::uint32_t& p : corners) {
+    if (part_index_[p] == kNone) {
+      part_index_[p] = static_cast<std::uint32_t>(part_.points.size());
+      part_.points.push_back(mesh_.points[p]);
+      part_points_.push_back(p);
+    }
+    p = part_index_[p];
+  }
+  part_.triangles.push_back(corners);
+}
+
+std::vector<NearbyIntersections::Pair> NearbyIntersections::find(
+    std::span<const std::uint32_t> among, ProgressObserver* progress) {
+  if (among.empty()) return {};
+  part_.points.clear();
+  part_.triangles.clear();
+  part_triangles_.clear();
+  part_points_.clear();
+  for (const std::uint32_t t : among) add(t);
+  std::vector<std::uint32_t> asked(part_triangles_.size());
+  std::iota(asked.begin(), asked.end(), 0u);
+  for (const std::uint32_t t : among) {
+    const Box box = box_around(t, 0);
+    tree_.visit([&](const Box& other) { return other.meets(box); },
+                [&](std::uint32_t i) {
+                  if (boxes_[i].meets(box)) add(around_[i]);
+                });
+  }
+  SelfIntersectionOptions options;
+  options.most_pairs = kMostPairs;
+  options.progress = progress;
+  std::vector<Pair> pairs = self_intersections(part_, asked, options).pairs;
+  for (Pair& pair : pairs) {
+    for (std::uint32_t& t : pair) t = part_triangles_[t];
+    if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
+  }
+  for (const std::uint32_t p : part_points_) part_index_[p] = kNone;
+  for (const std::uint32_t t : part_triangles_) is_in_part_[t] = 0;
+  return pairs;
+}
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include <check/soup_rays.h>
+#include <check/triangle_list.h>
+#include <exact/double_predicates.h>
+
+#include "column_ray.h"
+
+namespace meshrepair {
+namespace {
+
+using internal::RayStart;
+
+std::vector<Box> boxes_of(const TriangleSoup& soup) {
+  std::vector<Box> boxes;
+  boxes.reserve(soup.triangles.size());
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    boxes.push_back(internal::box_of(soup, t));
+  }
+  return boxes;
+}
+
+// A segment against boxes: says no only if they do not meet.
+class SegmentReach {
+ public:
+  SegmentReach(const Vec3d& from, const Vec3d& to) {
+    own_.add(from);
+    own_.add(to);
+    const Vec3d along = to - from;
+    // Three axes across the segment, and where it lies on them, with room for rounding.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d axis = along.cross(Vec3d::Unit(static_cast<Eigen::Index>(k)));
+      across_[k] = axis;
+      const double a = axis.dot(from), b = axis.dot(to);
+      const double size = axis.cwiseAbs().dot(from.cwiseAbs().cwiseMax(to.cwiseAbs()));
+      at_low_[k] = std::min(a, b) - kRounding * size;
+      at_high_[k] = std::max(a, b) + kRounding * size;
+    }
+  }
+
+  bool operator()(const Box& box) const {
+    if (!own_.meets(box)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      double low = 0, high = 0, size = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = across_[k][static_cast<Eigen::Index>(i)];
+        low += std::min(x * box.low[i], x * box.high[i]);
+        high += std::max(x * box.low[i], x * box.high[i]);
+        size += std::max(std::abs(x * box.low[i]), std::abs(x * box.high[i]));
+      }
+      if (high + kRounding * size < at_low_[k] || low - kRounding * size > at_high_[k]) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static constexpr double kRounding = 0x1p-40;
+
+  Box own_;
+  std::array<Vec3d, 3> across_;
+  std::array<double, 3> at_low_{}, at_high_{};
+};
+
+bool certainly_misses(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b,
+                      const Vec3d& c) {
+  const int side = orientation(a, b, c, from);
+  if (side != 0 && side == orientation(a, b, c, to)) return true;
+  const std::array<int, 3> turns = {orientation(from, to, a, b), orientation(from, to, b, c),
+                                    orientation(from, to, c, a)};
+  const auto any = [&](int sign) {
+    return std::find(turns.begin(), turns.end(), sign) != turns.end();
+  };
+  return any(1) && any(-1);
+}
+
+// Of the triangles that the ray passes, but for one.
+std::int32_t sum_above(const TriangleSoup& soup, std::span<const std::int32_t> winding,
+                       const BoxTree& tree, const RayStart& start, std::uint32_t but) {
+  std::int32_t sum = 0;
+  internal::visit_column(tree, start.corner, [&](std::uint32_t t) {
+    if (t == but) return;
+    const auto& c = soup.triangles[t];
+    sum += winding[t] *
+           internal::passed_upward(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]], start);
+  });
+  return sum;
+}
+
+}  // namespace
+
+SoupRays::SoupRays(const TriangleSoup& soup, std::span<const std::int32_t> winding)
+    : soup_(soup), winding_(winding), tree_(boxes_of(soup)) {}
+
+std::int32_t SoupRays::winding_at(const Vec3d& point) const {
+  return sum_above(soup_, winding_, tree_, RayStart::at(point), kNoTriangle);
+}
+
+std::optional<std::int32_t> SoupRays::winding_above(std::uint32_t triangle) const {
+  if (facing(triangle) == 0) return std::nullopt;
+  return sum_above(soup_, winding_, tree_, RayStart::in(soup_, soup_.triangles[triangle]),
+                   triangle);
+}
+
+int SoupRays::facing(std::uint32_t triangle) const {
+  const auto& c = soup_.triangles[triangle];
+  return orientation_along(2, soup_.points[c[0]], soup_.points[c[1]], soup_.points[c[2]]);
+}
+
+bool SoupRays::sees(const Vec3d& from, const Vec3d& to, std::uint32_t but) const {
+  const SegmentReach reach(from, to);
+  bool free = true;
+  tree_.visit([&](const Box& box) { return free && reach(box); },
+              [&](std::uint32_t t) {
+                const auto& c = soup_.triangles[t];
+                free =
+                    free && (t == but || certainly_misses(from, to, soup_.points[c[0]],
+                                                          soup_.points[c[1]], soup_.points[c[2]]));
+              });
+  return free;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,59 @@
+#include <algorithm>
+#include <bit>
+
+#include <exact/plane_table.h>
+
+namespace meshrepair {
+namespace {
+
+std::uint64_t mix(std::uint64_t h, std::uint64_t value) {
+  h = (h ^ value) * 0x9E3779B97F4A7C15u;
+  return h ^ (h >> 29);
+}
+
+std::uint64_t hash_of(const Plane& plane) {
+  std::uint64_t h = mix(0, static_cast<std::uint64_t>(plane.normal[0]));
+  h = mix(h, static_cast<std::uint64_t>(plane.normal[1]));
+  h = mix(h, static_cast<std::uint64_t>(plane.normal[2]));
+  h = mix(h, static_cast<std::uint64_t>(plane.offset));
+  h = mix(h, static_cast<std::uint64_t>(plane.offset >> 64));
+  return h ^ (h >> 32);
+}
+
+}  // namespace
+
+PlaneTable::Interned PlaneTable::intern(Plane plane) {
+  const bool turned = make_canonical(plane);
+  if (2 * (interned_ + 1) > slots_.size()) grow_index();
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash_of(plane) & mask;
+  while (slots_[slot].valid()) {
+    if (same_coefficients(planes_[slots_[slot]], plane)) return {slots_[slot], turned};
+    slot = (slot + 1) & mask;
+  }
+  slots_[slot] = planes_.push_back(plane);
+  ++interned_;
+  return {slots_[slot], turned};
+}
+
+void PlaneTable::reserve(std::size_t count) { planes_.reserve(count); }
+
+void PlaneTable::release_index() {
+  slots_ = {};
+  interned_ = 0;
+}
+
+void PlaneTable::grow_index() {
+  const std::size_t wanted = std::max<std::size_t>(64, 4 * (planes_.size() + 1));
+  slots_.assign(std::bit_ceil(wanted), PlaneId());
+  const std::size_t mask = slots_.size() - 1;
+  interned_ = 0;
+  for (PlaneId id(0u); id < planes_.end_id(); ++id.value) {
+    std::size_t slot = hash_of(planes_[id]) & mask;
+    while (slots_[slot].valid()) slot = (slot + 1) & mask;
+    slots_[slot] = id;
+    ++interned_;
+  }
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,168 @@
+#include "cut_simplifier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+#include <exact/double_predicates.h>
+
+namespace meshrepair::internal {
+namespace {
+
+// Moves are made in the order of their distances, but among those below this share of the bound,
+// which make little difference, the shortest first: long ones leave long thin triangles.
+constexpr double kSmallShare = 1.0 / 64;
+
+// The work for a star grows with the cube of its size, so larger ones are not looked at again after
+// each move around them.
+constexpr std::uint32_t kLargeStar = 10;
+
+// Of the bound: how high triangles should be that are not flatter than those before.
+constexpr double kNeedle = 0x1p-10;
+
+// Of a triangle, above its longest side; in any unit.
+double height_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  Vec3d ab = b - a, ac = c - a;
+  const double unit = std::max(ab.cwiseAbs().maxCoeff(), ac.cwiseAbs().maxCoeff());
+  if (!(unit > 0)) return 0;
+  ab /= unit;
+  ac /= unit;
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  return unit * (ab.cross(ac).norm() / std::sqrt(longest));
+}
+
+}  // namespace
+
+bool CutSimplifier::Move::operator<(const Move& other) const {
+  return std::tie(cost, length, point) > std::tie(other.cost, other.length, other.point);
+}
+
+CutSimplifier::CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays,
+                             const std::vector<double>& within, ProgressObserver* progress)
+    : points_(mesh.points),
+      stays_(stays),
+      within_(within),
+      cancel_(progress),
+      mesh_(mesh.triangles, mesh.points.size()),
+      version_(mesh.points.size(), 0),
+      waits_(mesh.points.size(), 0),
+      distance_(mesh.triangles.size(), 0),
+      moved_onto_(mesh.points.size(), kNone),
+      last_moved_(mesh.triangles.size(), kNone) {}
+
+void CutSimplifier::run() {
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    if (stays_[p] == 0) consider(p);
+  }
+  while (!queue_.empty()) {
+    const Move move = queue_.top();
+    queue_.pop();
+    cancel_.tick();
+    if (has_moved(move.point)) continue;
+    if (move.target == kNone) {
+      waits_[move.point] = 0;
+      consider(move.point);
+    } else if (move.version == version_[move.point]) {
+      make(move);
+    }
+  }
+}
+
+std::vector<std::uint32_t> CutSimplifier::places() const {
+  std::vector<std::uint32_t> places(moved_onto_.size());
+  std::iota(places.begin(), places.end(), 0u);
+  for (auto point = moves_.rbegin(); point != moves_.rend(); ++point) {
+    places[*point] = places[moved_onto_[*point]];
+  }
+  return places;
+}
+
+void CutSimplifier::consider(std::uint32_t point) {
+  Move best;
+  best.point = point;
+  best.version = version_[point];
+  if (!mesh_.find_star(point, star_)) return;
+  const double within = within_[point];
+  double before = 0;
+  for (const std::uint32_t t : star_.triangles) before = std::max(before, distance_[t]);
+  link_.clear();
+  for (const std::uint32_t p : star_.link) link_.push_back(points_[p]);
+  star_distance_.set_star(points_[point], link_);
+  double least_height = -1;
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    Move move = best;
+    move.target = star_.link[i];
+    move.length = (link_[i] - points_[point]).stableNorm();
+    move.distance = before + std::min(star_distance_.bound(i, within - before), move.length);
+    if (!(move.distance <= within)) continue;
+    move.cost = std::max(move.distance, kSmallShare * within);
+    if (!(best < move)) continue;
+    if (least_height < 0) least_height = height_to_keep(within);
+    if (may_move(i, least_height)) best = move;
+  }
+  if (best.target != kNone) queue_.push(best);
+}
+
+void CutSimplifier::postpone(std::uint32_t point) {
+  if (waits_[point] != 0) return;
+  waits_[point] = 1;
+  Move later;
+  later.point = point;
+  queue_.push(later);
+}
+
+bool CutSimplifier::may_move(std::size_t to, double least_height) {
+  if (!mesh_.may_collapse(star_, to)) return false;
+  for (std::size_t i = star_.after(to); star_.after(i) != to; i = star_.after(i)) {
+    const Vec3d& a = link_[to];
+    const Vec3d& b = link_[i];
+    const Vec3d& c = link_[star_.after(i)];
+    if (height_of(a, b, c) < least_height || projection_axis(a, b, c) < 0) return false;
+  }
+  return true;
+}
+
+// A triangle that is flatter than the bound, and than all that were there, is a needle that
+// rounding may turn.
+double CutSimplifier::height_to_keep(double within) const {
+  double least = kNeedle * within;
+  for (std::size_t i = 0; i < link_.size() && least > 0; ++i) {
+    least = std::min(least, height_of(points_[star_.point], link_[i], link_[star_.after(i)]));
+  }
+  return least;
+}
+
+void CutSimplifier::make(const Move& move) {
+  if (!mesh_.find_star(move.point, star_)) return;
+  const auto to = static_cast<std::size_t>(
+      std::find(star_.link.begin(), star_.link.end(), move.target) - star_.link.begin());
+  if (to == star_.link.size()) return;
+  if (!mesh_.may_collapse(star_, to)) {
+    // What the points have in common may have changed beyond the star.
+    ++version_[move.point];
+    return consider(move.point);
+  }
+  mesh_.collapse(star_, to);
+  moved_onto_[move.point] = move.target;
+  moves_.push_back(move.point);
+  farthest_ = std::max(farthest_, move.distance);
+  for (const std::uint32_t t : star_.triangles) {
+    distance_[t] = move.distance;
+    last_moved_[t] = move.point;
+  }
+  around_ = star_.link;
+  for (const std::uint32_t p : around_) ++version_[p];
+  for (const std::uint32_t p : around_) {
+    if (stays_[p] != 0) continue;
+    if (mesh_.degree(p) > kLargeStar) {
+      postpone(p);
+    } else {
+      consider(p);
+    }
+  }
+}
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,81 @@
+// Moves points of a mesh onto neighbours, the nearest first, within a bound.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <vector>
+
+#include <base/progress.h>
+#include <check/star_distance.h>
+#include <mesh/collapsible_mesh.h>
+#include <mesh/soup.h>
+
+namespace meshrepair::internal {
+
+// One run over all points that may go: see simplify_cuts(). It looks at distances and at the
+// manifold alone, not at what meets.
+class CutSimplifier {
+ public:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  // `stays` has a flag for each point, `within` how far the surface around it may be moved; the
+  // three are not owned.
+  CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays,
+                const std::vector<double>& within, ProgressObserver* progress);
+
+  // Until nothing can be moved any more. Throws Cancelled.
+  void run();
+
+  [[nodiscard]] const CollapsibleMesh& mesh() const { return mesh_; }
+  [[nodiscard]] bool has_moved(std::uint32_t point) const { return moved_onto_[point] != kNone; }
+  // Where each point is now: where it was, if it has not moved.
+  [[nodiscard]] std::vector<std::uint32_t> places() const;
+  // The point whose move changed the triangle last, or kNone.
+  [[nodiscard]] std::uint32_t last_moved(std::uint32_t triangle) const {
+    return last_moved_[triangle];
+  }
+  // No point of the mesh is farther from the one at first.
+  [[nodiscard]] double distance() const { return farthest_; }
+
+ private:
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+  struct Move {
+    double distance = kInfinite;  // of the new triangles from the mesh at first
+    double cost = kInfinite, length = kInfinite;
+    std::uint32_t point = kNone, target = kNone;
+    std::uint32_t version = 0;  // of the point's star
+
+    // Of a queue whose top is the largest.
+    bool operator<(const Move& other) const;
+  };
+
+  // Puts the best move of the point into the queue, if it has one.
+  void consider(std::uint32_t point);
+  // Until all moves that are known have been made.
+  void postpone(std::uint32_t point);
+  [[nodiscard]] bool may_move(std::size_t to, double least_height);
+  [[nodiscard]] double height_to_keep(double within) const;
+  void make(const Move& move);
+
+  const std::vector<Vec3d>& points_;
+  const std::vector<char>& stays_;
+  const std::vector<double>& within_;
+  CancelCheck cancel_;
+  CollapsibleMesh mesh_;
+  std::vector<std::uint32_t> version_;
+  std::vector<char> waits_;                // of each point, whether it is postponed
+  std::vector<double> distance_;           // of each triangle from the mesh at first, at most
+  std::vector<std::uint32_t> moved_onto_;  // of each point, the neighbour, or kNone
+  std::vector<std::uint32_t> moves_;       // the points that moved, in their order
+  std::vector<std::uint32_t> last_moved_;  // of each triangle, the point that changed it last
+  double farthest_ = 0;
+  std::priority_queue<Move> queue_;
+  PointStar star_;
+  std::vector<Vec3d> link_;
+  std::vector<std::uint32_t> around_;
+  StarDistance star_distance_;
+};
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,94 @@
+// A triangulated region of a plane from which vertices can be taken away, exactly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <exact/plane_table.h>
+#include <exact/point.h>
+
+namespace meshrepair::internal {
+
+// Triangles are counter-clockwise in the region's own sense. Slot 3 t + k is the side of triangle t
+// from its corner k to corner k + 1. The region may have holes and touch itself at vertices: a
+// vertex that it touches itself at is there several times.
+class PlanarMesh {
+ public:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  // `loose`: the triangles are those of a loose complex, where two of them may have two edges in
+  // common, or one with itself.
+  PlanarMesh(const PlaneTable& planes, bool loose) : planes_(planes), loose_(loose) {}
+
+  // Starts anew. `orientation` is +1 when counter-clockwise is as seen from where the plane's
+  // normal points, -1 when from behind.
+  void reset(PlaneId plane, int orientation);
+  // The point must stay where it is while it is in use.
+  std::uint32_t add_vertex(const Point& point);
+  std::uint32_t add_triangle(const std::array<std::uint32_t, 3>& vertices);
+  // The two slots are the same edge, passed in opposite directions.
+  void join(std::uint32_t slot, std::uint32_t other);
+  // Marks a slot on the outline; kNone is no mark.
+  void mark(std::uint32_t slot, std::uint32_t mark) { mark_[slot] = mark; }
+
+  // Takes away a vertex that is inside the region, or inside a straight part of its outline, and
+  // fills the star around it again. The new side of the outline, if any, carries no mark. False
+  // where that cannot be, which leaves the mesh of no use; never so with exact points.
+  [[nodiscard]] bool remove_vertex(std::uint32_t vertex);
+
+  // Flips edges until the triangulation is constrained Delaunay as far as rounded angles tell.
+  // Every triangle stays proper.
+  void improve();
+
+  // Calls visit(vertices, marks), two arrays of three, for each triangle.
+  template <class Visit>
+  void for_each_triangle(Visit visit) const {
+    for (std::uint32_t t = 0; t < corners_.size() / 3; ++t) {
+      if (corners_[3 * t] == kNone) continue;
+      visit(std::array{corners_[3 * t], corners_[3 * t + 1], corners_[3 * t + 2]},
+            std::array{mark_[3 * t], mark_[3 * t + 1], mark_[3 * t + 2]});
+    }
+  }
+
+ private:
+  // What lies beyond a side: the slot of the neighbour, or the outline with its mark.
+  struct Beyond {
+    std::uint32_t slot = kNone;
+    std::uint32_t mark = kNone;
+  };
+  struct LinkVertex {
+    std::uint32_t vertex = kNone;
+    Beyond beyond;  // the side from this vertex to the next
+    std::uint32_t previous = 0, next = 0;
+  };
+
+  void gather_star(std::uint32_t vertex);
+  [[nodiscard]] bool star_is_disk() const;
+  [[nodiscard]] bool fill_star(std::uint32_t vertex);
+  [[nodiscard]] bool is_ear(std::uint32_t vertex, std::uint32_t at) const;
+  std::uint32_t place_triangle(const std::array<std::uint32_t, 3>& vertices,
+                               const std::array<Beyond, 3>& beyond);
+  [[nodiscard]] int turn_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  [[nodiscard]] bool wants_flip(std::uint32_t slot) const;
+  [[nodiscard]] bool can_flip(std::uint32_t slot) const;
+  void flip(std::uint32_t slot);
+  [[nodiscard]] Beyond beyond(std::uint32_t slot) const { return {across_[slot], mark_[slot]}; }
+
+  const PlaneTable& planes_;
+  bool loose_;
+  PlaneId plane_;
+  int orientation_ = 1;
+  std::vector<const Point*> points_;
+  std::vector<std::uint32_t> slot_at_;  // of each vertex a slot that starts there
+  std::vector<std::uint32_t> corners_;  // of each slot the vertex that it starts at
+  std::vector<std::uint32_t> across_;
+  std::vector<std::uint32_t> mark_;
+  // Scratch of one removal.
+  std::vector<LinkVertex> link_;
+  std::vector<std::uint32_t> free_;
+  std::vector<std::uint32_t> queue_;
+};
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,54 @@
+// A closed mesh that is changed in few places: edges collapsed and flipped.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <base/ids.h>
+
+namespace meshrepair::internal {
+
+using TriangleCorners = std::array<std::uint32_t, 3>;
+
+inline constexpr TriangleCorners kGone{kNone, kNone, kNone};
+
+// What some triangles become; kGone: they go.
+struct MeshEdit {
+  std::vector<std::uint32_t> triangles;
+  std::vector<TriangleCorners> now;
+};
+
+// Has the triangles of a closed manifold mesh, and stays one. Edits are found first, and may then
+// be applied as long as no other one was.
+class EditableMesh {
+ public:
+  EditableMesh(std::vector<TriangleCorners> triangles, std::size_t points);
+
+  [[nodiscard]] const std::vector<TriangleCorners>& triangles() const { return triangles_; }
+  [[nodiscard]] bool is_left(std::uint32_t triangle) const { return triangles_[triangle] != kGone; }
+  [[nodiscard]] const std::vector<std::uint32_t>& triangles_of(std::uint32_t point) const {
+    return around_[point];
+  }
+
+  // The point's neighbours in the order in which the triangles around it pass them. False for a
+  // point that has none any more, or very many.
+  [[nodiscard]] bool find_link(std::uint32_t point, std::vector<std::uint32_t>& link) const;
+
+  // Moves the point onto a neighbour. False where the mesh would not stay manifold, of the same
+  // genus.
+  [[nodiscard]] bool find_collapse(std::uint32_t point, std::uint32_t onto, MeshEdit& edit) const;
+
+  // Turns the edge from corner k of the triangle. The first of the new triangles has the new edge
+  // from its corner 0. False where that edge is there already.
+  [[nodiscard]] bool find_flip(std::uint32_t triangle, std::size_t k, MeshEdit& edit) const;
+
+  void apply(const MeshEdit& edit);
+
+ private:
+  std::vector<TriangleCorners> triangles_;
+  std::vector<std::vector<std::uint32_t>> around_;  // of each point, its triangles
+};
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,42 @@
+// The bytes of an input file together with the name that messages use, and the words of messages.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <mesh/soup_io.h>
+
+namespace meshrepair {
+
+struct MeshSource {
+  std::string_view bytes;
+  std::string name;
+  ReadOptions options = {};
+
+  // 1-based number of the line that holds the byte at `position`; LF, CRLF and CR end lines.
+  // Linear.
+  [[nodiscard]] std::size_t line_at(std::size_t position) const;
+
+  // Throw InputError "NAME: what" and "NAME:LINE: what".
+  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail_at(std::size_t position, const std::string& what) const;
+};
+
+// Where a text first holds a face or a point that is no such thing.
+struct FirstBad {
+  std::size_t face = 0;
+  std::size_t point = 0;
+};
+
+// Puts the report's bad faces, of which `why` says what is wrong, and points into its warnings.
+void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& first,
+                 std::string_view face, std::string_view why, std::string_view point = "point");
+
+// "1 face", "2 faces".
+[[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
+
+// A word of the file for a message: a broken file's words may be long, or no text at all.
+[[nodiscard]] std::string printable(std::string_view word);
+
+}  // namespace meshrepair

@@ -1,0 +1,109 @@
+// Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects.
+//
+// Reading: the format is told by content first, then by extension. Coordinates are kept in double.
+// STL corners with bit-identical coordinates (-0 is 0) are welded into one point; the points of
+// indexed formats are kept as they are. Polygons are triangulated. The bytes decide, never a
+// declared count: a file that holds less than it promises is read as far as it goes and the loss is
+// counted, and no memory is taken for what the file cannot hold. No path named inside a file is
+// opened.
+//
+// Writing: shortest decimal digits that read back as the same bits; every write is checked; the
+// target appears atomically (a temporary file beside it, fsync, rename) unless it is a device or a
+// pipe.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/progress.h>
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+enum class SoupFormat { stl_binary, stl_ascii, obj, off, ply_binary, ply_ascii };
+
+// "binary STL", "OBJ", ...: for messages.
+[[nodiscard]] std::string_view format_name(SoupFormat format);
+
+// What a reader passed over. A count of 0 everywhere means that the file was read in full.
+struct ReadReport {
+  SoupFormat format = SoupFormat::obj;
+  std::size_t bytes = 0;
+  std::size_t declared_triangles =
+      0;                      // faces or triangles that the header promised; 0 if it has none
+  std::size_t polygons = 0;   // faces with more than three corners, triangulated
+  std::size_t bad_faces = 0;  // faces dropped: index out of range, too few corners, not numbers
+  // Points with a coordinate that is no number, or missing: kept as NaN, so that the indices of the
+  // others hold. "nan", "inf", "-1.#IND" and the like are numbers: kept as they are, and not
+  // counted.
+  std::size_t bad_points = 0;
+  std::size_t missing_faces = 0;   // promised by the header, not in the file
+  std::size_t trailing_bytes = 0;  // after the last element of a binary file
+  // One sentence for each kind of oddity, for the user, without the file's name.
+  std::vector<std::string> warnings;
+};
+
+struct ReadResult {
+  TriangleSoup soup;
+  ReadReport report;
+};
+
+struct ReadOptions {
+  // More throw LimitError, as soon as it is known; polygons count as what they will become.
+  std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
+  // A file that holds no points and no faces, and promises none, is no error.
+  bool may_be_empty = false;
+  ProgressObserver* progress = nullptr;
+};
+
+// Reads a file; "-" is standard input. Throws InputError (one line that names the file and the
+// place) when it cannot be opened, is empty, or holds no format that is known, or no readable
+// triangle at all, unless that may be; LimitError.
+[[nodiscard]] ReadResult read_soup(const std::filesystem::path& path,
+                                   const ReadOptions& options = {});
+
+// The same from memory. `name` is used in messages and for its extension.
+[[nodiscard]] ReadResult read_soup(std::string_view bytes, const std::string& name,
+                                   const ReadOptions& options = {});
+
+struct WriteOptions {
+  // Empty: told by the extension (.stl is binary, .ply is binary little endian).
+  std::optional<SoupFormat> format;
+  // Comment lines for formats that have them; no newlines inside.
+  std::vector<std::string> comments;
+  // For PLY alone, not owned: one number for each triangle, written as the property
+  // `source_triangle` of its face, with all ones as -1. Empty: no such property.
+  std::span<const std::uint32_t> sources = {};
+  ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
+};
+
+// The format that an extension stands for, if any. Case does not matter.
+[[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
+
+[[nodiscard]] bool is_ply(SoupFormat format);
+
+// Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format
+// can be told, or there are sources and it is not PLY; OutputError when anything cannot be written
+// in full; the target is then as it was.
+void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
+                const WriteOptions& options = {});
+
+// The bytes of the file, with comments and sources as in WriteOptions. Coordinates are rounded to
+// float32 for binary STL alone.
+[[nodiscard]] std::string format_soup(const TriangleSoup& soup, SoupFormat format,
+                                      const std::vector<std::string>& comments = {},
+                                      std::span<const std::uint32_t> sources = {});
+
+// The soup that a reader gets back from a file in this format: STL has no indices, so corners with
+// equal coordinates become one point, and binary STL rounds coordinates to float32 before. For the
+// other formats it is the soup itself.
+[[nodiscard]] TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format);
+
+}  // namespace meshrepair

@@ -1,0 +1,56 @@
+// Faces as a reader of an indexed format meets them: any number of corners, not checked yet,
+// because the points may come later in the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <base/progress.h>
+#include <mesh/soup_io.h>
+
+namespace meshrepair {
+
+class FaceList {
+ public:
+  static constexpr std::int64_t kNoPoint = -1;
+
+  void begin_face();
+  // 0-based; anything that no point can have (kNoPoint, too large) makes the face a bad one.
+  void add_corner(std::int64_t index);
+  void end_face();
+  // Forgets the face that was begun last, ended or not. At most once for each face.
+  void drop_face();
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  // That the faces will become, if none is a bad one.
+  [[nodiscard]] std::size_t triangles() const { return triangles_; }
+
+  // Moves the faces into the soup, triangulated. Those with an index out of range or with fewer
+  // than three corners are left out, counted and mentioned in the report. `progress` is asked
+  // whether to go on.
+  void append_to(ReadResult& result, ProgressObserver* progress);
+
+ private:
+  static constexpr std::uint32_t kBadIndex = std::numeric_limits<std::uint32_t>::max();
+
+  std::vector<std::uint32_t> stream_;  // for each face: number of corners, then the corners
+  std::size_t last_ = 0;               // where the last face begins in the stream
+  std::size_t size_ = 0;               // faces ended
+  std::size_t triangles_ = 0;          // of them
+  bool open_ = false;                  // the last face is not ended
+};
+
+inline void FaceList::begin_face() {
+  last_ = stream_.size();
+  stream_.push_back(0);
+  open_ = true;
+}
+
+inline void FaceList::add_corner(std::int64_t index) {
+  const bool fits = index >= 0 && index < kBadIndex;
+  stream_.push_back(fits ? static_cast<std::uint32_t>(index) : kBadIndex);
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,95 @@
+#include "mesh_readers.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <base/error.h>
+#include <mesh/recognize_format.h>
+
+#include "formats/obj/obj_io.h"
+#include "formats/off/off_io.h"
+#include "formats/ply/ply_io.h"
+#include "formats/stl/stl_io.h"
+
+namespace meshrepair {
+namespace {
+
+void require_triangles(const MeshSource& source, const ReadResult& result) {
+  if (!result.soup.triangles.empty()) return;
+  const ReadReport& report = result.report;
+  const bool is_empty = result.soup.points.empty() && report.bad_faces == 0 &&
+                        report.missing_faces == 0 && report.warnings.empty();
+  if (is_empty && source.options.may_be_empty) return;
+  const bool is_stl =
+      report.format == SoupFormat::stl_binary || report.format == SoupFormat::stl_ascii;
+  std::string what = "holds no triangles";
+  if (report.bad_faces > 0) {
+    what = "holds no readable faces";
+  } else if (!is_stl && !result.soup.points.empty()) {
+    what = "holds " + counted(result.soup.points.size(), "point") + " but no faces";
+  }
+  if (!report.warnings.empty()) what += " (" + report.warnings.front() + ")";
+  source.fail(what);
+}
+
+void require_32_bit_ids(const MeshSource& source, const TriangleSoup& soup) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;
+  if (std::max(soup.points.size(), soup.triangles.size()) > kMost) {
+    throw LimitError(source.name + ": more than 4294967294 points or triangles");
+  }
+}
+
+}  // namespace
+
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return bytes.starts_with(kMark) ? bytes.substr(kMark.size()) : bytes;
+}
+
+// By content, then by extension.
+SoupFormat recognize_mesh(const MeshSource& source) {
+  if (const auto format = recognize_content(source.bytes)) return *format;
+  if (looks_like_tree(source.bytes)) {
+    source.fail("is a BSP tree, not a mesh: bspsolid and bspextract take it further");
+  }
+  const std::string_view foreign = name_foreign_format(source.bytes);
+  if (!foreign.empty()) source.fail("is " + std::string(foreign) + ", which cannot be read");
+  const auto format = format_of_extension(source.name);
+  if (!format)
+    source.fail(
+        "is in no known format: neither a mesh (STL, OBJ, OFF, PLY) nor points (XYZ, PTS, PWN, "
+        "PCD, PLY, OBJ)");
+  const bool is_text = looks_like_text(source.bytes);
+  if (*format == SoupFormat::stl_binary && is_text) return SoupFormat::stl_ascii;
+  if (*format == SoupFormat::ply_binary)
+    source.fail("does not begin with 'ply' as a PLY file does");
+  if (*format != SoupFormat::stl_binary && !is_text) {
+    source.fail("is not " + std::string(format_name(*format)) +
+                ": it holds bytes that are no text");
+  }
+  return *format;
+}
+
+ReadResult read_mesh_as(SoupFormat format, const MeshSource& source) {
+  switch (format) {
+    case SoupFormat::stl_binary:
+      return read_stl_binary(source);
+    case SoupFormat::stl_ascii:
+      return read_stl_ascii(source);
+    case SoupFormat::obj:
+      return read_obj(source);
+    case SoupFormat::off:
+      return read_off(source);
+    default:
+      return read_ply(source);
+  }
+}
+
+void require_mesh(const MeshSource& source, const ReadResult& result) {
+  require_triangles(source, result);
+  require_32_bit_ids(source, result.soup);
+}
+
+}  // namespace meshrepair

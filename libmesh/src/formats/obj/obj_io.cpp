@@ -1,0 +1,99 @@
+#include "obj_io.h"
+
+#include <array>
+#include <limits>
+
+#include <mesh/read_guard.h>
+
+#include "formats/face_list.h"
+#include "formats/text_scanner.h"
+#include "formats/text_writer.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr TextDialect kObjText = {.comment = '#', .continuation = true};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const MeshSource& source)
+      : source_(source), text_(source.bytes, kObjText), guard_(source) {}
+
+  ReadResult run() {
+    result_.report.format = SoupFormat::obj;
+    while (text_.next_anywhere()) {
+      line_at_ = text_.position();
+      guard_.step(faces_.triangles(), line_at_);
+      const std::string_view word = text_.peek_token();
+      text_.skip_token();
+      if (word == "v") {
+        read_point();
+      } else if (word == "f" || word == "fo") {  // fo: face outline of old versions
+        read_face();
+      }
+      text_.skip_line();
+    }
+    guard_.step(faces_.triangles(), source_.bytes.size());
+    warn_of_bad(result_.report, source_, first_bad_, "face", "corners that are not numbers");
+    faces_.append_to(result_, source_.options.progress);
+    return std::move(result_);
+  }
+
+ private:
+  void read_point() {
+    Vec3d point = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    bool good = true;
+    for (int i = 0; i < 3; ++i) good = text_.next_on_line() && text_.read_real(point[i]) && good;
+    if (!good && result_.report.bad_points++ == 0) first_bad_.point = line_at_;
+    result_.soup.points.push_back(point);
+  }
+
+  void read_face() {
+    faces_.begin_face();
+    while (text_.next_on_line()) {
+      std::int64_t number = 0;
+      if (!text_.read_integer(number, '/')) {
+        if (result_.report.bad_faces++ == 0) first_bad_.face = line_at_;
+        return faces_.drop_face();
+      }
+      faces_.add_corner(index_of(number));
+    }
+    faces_.end_face();
+  }
+
+  [[nodiscard]] std::int64_t index_of(std::int64_t number) const {
+    if (number > 0) return number - 1;
+    if (number == 0) return FaceList::kNoPoint;
+    return static_cast<std::int64_t>(result_.soup.points.size()) + number;
+  }
+
+  const MeshSource& source_;
+  TextScanner text_;
+  ReadResult result_;
+  FaceList faces_;
+  ReadGuard guard_;
+  std::size_t line_at_ = 0;
+  FirstBad first_bad_;
+};
+
+}  // namespace
+
+ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); }
+
+std::string format_obj(const TriangleSoup& soup, const std::vector<std::string>& comments) {
+  std::string out;
+  for (const std::string& comment : comments) out += "# " + comment + "\n";
+  for (const Vec3d& point : soup.points) {
+    out += "v ";
+    append_triple(out, point);
+    out += '\n';
+  }
+  for (const auto& [a, b, c] : soup.triangles) {
+    out += "f ";
+    append_triple(out, std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,22 @@
+// Wavefront OBJ: points and faces; everything else is ignored.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mesh/mesh_source.h>
+#include <mesh/soup_io.h>
+
+namespace meshrepair {
+
+// `v` gives a point: the first three numbers (w and colours are ignored); a point whose coordinates
+// are not numbers, or fewer than three, is kept as NaN and counted as bad, so that the numbers of
+// the others hold. `f` gives a face of any number of corners, `i`, `i/t`, `i/t/n` or `i//n`,
+// counted from 1, or from the last point if negative; points may come after the faces that use
+// them. Lines may be continued by a backslash. No file named inside (mtllib, call) is opened.
+[[nodiscard]] ReadResult read_obj(const MeshSource& source);
+
+[[nodiscard]] std::string format_obj(const TriangleSoup& soup,
+                                     const std::vector<std::string>& comments);
+
+}  // namespace meshrepair

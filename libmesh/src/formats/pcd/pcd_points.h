@@ -1,0 +1,14 @@
+// The points of a PCD file, in all three encodings.
+#pragma once
+
+#include <mesh/mesh_source.h>
+#include <mesh/point_io.h>
+
+namespace meshrepair {
+
+// The fields x, y, z, normal_x, normal_y, normal_z, and rgb or rgba, a colour packed into one
+// value. Needs begins_with_pcd(). Compressed points are read all or not at all.
+[[nodiscard]] PointReadResult read_pcd_points(const MeshSource& source,
+                                              const PointReadOptions& options);
+
+}  // namespace meshrepair

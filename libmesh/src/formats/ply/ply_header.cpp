@@ -1,0 +1,170 @@
+#include "ply_header.h"
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "formats/text_scanner.h"
+
+namespace meshrepair {
+namespace {
+
+std::optional<PlyType> parse_type(std::string_view word) {
+  static constexpr std::array<std::pair<std::string_view, PlyType>, 18> kTypes = {{
+      {"char", PlyType::int8},
+      {"int8", PlyType::int8},
+      {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},
+      {"short", PlyType::int16},
+      {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},
+      {"uint16", PlyType::uint16},
+      {"int", PlyType::int32},
+      {"int32", PlyType::int32},
+      {"uint", PlyType::uint32},
+      {"uint32", PlyType::uint32},
+      {"int64", PlyType::int64},
+      {"uint64", PlyType::uint64},
+      {"float", PlyType::float32},
+      {"float32", PlyType::float32},
+      {"double", PlyType::float64},
+      {"float64", PlyType::float64},
+  }};
+  for (const auto& [name, type] : kTypes) {
+    if (word == name) return type;
+  }
+  return std::nullopt;
+}
+
+class PlyHeaderReader {
+ public:
+  explicit PlyHeaderReader(const MeshSource& source) : source_(source), text_(source.bytes) {}
+
+  PlyHeader run() {
+    text_.skip_line();
+    bool has_format = false;
+    while (text_.next_anywhere()) {
+      line_at_ = text_.position();
+      const std::string_view word = text_.peek_token();
+      text_.skip_token();
+      if (word == "format") {
+        read_format();
+        has_format = true;
+      } else if (word == "element") {
+        read_element();
+      } else if (word == "property") {
+        read_property();
+      } else if (word == "end_header") {
+        if (!has_format) source_.fail("the PLY header does not say which format");
+        end_header();
+        return std::move(header_);
+      } else if (word != "comment" && word != "obj_info") {
+        fail("unknown word '" + printable(word) + "' in the PLY header");
+      }
+      text_.skip_line();
+    }
+    source_.fail("the PLY header has no end_header");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { source_.fail_at(line_at_, what); }
+
+  std::string_view take_word() {
+    if (!text_.next_on_line()) return {};
+    const std::string_view word = text_.peek_token();
+    text_.skip_token();
+    return word;
+  }
+
+  void read_format() {
+    const std::string_view word = take_word();
+    if (word == "ascii") {
+      header_.encoding = PlyEncoding::ascii;
+    } else if (word == "binary_little_endian") {
+      header_.encoding = PlyEncoding::little_endian;
+    } else if (word == "binary_big_endian") {
+      header_.encoding = PlyEncoding::big_endian;
+    } else {
+      fail("unknown PLY format '" + printable(word) + "'");
+    }
+  }
+
+  void read_element() {
+    PlyElement element;
+    element.name = take_word();
+    std::int64_t count = -1;
+    if (!text_.next_on_line() || !text_.read_integer(count) || count < 0) {
+      fail("the count of the PLY element '" + printable(element.name) + "' is not a number");
+    }
+    element.count = static_cast<std::size_t>(count);
+    header_.elements.push_back(std::move(element));
+  }
+
+  PlyType take_type() {
+    const std::string_view word = take_word();
+    const std::optional<PlyType> type = parse_type(word);
+    if (!type) fail("unknown PLY type '" + printable(word) + "'");
+    return *type;
+  }
+
+  void read_property() {
+    if (header_.elements.empty()) fail("a PLY property before the first element");
+    PlyProperty property;
+    property.is_list = text_.next_on_line() && text_.peek_token() == "list";
+    if (property.is_list) {
+      text_.skip_token();
+      property.count_type = take_type();
+    }
+    property.type = take_type();
+    property.name = take_word();
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  // The data may begin with a byte that looks like a part of the line end. So the line end is the
+  // same as that of the first line; for files in which that is not so, LF, as most have.
+  void end_header() {
+    const std::string_view line_end = source_.bytes.substr(source_.bytes.find_first_of("\r\n"));
+    if (line_end.starts_with('\r') && !line_end.starts_with("\r\n")) {
+      header_.data_at = source_.bytes.find('\r', text_.position());
+    } else {
+      header_.data_at = source_.bytes.find('\n', text_.position());
+    }
+    const bool found = header_.data_at != std::string_view::npos;
+    header_.data_at = found ? header_.data_at + 1 : source_.bytes.size();
+  }
+
+  const MeshSource& source_;
+  TextScanner text_;
+  PlyHeader header_;
+  std::size_t line_at_ = 0;
+};
+
+}  // namespace
+
+std::size_t size_of(PlyType type) {
+  switch (type) {
+    case PlyType::int8:
+    case PlyType::uint8:
+      return 1;
+    case PlyType::int16:
+    case PlyType::uint16:
+      return 2;
+    case PlyType::int32:
+    case PlyType::uint32:
+    case PlyType::float32:
+      return 4;
+    default:
+      return 8;
+  }
+}
+
+bool begins_with_ply(std::string_view bytes) {
+  TextScanner text(bytes);
+  if (!bytes.starts_with("ply")) return false;
+  text.skip_token();
+  return text.position() == 3 && !text.next_on_line() && text.remaining() > 0;
+}
+
+PlyHeader read_ply_header(const MeshSource& source) { return PlyHeaderReader(source).run(); }
+
+}  // namespace meshrepair

@@ -1,0 +1,296 @@
+#include "ply_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <base/assert.h>
+#include <mesh/read_guard.h>
+
+#include "formats/face_list.h"
+#include "formats/text_writer.h"
+#include "ply_cursor.h"
+#include "ply_header.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kNoProperty = std::numeric_limits<std::size_t>::max();
+
+std::size_t find_property(const PlyElement& element, std::string_view name, bool is_list) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    if (property.is_list == is_list && property.name == name) return i;
+  }
+  return kNoProperty;
+}
+
+// The property that holds the corners of a face or the points of a strip.
+std::size_t find_indices(const PlyElement& element) {
+  for (const std::string_view name : {"vertex_indices", "vertex_index"}) {
+    const std::size_t found = find_property(element, name, true);
+    if (found != kNoProperty) return found;
+  }
+  const auto is_list = [](const PlyProperty& property) { return property.is_list; };
+  const auto& all = element.properties;
+  if (std::count_if(all.begin(), all.end(), is_list) != 1) return kNoProperty;
+  return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), is_list) - all.begin());
+}
+
+std::int64_t to_index(double value) {
+  constexpr double kLargest = std::numeric_limits<std::uint32_t>::max();
+  if (!(value >= 0 && value <= kLargest) || value != std::floor(value)) return FaceList::kNoPoint;
+  return static_cast<std::int64_t>(value);
+}
+
+template <class Cursor>
+class PlyBody {
+ public:
+  PlyBody(const MeshSource& source, const PlyHeader& header, SoupFormat format)
+      : source_(source), header_(header), cursor_(source.bytes, header), guard_(source) {
+    result_.report.format = format;
+  }
+
+  ReadResult run() {
+    for (const PlyElement& element : header_.elements) {
+      if (element.properties.empty()) continue;
+      cursor_.begin_element(element);
+      if (element.name == "vertex") {
+        read_points(element);
+      } else if (element.name == "face") {
+        read_faces(element);
+      } else if (element.name == "tristrips") {
+        read_strips(element);
+      } else {
+        read_items(element, [&] { return pass_over(element); });
+      }
+    }
+    guard_.step(faces_.triangles(), source_.bytes.size());
+    report_losses();
+    faces_.append_to(result_, source_.options.progress);
+    return std::move(result_);
+  }
+
+ private:
+  // Calls read_item, which returns whether the item could be read in full, for every item that the
+  // file has. Returns how many there were.
+  template <class ReadItem>
+  std::size_t read_items(const PlyElement& element, const ReadItem& read_item) {
+    std::size_t items = 0;
+    for (; items < element.count && !stopped_ && cursor_.more(); ++items) {
+      const Cursor start = cursor_;
+      guard_.step(faces_.triangles(), source_.bytes.size() - cursor_.remaining());
+      stopped_ = !read_item() && !Cursor::kCanResume;
+      if (stopped_) {
+        cursor_ = start;
+        break;
+      }
+      cursor_.end_item();
+    }
+    if (items < element.count) {
+      result_.report.warnings.push_back("the header promises " + std::to_string(element.count) +
+                                        " of the element " + printable(element.name) +
+                                        ", the file holds " + std::to_string(items));
+    }
+    return items;
+  }
+
+  bool pass_over(const PlyElement& element) {
+    return std::all_of(
+        element.properties.begin(), element.properties.end(),
+        [&](const PlyProperty& property) { return pass_over_property(cursor_, property); });
+  }
+
+  void read_points(const PlyElement& element) {
+    std::vector<int> axes(element.properties.size(), -1);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::array<std::string_view, 3> names = {"x", "y", "z"};
+      const std::size_t found =
+          find_property(element, names[static_cast<std::size_t>(axis)], false);
+      if (found == kNoProperty) source_.fail("the vertices of the PLY file have no x, y and z");
+      axes[found] = axis;
+    }
+    // Three numbers take at least three bytes.
+    result_.soup.points.reserve(std::min(element.count, cursor_.remaining() / 3 + 1));
+    read_items(element, [&] { return read_point(element, axes); });
+  }
+
+  bool read_point(const PlyElement& element, const std::vector<int>& axes) {
+    Vec3d point = Vec3d::Constant(kNaN);
+    bool whole = true;
+    for (std::size_t i = 0; i < axes.size() && whole; ++i) {
+      const PlyProperty& property = element.properties[i];
+      whole = axes[i] < 0 ? pass_over_property(cursor_, property)
+                          : cursor_.read(property.type, point[axes[i]]);
+    }
+    if (!whole && !Cursor::kCanResume) return false;
+    if ((!whole || cursor_.garbage()) && !point.allFinite()) ++result_.report.bad_points;
+    result_.soup.points.push_back(point);
+    return whole;
+  }
+
+  // Reads an item whose property number `wanted` is a list, and calls take(value) for each of its
+  // values.
+  template <class Take>
+  bool read_list_item(const PlyElement& element, std::size_t wanted, const Take& take) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (i != wanted) {
+        if (!pass_over_property(cursor_, property)) return false;
+        continue;
+      }
+      std::size_t length = 0;
+      if (!read_length(cursor_, property, length)) return false;
+      for (double value = 0; length > 0; --length) {
+        if (!cursor_.read(property.type, value)) return false;
+        take(value);
+      }
+    }
+    return true;
+  }
+
+  void read_faces(const PlyElement& element) {
+    const std::size_t indices = find_indices(element);
+    if (indices == kNoProperty) source_.fail("the faces of the PLY file have no vertex_indices");
+    std::size_t unreadable = 0;
+    bool ends_file = false;
+    const std::size_t found = read_items(element, [&] {
+      faces_.begin_face();
+      const auto add = [&](double value) { faces_.add_corner(to_index(value)); };
+      const bool whole = read_list_item(element, indices, add);
+      ends_file = whole && cursor_.remaining() == 0;
+      if (whole) {
+        faces_.end_face();
+      } else {
+        faces_.drop_face();
+        ++unreadable;
+      }
+      return whole;
+    });
+    result_.report.declared_triangles += element.count;
+    result_.report.missing_faces += element.count - found;
+    if (!Cursor::kCanResume) return;
+    // The last number of a cut text may be cut too.
+    if (ends_file && found < element.count) {
+      faces_.drop_face();
+      ++unreadable;
+    }
+    report_unreadable(unreadable);
+  }
+
+  void report_unreadable(std::size_t count) {
+    if (count == 0) return;
+    result_.report.bad_faces += count;
+    result_.report.warnings.push_back(counted(count, "face") +
+                                      " left out: cut, or a list longer than its line");
+  }
+
+  // Every value after the second of a strip makes a triangle with the two before; every other one
+  // of these is turned round. A negative value ends the strip and begins another.
+  void read_strips(const PlyElement& element) {
+    const std::size_t indices = find_indices(element);
+    if (indices == kNoProperty) source_.fail("the strips of the PLY file have no vertex_indices");
+    read_items(element, [&] {
+      std::array<std::int64_t, 2> before = {};
+      std::size_t length = 0;
+      return read_list_item(element, indices, [&](double value) {
+        if (value < 0) {
+          length = 0;
+          return;
+        }
+        const std::int64_t index = to_index(value);
+        if (length >= 2) add_strip_triangle(before, index, length % 2 == 1);
+        before = {before[1], index};
+        ++length;
+      });
+    });
+  }
+
+  void add_strip_triangle(const std::array<std::int64_t, 2>& before, std::int64_t index,
+                          bool turned) {
+    faces_.begin_face();
+    faces_.add_corner(before[turned ? 1 : 0]);
+    faces_.add_corner(before[turned ? 0 : 1]);
+    faces_.add_corner(index);
+    faces_.end_face();
+  }
+
+  void report_losses() {
+    ReadReport& report = result_.report;
+    if (cursor_.more()) report.trailing_bytes = cursor_.remaining();
+    if (report.trailing_bytes > 0) {
+      report.warnings.push_back(counted(report.trailing_bytes, "byte") +
+                                " after the last whole element ignored");
+    }
+    if (report.bad_points > 0) {
+      report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
+                                " are not numbers");
+    }
+  }
+
+  const MeshSource& source_;
+  const PlyHeader& header_;
+  Cursor cursor_;
+  ReadResult result_;
+  FaceList faces_;
+  ReadGuard guard_;
+  bool stopped_ = false;  // what follows cannot be read
+};
+
+std::string format_header(const TriangleSoup& soup, std::string_view format,
+                          const std::vector<std::string>& comments,
+                          std::span<const std::uint32_t> sources) {
+  MESHREPAIR_ASSERT(sources.empty() || sources.size() == soup.triangles.size());
+  std::string out = "ply\nformat " + std::string(format) + " 1.0\n";
+  for (const std::string& comment : comments) out += "comment " + comment + "\n";
+  out += "element vertex " + std::to_string(soup.points.size()) +
+         "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+         std::to_string(soup.triangles.size()) + "\nproperty list uchar uint vertex_indices\n";
+  if (!sources.empty()) out += "property int source_triangle\n";
+  return out + "end_header\n";
+}
+
+}  // namespace
+
+ReadResult read_ply(const MeshSource& source) {
+  const PlyHeader header = read_ply_header(source);
+  switch (header.encoding) {
+    case PlyEncoding::ascii:
+      return PlyBody<PlyTextCursor>(source, header, SoupFormat::ply_ascii).run();
+    case PlyEncoding::little_endian:
+      return PlyBody<PlyBinaryCursor<std::endian::little>>(source, header, SoupFormat::ply_binary)
+          .run();
+    case PlyEncoding::big_endian:
+      break;
+  }
+  return PlyBody<PlyBinaryCursor<std::endian::big>>(source, header, SoupFormat::ply_binary).run();
+}
+
+std::string format_ply_binary(const TriangleSoup& soup, const std::vector<std::string>& comments,
+                              std::span<const std::uint32_t> sources) {
+  static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
+  std::string out = format_header(soup, "binary_little_endian", comments, sources);
+  out.reserve(out.size() + 24 * soup.points.size() + 13 * soup.triangles.size() +
+              sources.size_bytes());
+  for (const Vec3d& point : soup.points) {
+    out.append(reinterpret_cast<const char*>(point.data()), 3 * sizeof(double));
+  }
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    out += '\3';
+    out.append(reinterpret_cast<const char*>(soup.triangles[t].data()), sizeof soup.triangles[t]);
+    // As an int all ones are -1.
+    if (!sources.empty()) out.append(reinterpret_cast<const char*>(&sources[t]), sizeof sources[t]);
+  }
+  return out;
+}
+
+std::string format_ply_ascii(const TriangleSoup& soup, const std::vector<std::string>& comments,
+                             std::span<const std::uint32_t> sources) {
+  std::string out = format_header(soup, "ascii", comments, sources);
+  append_mesh_lines(out, soup, sources);
+  return out;
+}
+
+}  // namespace meshrepair

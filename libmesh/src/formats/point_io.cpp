@@ -1,0 +1,141 @@
+// The facade: tells point clouds from meshes, calls the reader of a format, and judges what it
+// found.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include <base/error.h>
+#include <base/file_bytes.h>
+#include <mesh/mesh_source.h>
+#include <mesh/point_io.h>
+#include <mesh/recognize_format.h>
+
+#include "formats/obj/obj_points.h"
+#include "formats/pcd/pcd_header.h"
+#include "formats/pcd/pcd_points.h"
+#include "formats/ply/ply_header.h"
+#include "formats/ply/ply_points.h"
+#include "formats/xyz/xyz_points.h"
+#include "mesh_readers.h"
+
+namespace meshrepair {
+namespace {
+
+// An OFF without its first line begins with numbers, too; then the extension decides.
+bool is_point_text(const MeshSource& source) {
+  if (!begins_with_points(source.bytes)) return false;
+  return has_point_extension(source.name) || !recognize_content(source.bytes);
+}
+
+// By its format alone.
+bool is_point_cloud(const MeshSource& source) {
+  return begins_with_pcd(source.bytes) || is_ply_of_points(source) || is_point_text(source);
+}
+
+// What is read has no faces, and none were promised or damaged. STL has no points of its own.
+bool is_without_faces(const ReadResult& result) {
+  const ReadReport& report = result.report;
+  const bool has_points = report.format == SoupFormat::obj || report.format == SoupFormat::off;
+  return has_points && result.soup.triangles.empty() && !result.soup.points.empty() &&
+         report.bad_faces == 0 && report.declared_triangles == 0;
+}
+
+// The corners of a mesh.
+PointReadResult corners_of(ReadResult mesh) {
+  PointReadResult result;
+  result.cloud.points = std::move(mesh.soup.points);
+  result.report.bad_points = mesh.report.bad_points;
+  result.report.warnings = std::move(mesh.report.warnings);
+  result.report.format =
+      mesh.report.format == SoupFormat::off ? PointFormat::off : PointFormat::stl;
+  return result;
+}
+
+PointReadResult read_any(const MeshSource& source, const PointReadOptions& options) {
+  if (begins_with_pcd(source.bytes)) return read_pcd_points(source, options);
+  if (begins_with_ply(source.bytes)) return read_ply_points(source, options);
+  if (is_point_text(source)) return read_xyz_points(source, options);
+  if (looks_like_text(source.bytes) && has_point_extension(source.name)) {
+    source.fail("is no list of points: it does not begin with lines of three numbers");
+  }
+  const SoupFormat format = recognize_mesh(source);
+  if (format == SoupFormat::obj) return read_obj_points(source, options);
+  return corners_of(read_mesh_as(format, source));
+}
+
+void judge(const MeshSource& source, const PointReadResult& result) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;
+  const std::size_t points = result.cloud.points.size();
+  if (points > kMost) throw LimitError(source.name + ": more than 4294967294 points");
+  if (points > 0) return;
+  const auto& warnings = result.report.warnings;
+  source.fail("holds no readable points" +
+              (warnings.empty() ? std::string() : " (" + warnings.front() + ")"));
+}
+
+PointReadResult read_source(const MeshSource& source, const PointReadOptions& options) {
+  PointReadResult result = read_any(source, options);
+  result.report.bytes = source.bytes.size();
+  judge(source, result);
+  return result;
+}
+
+MeshSource source_of(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  MeshSource source = {without_byte_order_mark(bytes), name, options};
+  if (source.bytes.empty()) source.fail("is empty");
+  return source;
+}
+
+std::string name_of(const std::filesystem::path& path) {
+  return path == "-" ? "standard input" : path.string();
+}
+
+}  // namespace
+
+std::string_view format_name(PointFormat format) {
+  constexpr std::array<std::string_view, 10> kFormats = {
+      "XYZ",       "PTS",        "ASCII PCD", "binary PCD", "compressed PCD",
+      "ASCII PLY", "binary PLY", "OBJ",       "OFF",        "STL"};
+  return kFormats[static_cast<std::size_t>(format)];
+}
+
+PointReadResult read_points(const std::filesystem::path& path, const PointReadOptions& options) {
+  const FileBytes file(path, options.progress);
+  return read_points(file.bytes(), name_of(path), options);
+}
+
+PointReadResult read_points(std::string_view bytes, const std::string& name,
+                            const PointReadOptions& options) {
+  ReadOptions as_mesh;
+  as_mesh.progress = options.progress;
+  return read_source(source_of(bytes, name, as_mesh), options);
+}
+
+MeshOrPoints read_mesh_or_points(const std::filesystem::path& path, const ReadOptions& options) {
+  const FileBytes file(path, options.progress);
+  return read_mesh_or_points(file.bytes(), name_of(path), options);
+}
+
+MeshOrPoints read_mesh_or_points(std::string_view bytes, const std::string& name,
+                                 const ReadOptions& options) {
+  const MeshSource source = source_of(bytes, name, options);
+  PointReadOptions point_options;
+  point_options.progress = options.progress;
+  MeshOrPoints result;
+  if (is_point_cloud(source)) {
+    result.points = read_source(source, point_options);
+    return result;
+  }
+  ReadResult mesh = read_mesh_as(recognize_mesh(source), source);
+  if (is_without_faces(mesh)) {
+    result.points = read_source(source, point_options);
+    return result;
+  }
+  mesh.report.bytes = bytes.size();
+  require_mesh(source, mesh);
+  result.mesh = std::move(mesh);
+  return result;
+}
+
+}  // namespace meshrepair

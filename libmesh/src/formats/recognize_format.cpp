@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <mesh/recognize_format.h>
+
+#include "formats/off/off_io.h"
+#include "formats/ply/ply_header.h"
+#include "formats/stl/stl_io.h"
+#include "text_scanner.h"
+
+namespace meshrepair {
+namespace {
+
+bool is_stl_keyword(std::string_view word) {
+  constexpr std::array<std::string_view, 4> kWords = {"solid", "facet", "outer", "vertex"};
+  return std::any_of(kWords.begin(), kWords.end(),
+                     [&](std::string_view keyword) { return equals_ignoring_case(word, keyword); });
+}
+
+bool is_obj_keyword(std::string_view word) {
+  constexpr std::array<std::string_view, 14> kWords = {
+      "v", "vn", "vt", "vp", "f", "fo", "o", "g", "s", "l", "p", "mtllib", "usemtl", "usemap"};
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
+
+// An OFF without its keyword begins with its counts.
+bool is_count(std::string_view word) {
+  return word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace
+
+bool looks_like_text(std::string_view bytes) {
+  constexpr std::size_t kStart = 4096;
+  const std::string_view start = bytes.substr(0, kStart);
+  return std::none_of(start.begin(), start.end(), [](char c) {
+    const bool is_white = c >= '\t' && c <= '\r';
+    return static_cast<unsigned char>(c) < ' ' && !is_white && c != '\x1A';
+  });
+}
+
+std::optional<SoupFormat> recognize_content(std::string_view bytes) {
+  if (begins_with_ply(bytes)) return SoupFormat::ply_binary;
+  if (begins_with_off(bytes)) return SoupFormat::off;
+  if (is_binary_stl(bytes)) return SoupFormat::stl_binary;
+  if (!looks_like_text(bytes)) return std::nullopt;
+  TextScanner text(bytes, {.comment = '#'});
+  if (!text.next_anywhere()) return std::nullopt;
+  const std::string_view word = text.peek_token();
+  if (is_stl_keyword(word)) return SoupFormat::stl_ascii;
+  if (is_obj_keyword(word)) return SoupFormat::obj;
+  if (is_count(word)) return SoupFormat::off;
+  return std::nullopt;
+}
+
+bool looks_like_tree(std::string_view bytes) {
+  return bytes.starts_with(kTreeSignature.substr(0, 4));
+}
+
+std::string_view name_foreign_format(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSignatures = {{
+      {"PK\x03\x04"sv, "a ZIP archive (a 3MF?)"},
+      {"\x1F\x8B"sv, "compressed by gzip"},
+      {"glTF"sv, "a binary glTF"},
+      {"OM"sv, "a mesh of OpenMesh (.om)"},
+      {"\xFF\xFE"sv, "text in UTF-16, not in UTF-8"},
+      {"\xFE\xFF"sv, "text in UTF-16, not in UTF-8"},
+      {"<?xml"sv, "an XML file"},
+      {"ISO-10303-21"sv, "a STEP file"},
+  }};
+  for (const auto& [signature, name] : kSignatures) {
+    if (bytes.starts_with(signature)) return name;
+  }
+  return {};
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,156 @@
+// ASCII STL:
+//
+//   solid NAME
+//     facet normal X Y Z
+//       outer loop
+//         vertex X Y Z      (three times)
+//       endloop
+//     endfacet              (facets repeat)
+//   endsolid NAME
+//
+// The scan knows four words. `vertex` adds a corner; a word that begins a loop or a facet forgets
+// corners that were not closed; a word that ends one makes the corners a face; after `solid` and
+// `endsolid` comes a name, which may hold any of the other words. Everything else (normals too) is
+// passed over.
+#include <array>
+#include <limits>
+#include <vector>
+
+#include <mesh/read_guard.h>
+#include <mesh/weld_points.h>
+
+#include "formats/text_scanner.h"
+#include "formats/text_writer.h"
+#include "polygons/triangulate_polygon.h"
+#include "stl_io.h"
+
+namespace meshrepair {
+namespace {
+
+class AsciiStlReader {
+ public:
+  explicit AsciiStlReader(const MeshSource& source)
+      : source_(source), text_(source.bytes), guard_(source), welder_(result_.soup.points) {}
+
+  ReadResult run() {
+    result_.report.format = SoupFormat::stl_ascii;
+    while (text_.next_anywhere()) {
+      word_at_ = text_.position();
+      guard_.step(result_.soup.triangles.size(), word_at_);
+      const std::string_view word = text_.peek_token();
+      text_.skip_token();
+      if (equals_ignoring_case(word, "vertex")) {
+        read_vertex();
+      } else if (equals_ignoring_case(word, "endloop") || equals_ignoring_case(word, "endfacet")) {
+        close_face();
+      } else if (equals_ignoring_case(word, "outer") || equals_ignoring_case(word, "facet")) {
+        drop_face();
+      } else if (equals_ignoring_case(word, "solid") || equals_ignoring_case(word, "endsolid")) {
+        drop_face();
+        skip_name();
+      }
+    }
+    guard_.step(result_.soup.triangles.size(), source_.bytes.size());
+    drop_face();
+    warn_of_bad(result_.report, source_, first_bad_, "facet",
+                "cut or with fewer than three vertices", "vertex line");
+    return std::move(result_);
+  }
+
+ private:
+  void read_vertex() {
+    Vec3d point;
+    bool good = true;
+    for (int i = 0; i < 3; ++i) good = read_coordinate(point[i]) && good;
+    if (!good && result_.report.bad_points++ == 0) first_bad_.point = word_at_;
+    corners_.push_back(welder_.index_of(point));
+  }
+
+  // A word where a number should be is left to the scan: it may be the next keyword.
+  bool read_coordinate(double& value) {
+    value = std::numeric_limits<double>::quiet_NaN();
+    if (!text_.next_anywhere()) return false;
+    const std::size_t start = text_.position();
+    if (text_.read_real(value)) return true;
+    text_.go_to(start);
+    if (!is_keyword(text_.peek_token())) text_.skip_token();
+    return false;
+  }
+
+  static bool is_keyword(std::string_view word) {
+    return equals_ignoring_case(word, "vertex") || equals_ignoring_case(word, "endloop") ||
+           equals_ignoring_case(word, "endfacet") || equals_ignoring_case(word, "facet") ||
+           equals_ignoring_case(word, "endsolid");
+  }
+
+  void close_face() {
+    if (corners_.size() < 3) return drop_face();
+    if (corners_.size() > 3) ++result_.report.polygons;
+    triangulate_polygon(result_.soup.points, corners_, result_.soup.triangles);
+    corners_.clear();
+  }
+
+  void drop_face() {
+    if (corners_.empty()) return;
+    corners_.clear();
+    if (result_.report.bad_faces++ == 0) first_bad_.face = word_at_;
+  }
+
+  // The name goes to the end of the line, unless the line goes on with facets.
+  void skip_name() {
+    const std::size_t start = text_.position();
+    text_.skip_line();
+    const std::size_t end = text_.position();
+    text_.go_to(start);
+    while (text_.position() < end && text_.next_on_line()) {
+      const bool is_facet = equals_ignoring_case(text_.peek_token(), "facet");
+      const std::size_t facet_at = text_.position();
+      text_.skip_token();
+      if (!is_facet || !text_.next_on_line()) continue;
+      if (!equals_ignoring_case(text_.peek_token(), "normal")) continue;
+      return text_.go_to(facet_at);
+    }
+    text_.go_to(end);
+  }
+
+  const MeshSource& source_;
+  TextScanner text_;
+  ReadGuard guard_;
+  ReadResult result_;
+  PointWelder welder_;
+  std::vector<std::uint32_t> corners_;
+  std::size_t word_at_ = 0;
+  FirstBad first_bad_;
+};
+
+// No -0: as it will be read back.
+template <class Vector>
+Eigen::Vector3<typename Vector::Scalar> without_minus(const Vector& v) {
+  return v + Vector::Zero();
+}
+
+}  // namespace
+
+ReadResult read_stl_ascii(const MeshSource& source) { return AsciiStlReader(source).run(); }
+
+std::string format_stl_ascii(const TriangleSoup& soup) {
+  std::string out = "solid meshrepair\n";
+  for (const auto& triangle : soup.triangles) {
+    const Vec3d& a = soup.points[triangle[0]];
+    const Vec3d& b = soup.points[triangle[1]];
+    const Vec3d& c = soup.points[triangle[2]];
+    out += "  facet normal ";
+    append_triple(out, without_minus(stl_normal(a, b, c).cast<float>()));
+    out += "\n    outer loop\n";
+    for (const std::uint32_t corner : triangle) {
+      out += "      vertex ";
+      append_triple(out, without_minus(soup.points[corner]));
+      out += '\n';
+    }
+    out += "    endloop\n  endfacet\n";
+  }
+  out += "endsolid meshrepair\n";
+  return out;
+}
+
+}  // namespace meshrepair

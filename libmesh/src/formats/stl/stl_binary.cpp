@@ -1,0 +1,125 @@
+// Binary STL, little endian:
+//
+//   offset  size  content
+//        0    80  header, any text (may begin with "solid", must not be trusted)
+//       80     4  uint32: number of triangles (wrong in many files)
+//       84    50  for each triangle: float32 x 12 (normal, three corners), uint16 attribute
+//
+// Normals and attributes are ignored.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include <base/error.h>
+#include <mesh/read_guard.h>
+#include <mesh/weld_points.h>
+
+#include "stl_io.h"
+
+namespace meshrepair {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "floats are copied as they are");
+
+constexpr std::size_t kCountOffset = 80;
+constexpr std::size_t kHeaderSize = 84;
+constexpr std::size_t kNormalSize = 12;
+constexpr std::size_t kCornersSize = 36;
+constexpr std::size_t kTriangleSize = 50;
+
+std::uint32_t declared_count(std::string_view bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + kCountOffset, sizeof count);
+  return count;
+}
+
+void report_sizes(const MeshSource& source, std::size_t found, ReadReport& report) {
+  const std::size_t declared = declared_count(source.bytes);
+  report.declared_triangles = declared;
+  report.missing_faces = declared > found ? declared - found : 0;
+  report.trailing_bytes = source.bytes.size() - kHeaderSize - found * kTriangleSize;
+  if (declared != found) {
+    report.warnings.push_back("the header promises " + counted(declared, "triangle") +
+                              ", the file holds " + std::to_string(found));
+  }
+  if (report.trailing_bytes > 0) {
+    report.warnings.push_back(counted(report.trailing_bytes, "byte") +
+                              " after the last whole triangle ignored");
+  }
+}
+
+float to_float(double coordinate) {
+  if (std::abs(coordinate) > std::numeric_limits<float>::max() && !std::isinf(coordinate)) {
+    throw OutputError("a coordinate of " + std::to_string(coordinate) +
+                      " does not fit into binary STL; write another format");
+  }
+  return static_cast<float>(coordinate) + 0.0f;  // no -0: as it will be read back
+}
+
+void append_floats(std::string& out, const Vec3d& vector) {
+  const std::array<float, 3> floats = {to_float(vector.x()), to_float(vector.y()),
+                                       to_float(vector.z())};
+  out.append(reinterpret_cast<const char*>(floats.data()), sizeof floats);
+}
+
+}  // namespace
+
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kHeaderSize &&
+         bytes.size() - kHeaderSize == kTriangleSize * std::size_t{declared_count(bytes)};
+}
+
+ReadResult read_stl_binary(const MeshSource& source) {
+  const std::size_t size = source.bytes.size();
+  if (size < kHeaderSize) source.fail("a binary STL cut within its header of 84 bytes");
+  const std::size_t count = (size - kHeaderSize) / kTriangleSize;
+
+  ReadGuard guard(source);
+  guard.require(count);
+  ReadResult result;
+  result.report.format = SoupFormat::stl_binary;
+  report_sizes(source, count, result.report);
+  result.soup.triangles.reserve(count);
+  // A closed surface has half as many points as triangles.
+  PointWelder welder(result.soup.points, count / 2);
+  const char* corners = source.bytes.data() + kHeaderSize + kNormalSize;
+  for (std::size_t i = 0; i < count; ++i, corners += kTriangleSize) {
+    guard.step(i, kHeaderSize + i * kTriangleSize);
+    std::array<float, 9> c;
+    static_assert(sizeof c == kCornersSize);
+    std::memcpy(c.data(), corners, sizeof c);
+    const std::uint32_t first = welder.index_of({c[0], c[1], c[2]});
+    const std::uint32_t second = welder.index_of({c[3], c[4], c[5]});
+    const std::uint32_t third = welder.index_of({c[6], c[7], c[8]});
+    result.soup.triangles.push_back({first, second, third});
+  }
+  return result;
+}
+
+std::string format_stl_binary(const TriangleSoup& soup) {
+  std::string out = "binary STL by meshrepair";
+  out.reserve(kHeaderSize + kTriangleSize * soup.triangles.size());
+  out.resize(kCountOffset, ' ');
+  const auto count = static_cast<std::uint32_t>(soup.triangles.size());
+  out.append(reinterpret_cast<const char*>(&count), sizeof count);
+  for (const auto& [a, b, c] : soup.triangles) {
+    append_floats(out, stl_normal(soup.points[a], soup.points[b], soup.points[c]));
+    append_floats(out, soup.points[a]);
+    append_floats(out, soup.points[b]);
+    append_floats(out, soup.points[c]);
+    out.append(2, '\0');
+  }
+  return out;
+}
+
+Vec3d stl_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const Vec3d normal = (b - a).cross(c - a);
+  const double length = normal.stableNorm();
+  return std::isfinite(length) && length > 0 ? Vec3d(normal / length) : Vec3d::Zero();
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,31 @@
+// STL, binary and ASCII.
+#pragma once
+
+#include <string>
+
+#include <mesh/mesh_source.h>
+#include <mesh/soup_io.h>
+
+namespace meshrepair {
+
+// Whether the bytes are a binary STL beyond doubt: the count in the header fits the size.
+[[nodiscard]] bool is_binary_stl(std::string_view bytes);
+
+// The number of triangles is what the bytes hold, (size - 84) / 50 rounded down; the header's count
+// is only compared with it. Throws InputError when there is not one triangle.
+[[nodiscard]] ReadResult read_stl_binary(const MeshSource& source);
+
+// Only the tokens count, not the lines: keywords in any case, any white space, any number of
+// solids, with or without a `solid` line. A loop of more than three vertices is a polygon. A facet
+// in which the file ends is left out. A vertex whose coordinates are not numbers is kept as NaN and
+// counted as a bad point; "nan", "inf", "-1.#IND" and the like are numbers.
+[[nodiscard]] ReadResult read_stl_ascii(const MeshSource& source);
+
+// Throws OutputError if a finite coordinate is beyond the range of float32.
+[[nodiscard]] std::string format_stl_binary(const TriangleSoup& soup);
+[[nodiscard]] std::string format_stl_ascii(const TriangleSoup& soup);
+
+// Unit normal, counter-clockwise; 0 for a triangle without area or not finite.
+[[nodiscard]] Vec3d stl_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
+}  // namespace meshrepair

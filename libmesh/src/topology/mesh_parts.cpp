@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <base/disjoint_sets.h>
+#include <base/ids.h>
+#include <mesh/mesh_parts.h>
+
+namespace meshrepair {
+
+MeshParts find_parts(const TriangleSoup& mesh) {
+  DisjointSets joined(mesh.points.size());
+  for (const auto& t : mesh.triangles) {
+    joined.join(t[0], t[1]);
+    joined.join(t[0], t[2]);
+  }
+  MeshParts parts;
+  parts.of_triangle.reserve(mesh.triangles.size());
+  std::vector<std::uint32_t> number(mesh.points.size(), kNone);
+  for (const auto& t : mesh.triangles) {
+    std::uint32_t& part = number[joined.root(t[0])];
+    if (part == kNone) part = parts.count++;
+    parts.of_triangle.push_back(part);
+  }
+  return parts;
+}
+
+UnitScale::UnitScale(std::span<const Vec3d> points) {
+  double largest = 0;
+  for (const Vec3d& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  (void)std::frexp(largest, &exponent_);
+}
+
+double UnitScale::operator()(double length) const { return std::ldexp(length, -exponent_); }
+
+Vec3d UnitScale::operator()(const Vec3d& point) const {
+  return {(*this)(point.x()), (*this)(point.y()), (*this)(point.z())};
+}
+
+std::vector<PartSize> part_sizes(std::span<const Vec3d> points,
+                                 std::span<const std::array<std::uint32_t, 3>> triangles,
+                                 std::span<const std::uint32_t> part_of, std::uint32_t parts,
+                                 const UnitScale& scale) {
+  std::vector<PartSize> sizes(parts);
+  std::vector<Vec3d> bases(parts);
+  std::vector<char> has_base(parts, 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::uint32_t part = part_of[t];
+    const auto& corners = triangles[t];
+    if (has_base[part] == 0) bases[part] = scale(points[corners[0]]);
+    has_base[part] = 1;
+    const Vec3d a = scale(points[corners[0]]) - bases[part];
+    const Vec3d b = scale(points[corners[1]]) - bases[part];
+    const Vec3d c = scale(points[corners[2]]) - bases[part];
+    sizes[part].volume += a.dot(b.cross(c)) / 6;
+    sizes[part].area += (b - a).cross(c - a).norm() / 2;
+  }
+  return sizes;
+}
+
+}  // namespace meshrepair

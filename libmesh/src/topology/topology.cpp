@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <base/disjoint_sets.h>
+#include <mesh/topology.h>
+
+namespace meshrepair {
+namespace {
+
+void count_edge(std::span<const IndexTriangle> triangles, std::span<const std::uint32_t> sides,
+                Topology& topology) {
+  ++topology.edges;
+  topology.open_edges += sides.size() == 1;
+  topology.nonmanifold_edges += sides.size() > 2;
+  topology.inconsistent_edges +=
+      sides.size() == 2 && side_start(triangles, sides[0]) == side_start(triangles, sides[1]);
+}
+
+void note_edge(std::span<const IndexTriangle> triangles, std::span<const std::uint32_t> sides,
+               TopologyPlaces& places) {
+  const auto add_to = [&](std::vector<std::uint32_t>& list) {
+    list.insert(list.end(), sides.begin(), sides.end());
+  };
+  if (sides.size() == 1) {
+    add_to(places.open_sides);
+  } else if (sides.size() > 2) {
+    add_to(places.nonmanifold_sides);
+  } else if (side_start(triangles, sides[0]) == side_start(triangles, sides[1])) {
+    add_to(places.inconsistent_sides);
+  }
+}
+
+// Joins the two pairs of corners that the triangles on both sides of an edge have in common.
+void join_corners(std::span<const IndexTriangle> triangles, std::uint32_t s, std::uint32_t t,
+                  DisjointSets& corners) {
+  const bool opposite = side_start(triangles, s) != side_start(triangles, t);
+  corners.join(s, opposite ? next_side(t) : t);
+  corners.join(next_side(s), opposite ? t : next_side(t));
+}
+
+std::size_t count_split_vertices(std::span<const IndexTriangle> triangles, std::size_t points,
+                                 DisjointSets& corners, TopologyPlaces* places) {
+  std::vector<char> fans(points, 0);
+  std::size_t split = 0;
+  for (std::uint32_t c = 0; c < 3 * triangles.size(); ++c) {
+    if (corners.root(c) != c) continue;
+    const std::uint32_t vertex = side_start(triangles, c);
+    char& seen = fans[vertex];
+    split += seen == 1;
+    if (seen == 1 && places != nullptr) places->nonmanifold_vertices.push_back(vertex);
+    if (seen < 2) ++seen;
+  }
+  if (places != nullptr) {
+    std::sort(places->nonmanifold_vertices.begin(), places->nonmanifold_vertices.end());
+  }
+  return split;
+}
+
+// The lowest triangle of a part stands for it, so parts are met in the order of their numbers.
+std::vector<std::uint32_t> number_parts(std::size_t triangles, DisjointSets& sets) {
+  std::vector<std::uint32_t> parts(triangles);
+  std::uint32_t count = 0;
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    const std::uint32_t root = sets.root(t);
+    parts[t] = root == t ? count++ : parts[root];
+  }
+  return parts;
+}
+
+}  // namespace
+
+Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t points,
+                          TopologyPlaces* places) {
+  if (places != nullptr) *places = {};
+  Topology topology;
+  topology.triangles = triangles.size();
+  for (const auto& t : triangles) {
+    topology.repeated_corners += t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  }
+  DisjointSets parts(triangles.size());
+  DisjointSets corners(3 * triangles.size());
+  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+    count_edge(triangles, sides, topology);
+    if (places != nullptr) note_edge(triangles, sides, *places);
+    for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      join_corners(triangles, sides[0], sides[i], corners);
+    }
+  });
+  topology.parts = parts.count();
+  topology.nonmanifold_vertices = count_split_vertices(triangles, points, corners, places);
+  if (places != nullptr) places->parts = number_parts(triangles.size(), parts);
+  return topology;
+}
+
+std::vector<char> triangles_of_open_parts(std::span<const IndexTriangle> triangles,
+                                          std::size_t points) {
+  TopologyPlaces places;
+  const Topology topology = examine_topology(triangles, points, &places);
+  std::vector<char> is_open(topology.parts, 0);
+  for (const std::uint32_t side : places.open_sides) is_open[places.parts[side / 3]] = 1;
+  std::vector<char> open;
+  open.reserve(places.parts.size());
+  for (const std::uint32_t part : places.parts) open.push_back(is_open[part]);
+  return open;
+}
+
+double signed_volume(const TriangleSoup& soup) {
+  if (soup.triangles.empty()) return 0;
+  const Vec3d base = soup.points[soup.triangles[0][0]];
+  double sum = 0;
+  for (const auto& t : soup.triangles) {
+    const Vec3d a = soup.points[t[0]] - base;
+    const Vec3d b = soup.points[t[1]] - base;
+    const Vec3d c = soup.points[t[2]] - base;
+    sum += a.dot(b.cross(c));
+  }
+  return sum / 6;
+}
+
+double surface_area(const TriangleSoup& soup) {
+  double sum = 0;
+  for (const auto& t : soup.triangles) {
+    const Vec3d& a = soup.points[t[0]];
+    sum += (soup.points[t[1]] - a).cross(soup.points[t[2]] - a).norm();
+  }
+  return sum / 2;
+}
+
+}  // namespace meshrepair

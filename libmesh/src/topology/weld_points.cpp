@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <bit>
+
+#include <base/assert.h>
+#include <base/error.h>
+#include <mesh/weld_points.h>
+
+namespace meshrepair {
+namespace {
+
+using internal::hash_mix;
+using internal::HashIndex;
+
+// Every position must stay below HashIndex::kNone.
+constexpr std::size_t kMostPoints = HashIndex::kNone - 1;
+
+std::uint64_t hash(const Vec3d& point) {
+  std::uint64_t h = hash_mix(0, std::bit_cast<std::uint64_t>(point.x()));
+  h = hash_mix(h, std::bit_cast<std::uint64_t>(point.y()));
+  return hash_mix(h, std::bit_cast<std::uint64_t>(point.z()));
+}
+
+bool same_bits(const Vec3d& a, const Vec3d& b) {
+  const auto differ = [&](int i) {
+    return std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
+  };
+  return (differ(0) | differ(1) | differ(2)) == 0;
+}
+
+}  // namespace
+
+PointWelder::PointWelder(std::vector<Vec3d>& points, std::size_t expected)
+    : points_(points), index_(expected) {
+  MESHREPAIR_ASSERT(points.empty());
+  points_.reserve(expected);
+}
+
+std::uint32_t PointWelder::index_of(Vec3d point) {
+  point.array() += 0.0;  // -0 + 0 is 0
+  const std::uint64_t key = hash(point);
+  const auto same = [&](std::uint32_t index) { return same_bits(points_[index], point); };
+  if (points_.size() == kMostPoints && index_.find(key, same) == HashIndex::kNone) {
+    throw LimitError("more than 4294967294 distinct points");
+  }
+  const auto fresh = static_cast<std::uint32_t>(points_.size());
+  const std::uint32_t index = index_.find_or_insert(key, fresh, same);
+  if (index != fresh) return index;
+  points_.push_back(point);
+  if (index_.full(points_.size())) {
+    index_.grow(fresh + 1, [&](std::uint32_t i) { return hash(points_[i]); });
+  }
+  return fresh;
+}
+
+std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& points) {
+  std::vector<Vec3d> distinct;
+  PointWelder welder(distinct, points.size());
+  std::vector<std::uint32_t> first_at, first;
+  first.reserve(points.size());
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    const std::uint32_t place = welder.index_of(points[p]);
+    if (place == first_at.size()) first_at.push_back(p);
+    first.push_back(first_at[place]);
+  }
+  return first;
+}
+
+PointPlaces find_places(const std::vector<Vec3d>& points) {
+  std::vector<Vec3d> distinct;
+  PointWelder welder(distinct, points.size());
+  PointPlaces places;
+  places.place.reserve(points.size());
+  for (const Vec3d& p : points) places.place.push_back(welder.index_of(p));
+  std::vector<std::uint32_t> count(distinct.size(), 0);
+  for (const std::uint32_t place : places.place) ++count[place];
+  places.is_copy.reserve(points.size());
+  for (const std::uint32_t place : places.place) {
+    places.is_copy.push_back(count[place] > 1 ? 1 : 0);
+  }
+  return places;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,32 @@
+// What is left of a cloud once points that say nothing are dropped.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <mesh/point_cloud.h>
+#include <points/point_soup.h>
+
+#include "neighbourhoods.h"
+
+namespace meshrepair {
+
+// A cloud to compute with: moved and scaled into the unit box, so that no length overflows.
+struct SiftedCloud {
+  std::vector<Vec3d> points;
+  std::vector<Vec3d> normals;           // of length 1, or 0 where none is known; may be empty
+  std::vector<std::uint32_t> original;  // the number that each has in the cloud, ascending
+  Vec3d centre = Vec3d::Zero();
+  double scale = 1;             // a length of 1 here, in the units of the cloud
+  std::vector<double> spacing;  // of each point
+  Neighbourhoods around;
+};
+
+// Drops what is not finite, there twice, or an outlier, as the options say. Throws Cancelled.
+[[nodiscard]] SiftedCloud sift_points(const PointCloud& cloud, const PointSoupOptions& options,
+                                      PointSoupReport& report);
+
+// Finds the neighbours and the spacing of points that were moved. Throws Cancelled.
+void look_around(SiftedCloud& cloud, const PointSoupOptions& options);
+
+}  // namespace meshrepair

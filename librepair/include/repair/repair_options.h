@@ -1,0 +1,56 @@
+// What can be asked of a repair.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <base/progress.h>
+#include <bsp/build_tree.h>
+#include <extract/extract_surface.h>
+#include <extract/float_engine.h>
+#include <extract/predicate_engine.h>
+#include <repair/certify.h>
+#include <repair/hole_patches.h>
+#include <repair/inside_rule.h>
+
+namespace meshrepair {
+
+struct RepairReport;
+
+struct RepairOptions {
+  Predicates predicates = Predicates::exact;
+  // Of floating predicates: points within it are on a plane; relative to the largest side of the
+  // input's bounding box. Their results are certified, but not mended by repairing them again.
+  double epsilon = kDefaultEpsilon;
+  // How sure it is that each triangle of the soup is part of the surface, above 0 and up to 1: for
+  // the solidity. Empty: all are.
+  std::vector<float> opacity;
+  HoleOptions holes;
+  BuildTreeOptions tree;
+  InsideOptions inside;
+  ExtractOptions extract;
+  // How far the surface may move to have fewer triangles where it was cut, as a share of the
+  // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
+  double simplify = 0;
+  // Slits and fins thinner than two steps of the working grid are filled and dropped where
+  // triangles are cut; in single precision also those thinner than so many steps of its numbers, as
+  // their sheets would cross once they are written, and wider ones, up to 16 times, where few
+  // faults are left else. 0: none are, in either precision.
+  double slit_steps = 4;
+  CertifyOptions certify;
+  // Told what the result will be, but for what certification moves, which may take much longer than
+  // all before; what it throws ends the work.
+  std::function<void(const RepairReport&)> examine;
+  // Leave a soup that is the boundary of a solid as it is, and make no cells where cleaning,
+  // closing holes and turning parts makes one of it (valid_solid.h), unless another option asks for
+  // more: the work for that is a small part of that of a repair.
+  bool keep_valid = false;
+  // Prove every invariant of the complex as it grows: a debugging aid, very slow.
+  bool check_cells = false;
+  ProgressObserver* progress = nullptr;
+};
+
+// What the programs that repair a mesh take for RepairOptions::simplify.
+inline constexpr double kDefaultSimplify = 5e-7;
+
+}  // namespace meshrepair

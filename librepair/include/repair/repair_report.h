@@ -1,0 +1,66 @@
+// What a repair found, decided and did.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <base/stage_meter.h>
+#include <bsp/build_tree.h>
+#include <bsp/clean_soup.h>
+#include <extract/clip_cell.h>
+#include <extract/cover_facets.h>
+#include <extract/extract_surface.h>
+#include <extract/predicate_engine.h>
+#include <extract/simplify_cuts.h>
+#include <mesh/precision.h>
+#include <mesh/topology.h>
+#include <repair/certify.h>
+#include <repair/hole_patches.h>
+#include <repair/inside_rule.h>
+#include <repair/orient_parts.h>
+#include <repair/part_fates.h>
+#include <repair/thin_cells.h>
+
+namespace meshrepair {
+
+// Filled as far as the work came, also when it ended with an exception.
+struct RepairReport {
+  bool kept_valid = false;    // nothing was wrong, and the rest of the work was not done
+  bool spared_cells = false;  // cleaned, closed and turned it was a solid: all about cells is 0
+  // Triangles that meet no others: no cells were made of them; 0 also where cells are of all.
+  std::size_t set_aside = 0;
+  CleanReport clean;
+  Topology input;         // of the clean soup
+  double input_area = 0;  // of the clean soup, in the input's units, squared
+  HoleReport holes;
+  BuildTreeReport tree;
+  Predicates predicates = Predicates::exact;  // and, if they are not exact, their epsilon
+  double epsilon = 0;
+  std::size_t cells = 0;
+  std::size_t facets = 0;
+  ClipReport clip;
+  CoverReport cover;
+  OrientReport orient;
+  std::size_t links = 0;
+  InsideReport inside;
+  // Solid but that only open sheets were around it, flat but for rounding, or hardly more than what
+  // was uncovered: made empty.
+  std::size_t open_regions = 0;
+  PartFates parts;
+  ExtractReport extract;
+  ThinCellsReport thin_cells;                // changed, as they are thinner than what numbers tell
+  Precision precision = Precision::float64;  // for which they were too thin
+  double slits_area = 0;    // of the surface that went with those filled, in the input's units
+  double fins_area = 0;     // the same of those emptied
+  std::size_t crumbs = 0;   // parts of cut pieces alone, thinner than a step of the grid: dropped
+  SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
+  CertifyReport certify;
+  TriangleFates triangles;
+  Topology output;
+  double output_volume = 0;  // in the input's units, cubed
+  double output_area = 0;
+  double closing_area = 0;  // of this, what no triangle of the input covers
+  std::vector<StageReport> stages;
+};
+
+}  // namespace meshrepair

@@ -1,0 +1,27 @@
+// From labelled cells to a surface that is certified.
+#pragma once
+
+#include <vector>
+
+#include <base/stage_meter.h>
+#include <extract/surface.h>
+#include <repair/repair.h>
+
+#include "cells/covered_cells.h"
+
+namespace meshrepair::internal {
+
+// The boundary between the cells that are solid and the others, simplified and certified as the
+// options say: the first attempt that passes, else the one with the fewest faults. `covered` is
+// destroyed as soon as it is not needed any more; its soup has to outlive the call.
+[[nodiscard]] Surface make_surface(CoveredCells covered, const std::vector<char>& solid,
+                                   const RepairOptions& options, RepairReport& report,
+                                   StageMeter& meter);
+
+// Simplifies and certifies a surface that was extracted from the cells of `input`, and describes
+// it.
+[[nodiscard]] Surface finish_surface(const CleanSoup& input, Surface surface,
+                                     const RepairOptions& options, RepairReport& report,
+                                     StageMeter& meter);
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,26 @@
+// The rim of a hole, as the triangulations over it see it.
+#pragma once
+
+#include <vector>
+
+#include <mesh/triangle_measures.h>
+
+namespace meshrepair::internal {
+
+// Point i and the next one are an edge of a triangle of the surface with the third corner apex[i].
+struct Rim {
+  std::vector<Vec3d> points;  // three or more, all different
+  std::vector<Vec3d> apex;
+
+  [[nodiscard]] std::size_t size() const { return points.size(); }
+};
+
+// Whether a triangle with the edge `edge` of the rim and this third corner folds back by more than
+// 150 degrees: rather onto the surface than on from it.
+inline bool is_sharp_fold(const Rim& rim, std::size_t edge, const Vec3d& third) {
+  constexpr double kSharp = 0.87;
+  return fold_cosine(rim.points[edge], rim.points[(edge + 1) % rim.size()], rim.apex[edge], third) >
+         kSharp;
+}
+
+}  // namespace meshrepair::internal

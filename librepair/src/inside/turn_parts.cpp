@@ -1,0 +1,277 @@
+// Which parts are to be turned round?
+//
+// Idea: a shell that faces inward is the wall of a cavity, or inside out. Doubt arises only where a
+// winding number is negative (something faces inward that nothing surrounds), or where the
+// triangles of a shell do not tell which way is out. Then all shells are turned outward first,
+// which an exact volume tells, and the winding numbers W of that say how shells lie in each other.
+// The cells with W > 1/2, and what they seal off, fall into blobs that have nothing to do with each
+// other. In each blob:
+//
+// - If no shell is doubtful and no winding number, as given, is negative: as given.
+// - If none is doubtful and none is positive: all of it is inside out and is turned.
+// - Else the shells that face outward by their own word stay so. Each of the others is the wall of
+//   a cavity if the solid of the parts around it, decided before it, encloses it; if it does not
+//   lie in any other shell, crosses one or lies in the cavity of one, it faces outward.
+//
+// Each depth of nesting costs a pass over the cells (or the solver, where triangles are missing).
+#include "turn_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <base/disjoint_sets.h>
+#include <base/ids.h>
+
+#include "winding_field.h"
+
+namespace meshrepair::internal {
+namespace {
+
+// A shell that pokes out of the solid around it with no more than this share of its area lies in it
+// all the same: the wall of a cavity that comes through somewhere.
+constexpr double kPokingShare = 0.05;
+
+std::string parts(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " part" : " parts");
+}
+
+bool in_doubt(const Orientation& orientation, const std::vector<double>& w) {
+  return std::any_of(w.begin(), w.end(), [](double x) { return x < -0.5; }) ||
+         std::any_of(orientation.parts.begin(), orientation.parts.end(),
+                     [](const OrientedPart& p) { return p.shell && !p.believed; });
+}
+
+class PartTurner {
+ public:
+  PartTurner(const CellGraph& graph, const Orientation& orientation, const InsideOptions& options,
+             InsideReport& report)
+      : graph_(graph),
+        orientation_(orientation),
+        parts_(orientation.parts),
+        options_(options),
+        report_(report),
+        sign_(parts_.size(), 1) {}
+
+  std::vector<double> run(const std::vector<double>& given) {
+    list_links_of_parts();
+    std::vector<std::int8_t> outward(parts_.size(), 1);
+    for (std::size_t p = 0; p < parts_.size(); ++p) outward[p] = parts_[p].outward < 0 ? -1 : 1;
+    sign_ = outward;
+    const std::vector<double> w_outward = field();
+    find_blobs(w_outward);
+    judge_blobs(given);
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      if (!is_candidate(p)) sign_[p] = part_is_reversed(p) ? -1 : 1;
+    }
+    decide_candidates(w_outward);
+    count_turned(outward);
+    return field();
+  }
+
+ private:
+  struct Blob {
+    bool positive = false, negative = false, doubtful = false;
+    [[nodiscard]] bool reversed() const { return negative && !positive && !doubtful; }
+    [[nodiscard]] bool mixed() const { return negative && !reversed(); }
+  };
+
+  struct Candidate {
+    double depth;
+    std::uint32_t part;
+  };
+
+  std::vector<double> field() {
+    IdVector<TriangleId, std::int32_t> winding = orientation_.winding;
+    for (TriangleId t(0u); t < winding.end_id(); ++t.value) {
+      winding[t] *= sign_[orientation_.part_of[t]];
+    }
+    graph_.set_windings(winding);
+    return winding_field(graph_, options_.solve, report_);
+  }
+
+  void list_links_of_parts() {
+    first_link_.assign(parts_.size() + 1, 0);
+    const auto& links = graph_.links();
+    for (const Link& link : links) {
+      if (link.opaque()) ++first_link_[orientation_.part_of[link.triangle] + 1];
+    }
+    for (std::size_t p = 1; p < first_link_.size(); ++p) first_link_[p] += first_link_[p - 1];
+    part_links_.resize(first_link_.back());
+    std::vector<std::uint32_t> filled(first_link_.begin(), first_link_.end() - 1);
+    for (std::uint32_t l = 0; l < links.size(); ++l) {
+      if (!links[l].opaque()) continue;
+      part_links_[filled[orientation_.part_of[links[l].triangle]]++] = l;
+    }
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> links_of_part(std::uint32_t p) const {
+    return {part_links_.data() + first_link_[p], first_link_[p + 1] - first_link_[p]};
+  }
+
+  // The cells that infinity is not reached from through w < 1/2, in connected regions. Regions that
+  // one part touches are one blob.
+  void find_blobs(const std::vector<double>& w) {
+    blob_of_.assign(graph_.cells(), kNone);
+    std::vector<char> outside(graph_.cells(), 0);
+    std::vector<CellId> queue;
+    const auto grow = [&](auto joins, auto mark) {
+      while (!queue.empty()) {
+        const CellId cell = queue.back();
+        queue.pop_back();
+        for (const std::uint32_t l : graph_.links_of(cell)) {
+          const CellId next = other_end(graph_.links()[l], cell);
+          if (!joins(next)) continue;
+          mark(next);
+          queue.push_back(next);
+        }
+      }
+    };
+    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
+      if (!graph_.unbounded(c)) continue;
+      outside[c.index()] = 1;
+      queue.push_back(c);
+    }
+    grow([&](CellId c) { return outside[c.index()] == 0 && w[c.index()] < 0.5; },
+         [&](CellId c) { outside[c.index()] = 1; });
+    std::uint32_t count = 0;
+    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
+      if (outside[c.index()] != 0 || blob_of_[c.index()] != kNone) continue;
+      blob_of_[c.index()] = count;
+      queue.push_back(c);
+      grow([&](CellId d) { return outside[d.index()] == 0 && blob_of_[d.index()] == kNone; },
+           [&](CellId d) { blob_of_[d.index()] = count; });
+      ++count;
+    }
+    join_blobs(count);
+  }
+
+  void join_blobs(std::uint32_t count) {
+    DisjointSets sets(count);
+    part_blob_.assign(parts_.size(), kNone);
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      for (const std::uint32_t l : links_of_part(p)) {
+        const Link& link = graph_.links()[l];
+        for (const CellId c : {link.below, link.above}) {
+          const std::uint32_t blob = blob_of_[c.index()];
+          if (blob == kNone) continue;
+          if (part_blob_[p] == kNone) part_blob_[p] = blob;
+          sets.join(part_blob_[p], blob);
+        }
+      }
+    }
+    for (std::uint32_t& blob : part_blob_) blob = blob == kNone ? kNone : sets.root(blob);
+    for (std::uint32_t& blob : blob_of_) blob = blob == kNone ? kNone : sets.root(blob);
+    blobs_.assign(count, {});
+  }
+
+  void judge_blobs(const std::vector<double>& given) {
+    for (std::size_t c = 0; c < given.size(); ++c) {
+      if (blob_of_[c] == kNone) continue;
+      blobs_[blob_of_[c]].positive |= given[c] > 0.5;
+      blobs_[blob_of_[c]].negative |= given[c] < -0.5;
+    }
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (part_blob_[p] == kNone) continue;
+      blobs_[part_blob_[p]].doubtful |= parts_[p].shell && !parts_[p].believed;
+    }
+  }
+
+  [[nodiscard]] bool part_is_reversed(std::uint32_t p) const {
+    return part_blob_[p] != kNone && blobs_[part_blob_[p]].reversed();
+  }
+
+  [[nodiscard]] bool is_candidate(std::uint32_t p) const {
+    const OrientedPart& part = parts_[p];
+    if (!part.shell || part.outward == 0 || part_blob_[p] == kNone) return false;
+    const Blob& blob = blobs_[part_blob_[p]];
+    return !part.believed || (part.outward < 0 && (blob.doubtful || blob.mixed()));
+  }
+
+  // The share of the part's area whose outer side has w < 1/2, while the part faces outward.
+  [[nodiscard]] double share_outside(std::uint32_t p, const std::vector<double>& w) const {
+    double all = 0, outside = 0;
+    for (const std::uint32_t l : links_of_part(p)) {
+      const Link& link = graph_.links()[l];
+      all += link.area;
+      if (std::min(w[link.below.index()], w[link.above.index()]) < 0.5) outside += link.area;
+    }
+    return all > 0 ? outside / all : 1;
+  }
+
+  // How many shells the part lies in.
+  [[nodiscard]] double depth_of(std::uint32_t p, const std::vector<double>& w) const {
+    double depth = std::numeric_limits<double>::max();
+    for (const std::uint32_t l : links_of_part(p)) {
+      const Link& link = graph_.links()[l];
+      const double outer = std::min(w[link.below.index()], w[link.above.index()]);
+      if (outer >= 0.5) depth = std::min(depth, std::round(outer));
+    }
+    return depth;
+  }
+
+  void decide_candidates(const std::vector<double>& w_outward) {
+    std::vector<Candidate> enclosed;
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      if (!is_candidate(p) || share_outside(p, w_outward) > kPokingShare) continue;
+      enclosed.push_back({depth_of(p, w_outward), p});
+    }
+    std::stable_sort(enclosed.begin(), enclosed.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.depth < b.depth; });
+    for (std::size_t first = 0; first < enclosed.size();) {
+      const std::vector<double> w = field();
+      std::vector<std::uint32_t> walls;
+      std::size_t last = first;
+      for (; last < enclosed.size() && enclosed[last].depth == enclosed[first].depth; ++last) {
+        if (share_outside(enclosed[last].part, w) < 0.5) walls.push_back(enclosed[last].part);
+      }
+      for (const std::uint32_t p : walls) sign_[p] = static_cast<std::int8_t>(-sign_[p]);
+      first = last;
+    }
+  }
+
+  void count_turned(const std::vector<std::int8_t>& outward) {
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      if (parts_[p].believed) {
+        report_.turned_parts += sign_[p] < 0;
+      } else if (parts_[p].shell) {
+        ++report_.doubtful_parts;
+        report_.cavity_walls += sign_[p] != outward[p];
+      }
+    }
+  }
+
+  CellGraph graph_;
+  const Orientation& orientation_;
+  const std::vector<OrientedPart>& parts_;
+  const InsideOptions& options_;
+  InsideReport& report_;
+  std::vector<std::int8_t> sign_;  // of each part, against its orientation
+  std::vector<std::uint32_t> first_link_, part_links_;
+  std::vector<std::uint32_t> blob_of_;    // of each cell
+  std::vector<std::uint32_t> part_blob_;  // of each part
+  std::vector<Blob> blobs_;
+};
+
+}  // namespace
+
+std::vector<double> turn_parts(const CellGraph& graph, const Orientation& orientation,
+                               std::vector<double> w, const InsideOptions& options,
+                               InsideReport& report) {
+  if (!in_doubt(orientation, w)) return w;
+  return PartTurner(graph, orientation, options, report).run(w);
+}
+
+std::string what_was_turned(const InsideReport& report) {
+  std::string text;
+  if (report.turned_parts > 0) text += "; " + parts(report.turned_parts) + " inside out and turned";
+  if (report.doubtful_parts > 0) {
+    text += "; " + parts(report.doubtful_parts) + " that may face either way turned outward";
+    if (report.cavity_walls > 0) {
+      text += ", but " + std::to_string(report.cavity_walls) + " of them as walls of cavities";
+    }
+  }
+  return text;
+}
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,61 @@
+// How many triangles are at fault while a few of them are changed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <check/box_tree.h>
+#include <check/triangle_pair.h>
+#include <mesh/editable_mesh.h>
+#include <mesh/soup.h>
+
+namespace meshrepair::internal {
+
+// Counts the faults of a few triangles, which are pairs that meet beyond what they share and
+// triangles without area, while some points move and edges turn. Exact.
+class FaultCounter {
+ public:
+  // `mesh` keeps its place, and its points may move, none by more than `reach` from where it is.
+  FaultCounter(const TriangleSoup& mesh, double reach);
+
+  // From now on these are not what they were at first.
+  void add_changed(const std::vector<std::uint32_t>& triangles);
+
+  // Faults of these triangles; finds the others that may meet them, or what becomes of them. With
+  // `moved`, that is each of them with its corners moved by no more than this.
+  std::ptrdiff_t start(const EditableMesh& mesh, const std::vector<std::uint32_t>& triangles,
+                       std::optional<double> moved = std::nullopt);
+
+  // Of these triangles, in the order of those that start() was told of, among themselves and with
+  // the others. Beyond `most` any number may be returned that is.
+  std::ptrdiff_t count(const std::vector<TriangleCorners>& triangles,
+                       std::ptrdiff_t most = std::numeric_limits<std::ptrdiff_t>::max());
+
+ private:
+  struct Placed {
+    CornerTriangle triangle;
+    Box box;
+  };
+
+  void find_others(const EditableMesh& mesh, const std::vector<std::uint32_t>& triangles);
+  void find_others_near(const std::vector<TriangleCorners>& triangles, double moved);
+  bool add(const TriangleCorners& corners, std::vector<Placed>& to) const;
+  static bool meet(const Placed& a, Placed& b);
+
+  const std::vector<Vec3d>& points_;
+  double reach_;
+  std::vector<Box> boxes_;  // of the triangles at first
+  BoxTree tree_;
+  std::vector<std::uint32_t> changed_;  // triangles
+  std::vector<std::uint32_t> near_;     // scratch
+  std::vector<Placed> others_, asked_;
+  std::vector<std::uint32_t> asked_place_;  // of each one asked for, in the list of them
+  std::vector<std::uint32_t> all_others_;
+  std::vector<std::vector<std::uint32_t>> others_near_;  // of each in the list; empty: all
+};
+
+}  // namespace meshrepair::internal

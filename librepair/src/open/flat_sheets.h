@@ -1,0 +1,28 @@
+// Sheets that lie in one plane, but for the rounding of their coordinates.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <bsp/clean_soup.h>
+#include <mesh/edge_table.h>
+
+namespace meshrepair::internal {
+
+// In grid units, how far a point may be from where it was meant: it was put on the grid, and may
+// have been rounded to single precision before, where all coordinates are such numbers.
+[[nodiscard]] double rounding_of(const CleanSoup& soup);
+
+// The original place of the point, in grid units.
+[[nodiscard]] Vec3d original_place(const CleanSoup& soup, PointId point);
+
+// Whether all points, of which there are some, lie in one plane, each off by no more than
+// `rounding`: the plane of three that are far from each other tells.
+[[nodiscard]] bool is_flat(const std::vector<Vec3d>& points, double rounding);
+
+// All triangles but those that close holes, of which there are some, are of open parts, and lie in
+// one plane but for the rounding.
+[[nodiscard]] bool is_flat_sheet(const CleanSoup& soup);
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,17 @@
+// Solid regions around which too little is closed.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cells/covered_cells.h"
+
+namespace meshrepair::internal {
+
+// Makes empty what only open parts surround, if all of their triangles around it lie in one plane
+// but for the rounding of their coordinates, or if what no triangle covers is about as large as
+// they are: under a sheet that is hardly bent, or a bump of one. `solid` has an entry for each
+// cell. Returns how many regions became empty; they are connected through what no triangle covers.
+std::size_t empty_open_regions(const CoveredCells& covered, std::vector<char>& solid);
+
+}  // namespace meshrepair::internal

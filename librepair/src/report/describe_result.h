@@ -1,0 +1,14 @@
+// What the report says of the surface that a repair ends with.
+#pragma once
+
+#include <bsp/clean_soup.h>
+#include <extract/surface.h>
+#include <repair/repair_options.h>
+#include <repair/repair_report.h>
+
+namespace meshrepair::internal {
+
+// RepairReport::triangles and all of `output`. Pre: `parts` is known.
+void describe_result(const CleanSoup& input, const Surface& surface, RepairReport& report);
+
+}  // namespace meshrepair::internal

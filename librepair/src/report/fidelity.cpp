@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <mesh/precision.h>
+#include <mesh/topology.h>
+#include <mesh/triangle_measures.h>
+#include <repair/fidelity.h>
+
+namespace meshrepair {
+namespace {
+
+constexpr std::size_t kFewestSamples = 1'000;
+constexpr std::size_t kMostSamples = 50'000;
+
+// Sums of areas of pieces are exact to some 1e-13; what lacks a millionth was cut off.
+constexpr double kMissingShare = 1e-6;
+
+// Shows two measurements as the halves of one stage.
+class HalfStage : public ProgressObserver {
+ public:
+  HalfStage(ProgressObserver* observer, double begin) : observer_(observer), begin_(begin) {}
+  void advance(double share) override {
+    if (observer_ != nullptr) observer_->advance(begin_ + 0.5 * share);
+  }
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  ProgressObserver* observer_;
+  double begin_;
+};
+
+struct Triangle3d {
+  Vec3d a, b, c;
+  [[nodiscard]] double area() const { return internal::triangle_area(a, b, c); }
+  [[nodiscard]] double perimeter() const {
+    return (b - a).norm() + (c - b).norm() + (a - c).norm();
+  }
+};
+
+Triangle3d triangle_of(const TriangleSoup& mesh, std::size_t t) {
+  const auto& corners = mesh.triangles[t];
+  return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
+}
+
+// Rounding moves a corner by less than one spacing, and so the outline of all pieces of a triangle,
+// which changes their area by less than its perimeter times that.
+std::vector<std::array<std::uint32_t, 3>> find_kept(const TriangleSoup& input,
+                                                    const Surface& surface, double spacing) {
+  std::vector<double> area_out(input.triangles.size(), 0);
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    if (surface.source[t] == Surface::kNoSource) continue;
+    area_out[surface.source[t]] += triangle_of(surface.mesh, t).area();
+  }
+  std::vector<std::array<std::uint32_t, 3>> kept;
+  for (std::size_t t = 0; t < input.triangles.size(); ++t) {
+    if (!(area_out[t] > 0)) continue;
+    const Triangle3d triangle = triangle_of(input, t);
+    const double area = triangle.area();
+    const double allowed = kMissingShare * area + spacing * triangle.perimeter();
+    if (std::abs(area_out[t] - area) <= allowed) kept.push_back(input.triangles[t]);
+  }
+  return kept;
+}
+
+OneSidedDistance measure(const TriangleSoup& from, const TriangleSoup& to,
+                         ProgressObserver* progress, double begin) {
+  HalfStage half(progress, begin);
+  DistanceOptions options;
+  options.samples = fidelity_samples(from.triangles.size());
+  options.progress = &half;
+  return one_sided_distance(from, to, options);
+}
+
+}  // namespace
+
+std::size_t fidelity_samples(std::size_t triangles) {
+  return std::clamp(triangles, kFewestSamples, kMostSamples);
+}
+
+Fidelity measure_fidelity(const TriangleSoup& input, const Surface& surface,
+                          const FidelityOptions& options) {
+  Fidelity fidelity;
+  fidelity.diagonal = bounding_diagonal(input);
+  fidelity.output_to_input = measure(surface.mesh, input, options.progress, 0);
+  TriangleSoup kept;
+  kept.points = input.points;
+  kept.triangles =
+      find_kept(input, surface, internal::number_spacing(surface.mesh, options.precision));
+  fidelity.kept_triangles = kept.triangles.size();
+  if (kept.triangles.empty()) return fidelity;
+  fidelity.kept_area = surface_area(kept);
+  fidelity.kept_to_output = measure(kept, surface.mesh, options.progress, 0.5);
+  return fidelity;
+}
+
+}  // namespace meshrepair

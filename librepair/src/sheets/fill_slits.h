@@ -1,0 +1,24 @@
+// Slits and fins of a solid that are thinner than its numbers tell.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <repair/repair_options.h>
+#include <repair/repair_report.h>
+
+#include "cells/covered_cells.h"
+
+namespace meshrepair::internal {
+
+// Whether wider ones may be filled and dropped in another attempt.
+[[nodiscard]] bool widens_slits(const CoveredCells& covered, const RepairOptions& options);
+
+// Changes `solid`, of each cell, where sheets are nearer to each other than steps of the working
+// grid, or so near that they would cross once they are written; says so in the report. `states` and
+// `stays` as ThinCellsOptions has them.
+void fill_slits(const CoveredCells& covered, const RepairOptions& options,
+                std::span<const CellState> states, std::span<const char> stays,
+                std::vector<char>& solid, RepairReport& report);
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,102 @@
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <check/soup_rays.h>
+
+#include "random_geometry.h"
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+std::vector<std::int32_t> once(const TriangleSoup& soup) {
+  return std::vector<std::int32_t>(soup.triangles.size(), 1);
+}
+
+TEST(SoupRays, CountsHowOftenBoxesAreAround) {
+  TriangleSoup soup = box({0, 0, 0}, {8, 8, 8});
+  append(soup, box({4, 4, 4}, {12, 12, 12}));
+  append(soup, flipped(box({1, 1, 1}, {3, 3, 3})));
+  const std::vector<std::int32_t> winding = once(soup);
+  const SoupRays rays(soup, winding);
+  const auto in = [](const Vec3d& p, double low, double high) {
+    return (p.array() > low).all() && (p.array() < high).all() ? 1 : 0;
+  };
+  // Many rays run up along faces, edges and corners; no start is on one.
+  for (double x = -1; x <= 13; ++x) {
+    for (double y = -1; y <= 13; ++y) {
+      for (double z = -0.5; z <= 13; ++z) {
+        const bool on_wall = x == 0 || x == 1 || x == 3 || x == 4 || x == 8 || x == 12 || y == 0 ||
+                             y == 1 || y == 3 || y == 4 || y == 8 || y == 12;
+        const Vec3d p(x, y, z);
+        if (on_wall) continue;
+        EXPECT_EQ(rays.winding_at(p), in(p, 0, 8) + in(p, 4, 12) - in(p, 1, 3)) << p.transpose();
+      }
+    }
+  }
+}
+
+TEST(SoupRays, WindingsCountAsOftenAsTheySay) {
+  const TriangleSoup soup = box({0, 0, 0}, {8, 8, 8});
+  const std::vector<std::int32_t> winding(soup.triangles.size(), -3);
+  const SoupRays rays(soup, winding);
+  EXPECT_EQ(rays.winding_at({4, 4, 4}), -3);
+  EXPECT_EQ(rays.winding_at({4, 4, 9}), 0);
+  EXPECT_EQ(rays.winding_at({4, 4, -9}), 0);
+}
+
+// Above a triangle that faces up lies what is in front of it, else what is behind.
+TEST(SoupRays, KnowsWhatIsAboveATriangle) {
+  TriangleSoup soup = sphere(500, 2);
+  append(soup, sphere(500, 1));
+  const std::vector<std::int32_t> winding = once(soup);
+  const SoupRays rays(soup, winding);
+  std::size_t asked = 0;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto above = rays.winding_above(t);
+    ASSERT_EQ(above.has_value(), rays.facing(t) != 0);
+    if (!above) continue;
+    ++asked;
+    const bool inner = soup.points[soup.triangles[t][0]].norm() < 1.5;
+    EXPECT_EQ(*above, (inner ? 1 : 0) + (rays.facing(t) > 0 ? 0 : 1));
+  }
+  EXPECT_GT(asked, soup.triangles.size() / 2);
+}
+
+TEST(SoupRays, SeesOnlyWhatIsCertainlyFree) {
+  const TriangleSoup soup = box({0, 0, 0}, {8, 8, 8});
+  const std::vector<std::int32_t> winding = once(soup);
+  const SoupRays rays(soup, winding);
+  EXPECT_TRUE(rays.sees({4, 4, 9}, {4, 4, 100}));
+  EXPECT_TRUE(rays.sees({4, 4, 9}, {100, 50, 9}));
+  EXPECT_TRUE(rays.sees({1, 1, 1}, {7, 7, 7}));
+  EXPECT_FALSE(rays.sees({4, 4, 9}, {4, 4, -9}));
+  EXPECT_FALSE(rays.sees({4, 4, 4}, {40, 40, 40}));  // through a corner
+  EXPECT_FALSE(rays.sees({-1, 3, 8}, {40, 3, 8}));   // in a face
+  EXPECT_FALSE(rays.sees({-1, 1, 4}, {1, -1, 4}));   // through an edge
+  Random random(1);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3d inside(random.real(0.1, 7.9), random.real(0.1, 7.9), random.real(0.1, 7.9));
+    const Vec3d outside = Vec3d(4, 4, 4) + 20 * Vec3d(random.real(-1, 1), random.real(-1, 1), 1);
+    EXPECT_FALSE(rays.sees(inside, outside));
+    EXPECT_TRUE(rays.sees(outside, outside + Vec3d(random.real(-9, 9), random.real(-9, 9), 9)));
+  }
+}
+
+TEST(SoupRays, MayLookThroughOneTriangle) {
+  const TriangleSoup soup = box({0, 0, 0}, {8, 8, 8});
+  const std::vector<std::int32_t> winding = once(soup);
+  const SoupRays rays(soup, winding);
+  std::size_t through = 0;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    through += rays.sees({4, 3, 4}, {4.1, 3.2, 40}, t) ? 1 : 0;
+  }
+  EXPECT_EQ(through, 1u);
+}
+
+}  // namespace
+}  // namespace meshrepair

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <mesh/weld_points.h>
+
+namespace meshrepair {
+namespace {
+
+TEST(WeldPoints, NumbersAreGivenInOrderOfFirstAppearance) {
+  std::vector<Vec3d> points;
+  PointWelder welder(points);
+  EXPECT_EQ(welder.index_of({1, 2, 3}), 0u);
+  EXPECT_EQ(welder.index_of({3, 2, 1}), 1u);
+  EXPECT_EQ(welder.index_of({1, 2, 3}), 0u);
+  EXPECT_EQ(welder.index_of({2, 1, 3}), 2u);
+  EXPECT_EQ(points, (std::vector<Vec3d>{{1, 2, 3}, {3, 2, 1}, {2, 1, 3}}));
+}
+
+TEST(WeldPoints, MinusZeroIsZero) {
+  std::vector<Vec3d> points;
+  PointWelder welder(points);
+  EXPECT_EQ(welder.index_of({-0.0, 0, -0.0}), 0u);
+  EXPECT_EQ(welder.index_of({0, -0.0, 0}), 0u);
+  for (const double value : points[0]) EXPECT_FALSE(std::signbit(value));
+}
+
+TEST(WeldPoints, PointsThatDifferInTheLastBitStayApart) {
+  std::vector<Vec3d> points;
+  PointWelder welder(points);
+  EXPECT_EQ(welder.index_of({1, 0, 0}), 0u);
+  EXPECT_EQ(welder.index_of({std::nextafter(1.0, 2.0), 0, 0}), 1u);
+  EXPECT_EQ(welder.index_of({1, 0, std::numeric_limits<double>::denorm_min()}), 2u);
+}
+
+TEST(WeldPoints, NanIsEqualToItself) {
+  std::vector<Vec3d> points;
+  PointWelder welder(points);
+  EXPECT_EQ(welder.index_of({std::nan(""), 0, INFINITY}), 0u);
+  EXPECT_EQ(welder.index_of({std::nan(""), 0, INFINITY}), 0u);
+  EXPECT_EQ(welder.index_of({std::nan(""), 0, -INFINITY}), 1u);
+}
+
+// Grows many times over, from an expectation that is far too small.
+TEST(WeldPoints, ManyPointsKeepTheirNumbers) {
+  std::vector<Vec3d> points;
+  PointWelder welder(points, 1);
+  std::mt19937 random(7);
+  std::vector<Vec3d> grid;
+  for (int x = 0; x < 40; ++x) {
+    for (int y = 0; y < 40; ++y) {
+      for (int z = 0; z < 40; ++z) grid.emplace_back(x, y * 0x1p-20, -z);
+    }
+  }
+  std::shuffle(grid.begin(), grid.end(), random);
+  for (std::uint32_t i = 0; i < grid.size(); ++i) ASSERT_EQ(welder.index_of(grid[i]), i);
+  for (std::uint32_t i = 0; i < grid.size(); ++i) ASSERT_EQ(welder.index_of(grid[i]), i);
+  EXPECT_EQ(points.size(), grid.size());
+}
+
+}  // namespace
+}  // namespace meshrepair

@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include "mend/fault_counter.h"
+#include "shapes.h"
+
+namespace meshrepair::internal {
+namespace {
+
+using namespace testing;
+
+TEST(FaultCounter, CountsPairsThatMeet) {
+  TriangleSoup mesh = cube();
+  append(mesh, moved(cube(), {0.5, 0.25, 0.125}));
+  FaultCounter counter(mesh, 1);
+  const EditableMesh editable(mesh.triangles, mesh.points.size());
+  std::ptrdiff_t faults = 0;
+  for (std::uint32_t t = 0; t < 12; ++t) faults += counter.start(editable, {t});
+  EXPECT_GT(faults, 0);
+  EXPECT_EQ(counter.start(editable, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}), faults);
+}
+
+// Sheets of all distances, some of them less than what points are moved by.
+TEST(FaultCounter, LeavesOutNothingThatMovingCanChange) {
+  Random random(1);
+  std::ptrdiff_t changed = 0;
+  for (const double beside : {1e-6, 1e-3, 0.02, 0.3}) {
+    TriangleSoup mesh = noisy_sphere(400, 0.05, 7);
+    append(mesh, moved(mesh, {beside, 2 * beside, -beside}));
+    const double step = 0.01;
+    FaultCounter some(mesh, 2 * step), all(mesh, 2 * step);
+    const EditableMesh editable(mesh.triangles, mesh.points.size());
+    for (int i = 0; i < 100; ++i) {
+      const auto p = static_cast<std::uint32_t>(
+          random.integer(0, static_cast<std::int32_t>(mesh.points.size()) - 1));
+      const std::vector<std::uint32_t>& star = editable.triangles_of(p);
+      std::vector<TriangleCorners> corners;
+      for (const std::uint32_t t : star) corners.push_back(mesh.triangles[t]);
+      const std::ptrdiff_t before = some.start(editable, star, 2 * step);
+      ASSERT_EQ(all.start(editable, star), before);
+      const Vec3d from = mesh.points[p];
+      for (int move = 0; move < 4; ++move) {
+        mesh.points[p] =
+            from + step * Vec3d(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1));
+        const std::ptrdiff_t after = all.count(corners);
+        ASSERT_EQ(some.count(corners), after);
+        ASSERT_GT(some.count(corners, after - 1), after - 1);
+        changed += after != before;
+      }
+      mesh.points[p] = from;
+    }
+  }
+  EXPECT_GT(changed, 100);
+}
+
+}  // namespace
+}  // namespace meshrepair::internal
