@@ -10,8 +10,7 @@
 
 #include "cells/covered_cells.h"
 #include "finish/make_surface.h"
-#include "open/flat_sheets.h"
-#include "open/open_regions.h"
+#include "open/open_sheets.h"
 #include "tangles/cut_tangles.h"
 #include "valid/keep_valid.h"
 

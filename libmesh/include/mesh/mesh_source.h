@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <mesh/soup_io.h>
+#include <mesh/reading.h>
 
 namespace meshrepair {
 

@@ -11,58 +11,18 @@
 // number of points, all points, then all normals.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <base/progress.h>
-#include <mesh/point_cloud.h>
-#include <mesh/soup_io.h>
+#include <mesh/point_reading.h>
+#include <mesh/reading.h>
 
 namespace meshrepair {
 
-enum class PointFormat {
-  xyz,
-  pts,
-  pcd_ascii,
-  pcd_binary,
-  pcd_compressed,
-  ply_ascii,
-  ply_binary,
-  obj,
-  off,
-  stl
-};
-
 // "XYZ", "binary PCD", ...: for messages.
 [[nodiscard]] std::string_view format_name(PointFormat format);
-
-struct PointReadReport {
-  PointFormat format = PointFormat::xyz;
-  std::size_t bytes = 0;
-  std::size_t declared_points = 0;  // by the header; 0 if it has none
-  std::size_t bad_points = 0;       // left out: not numbers, or too few
-  std::size_t missing_points = 0;   // promised by the header, not in the file
-  std::size_t trailing_bytes = 0;   // after the last point of a binary file
-  bool normals = false;             // the file has some, asked for or not
-  bool colours = false;
-  // One sentence for each kind of oddity, for the user, without the file's name.
-  std::vector<std::string> warnings;
-};
-
-struct PointReadResult {
-  PointCloud cloud;
-  PointReadReport report;
-};
-
-struct PointReadOptions {
-  bool normals = true;   // keep them, where there are any
-  bool colours = false;  // the same
-  ProgressObserver* progress = nullptr;
-};
 
 // Reads a file; "-" is standard input. Of meshes, takes the points. Throws InputError (one line
 // that names the file and the place) when it cannot be opened, is empty, holds no format that is

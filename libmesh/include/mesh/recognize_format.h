@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include <mesh/soup_io.h>
+#include <mesh/reading.h>
 
 namespace meshrepair {
 
@@ -18,9 +18,6 @@ inline constexpr std::string_view kTreeSignature("BSP\r\n\x1A\n\0", 8);
 
 // As far as text mode transfers leave the signature alone.
 [[nodiscard]] bool looks_like_tree(std::string_view bytes);
-
-// No byte that text does not have, near the start.
-[[nodiscard]] bool looks_like_text(std::string_view bytes);
 
 // What the file is when it is no mesh format of ours but one that people try: "a ZIP archive
 // (3MF?)". Empty if it is not known.

@@ -8,6 +8,7 @@
 #include <base/error.h>
 #include <mesh/recognize_format.h>
 
+#include "formats/common/text_scanner.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"

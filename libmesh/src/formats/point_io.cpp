@@ -11,11 +11,10 @@
 #include <mesh/point_io.h>
 #include <mesh/recognize_format.h>
 
-#include "formats/obj/obj_points.h"
-#include "formats/pcd/pcd_header.h"
+#include "formats/common/text_scanner.h"
+#include "formats/obj/obj_io.h"
 #include "formats/pcd/pcd_points.h"
-#include "formats/ply/ply_header.h"
-#include "formats/ply/ply_points.h"
+#include "formats/ply/ply_io.h"
 #include "formats/xyz/xyz_points.h"
 #include "mesh_readers.h"
 

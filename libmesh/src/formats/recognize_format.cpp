@@ -4,10 +4,10 @@
 
 #include <mesh/recognize_format.h>
 
+#include "formats/common/text_scanner.h"
 #include "formats/off/off_io.h"
-#include "formats/ply/ply_header.h"
+#include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
-#include "text_scanner.h"
 
 namespace meshrepair {
 namespace {
@@ -30,15 +30,6 @@ bool is_count(std::string_view word) {
 }
 
 }  // namespace
-
-bool looks_like_text(std::string_view bytes) {
-  constexpr std::size_t kStart = 4096;
-  const std::string_view start = bytes.substr(0, kStart);
-  return std::none_of(start.begin(), start.end(), [](char c) {
-    const bool is_white = c >= '\t' && c <= '\r';
-    return static_cast<unsigned char>(c) < ' ' && !is_white && c != '\x1A';
-  });
-}
 
 std::optional<SoupFormat> recognize_content(std::string_view bytes) {
   if (begins_with_ply(bytes)) return SoupFormat::ply_binary;

@@ -11,12 +11,12 @@
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 
+#include "formats/common/text_scanner.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
 #include "mesh_readers.h"
-#include "text_scanner.h"
 
 namespace meshrepair {
 

@@ -80,4 +80,7 @@ struct CellLabels {
 [[nodiscard]] CellLabels label_cells(const CellGraph& graph, const Orientation& orientation,
                                      const InsideOptions& options, InsideReport& report);
 
+// In words, to go behind the reason for a rule: the parts that were turned; empty where none was.
+[[nodiscard]] std::string what_was_turned(const InsideReport& report);
+
 }  // namespace meshrepair

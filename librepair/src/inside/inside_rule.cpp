@@ -14,6 +14,10 @@
 namespace meshrepair {
 namespace {
 
+std::string parts(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " part" : " parts");
+}
+
 // Solidity has to explain the mesh clearly better than the winding numbers do, by this factor: what
 // it adds are often slivers.
 constexpr double kClearlyBetter = 0.95;
@@ -156,7 +160,7 @@ class InsideDecider {
   [[nodiscard]] std::string why_winding() const {
     const std::string why = report_.exact ? "the orientation is consistent everywhere"
                                           : "the winding numbers are near integers";
-    return why + internal::what_was_turned(report_);
+    return why + what_was_turned(report_);
   }
 
   [[nodiscard]] std::string why_not_winding(const std::vector<double>& w) const {
@@ -219,6 +223,18 @@ CellLabels label_cells(const CellGraph& graph, const Orientation& orientation,
                        const InsideOptions& options, InsideReport& report) {
   report = {};
   return InsideDecider(graph, orientation, options, report).run();
+}
+
+std::string what_was_turned(const InsideReport& report) {
+  std::string text;
+  if (report.turned_parts > 0) text += "; " + parts(report.turned_parts) + " inside out and turned";
+  if (report.doubtful_parts > 0) {
+    text += "; " + parts(report.doubtful_parts) + " that may face either way turned outward";
+    if (report.cavity_walls > 0) {
+      text += ", but " + std::to_string(report.cavity_walls) + " of them as walls of cavities";
+    }
+  }
+  return text;
 }
 
 }  // namespace meshrepair

@@ -32,10 +32,6 @@ namespace {
 // all the same: the wall of a cavity that comes through somewhere.
 constexpr double kPokingShare = 0.05;
 
-std::string parts(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " part" : " parts");
-}
-
 bool in_doubt(const Orientation& orientation, const std::vector<double>& w) {
   return std::any_of(w.begin(), w.end(), [](double x) { return x < -0.5; }) ||
          std::any_of(orientation.parts.begin(), orientation.parts.end(),
@@ -260,18 +256,6 @@ std::vector<double> turn_parts(const CellGraph& graph, const Orientation& orient
                                InsideReport& report) {
   if (!in_doubt(orientation, w)) return w;
   return PartTurner(graph, orientation, options, report).run(w);
-}
-
-std::string what_was_turned(const InsideReport& report) {
-  std::string text;
-  if (report.turned_parts > 0) text += "; " + parts(report.turned_parts) + " inside out and turned";
-  if (report.doubtful_parts > 0) {
-    text += "; " + parts(report.doubtful_parts) + " that may face either way turned outward";
-    if (report.cavity_walls > 0) {
-      text += ", but " + std::to_string(report.cavity_walls) + " of them as walls of cavities";
-    }
-  }
-  return text;
 }
 
 }  // namespace meshrepair::internal

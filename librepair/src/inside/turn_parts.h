@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include <repair/cell_graph.h>
@@ -17,8 +16,5 @@ namespace meshrepair::internal {
 [[nodiscard]] std::vector<double> turn_parts(const CellGraph& graph, const Orientation& orientation,
                                              std::vector<double> w, const InsideOptions& options,
                                              InsideReport& report);
-
-// For the user, to go behind the reason for a rule; empty where nothing was turned.
-[[nodiscard]] std::string what_was_turned(const InsideReport& report);
 
 }  // namespace meshrepair::internal

@@ -12,6 +12,8 @@
 #include <mesh/topology.h>
 #include <repair/orient_parts.h>
 
+#include "open_sheets.h"
+
 namespace meshrepair::internal {
 namespace {
 

@@ -21,8 +21,4 @@ namespace meshrepair::internal {
 // `rounding`: the plane of three that are far from each other tells.
 [[nodiscard]] bool is_flat(const std::vector<Vec3d>& points, double rounding);
 
-// All triangles but those that close holes, of which there are some, are of open parts, and lie in
-// one plane but for the rounding.
-[[nodiscard]] bool is_flat_sheet(const CleanSoup& soup);
-
 }  // namespace meshrepair::internal

@@ -1,5 +1,3 @@
-#include "open_regions.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -8,6 +6,7 @@
 #include <repair/orient_parts.h>
 
 #include "flat_sheets.h"
+#include "open_sheets.h"
 
 namespace meshrepair::internal {
 namespace {

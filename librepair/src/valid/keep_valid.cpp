@@ -4,7 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "inside/turn_parts.h"
+#include <repair/inside_rule.h>
+
 #include "report/describe_result.h"
 
 namespace meshrepair {
@@ -52,7 +53,7 @@ void describe_mended(const CleanSoup& soup, const MendedSolid& solid, const Repa
   inside.cavity_walls = solid.cavity_walls;
   describe_inside(
       options,
-      "once mended, the mesh is the boundary of a solid" + internal::what_was_turned(inside),
+      "once mended, the mesh is the boundary of a solid" + what_was_turned(inside),
       inside);
   for (const Triangle& t : soup.triangles) {
     report.parts.bounding_triangles += t.source != Triangle::kNoSource;

@@ -11,6 +11,7 @@
 #include <repair/repair.h>
 
 #include "open/flat_sheets.h"
+#include "open/open_sheets.h"
 #include "open_surfaces.h"
 #include "shapes.h"
 #include "triangles_by_place.h"

@@ -5,9 +5,9 @@
 
 #include <mesh/read_guard.h>
 
-#include "formats/face_list.h"
-#include "formats/text_scanner.h"
-#include "formats/text_writer.h"
+#include "formats/common/face_list.h"
+#include "formats/common/text_scanner.h"
+#include "formats/common/text_writer.h"
 
 namespace meshrepair {
 namespace {

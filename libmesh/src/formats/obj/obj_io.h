@@ -1,11 +1,12 @@
-// Wavefront OBJ: points and faces; everything else is ignored.
+// Wavefront OBJ: meshes and points; everything else is ignored.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include <mesh/mesh_source.h>
-#include <mesh/soup_io.h>
+#include <mesh/point_reading.h>
+#include <mesh/reading.h>
 
 namespace meshrepair {
 
@@ -18,5 +19,10 @@ namespace meshrepair {
 
 [[nodiscard]] std::string format_obj(const TriangleSoup& soup,
                                      const std::vector<std::string>& comments);
+
+// The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to 1; `vn` a normal.
+// Normals belong to the points in order, and are none of theirs where there are not as many.
+[[nodiscard]] PointReadResult read_obj_points(const MeshSource& source,
+                                              const PointReadOptions& options);
 
 }  // namespace meshrepair

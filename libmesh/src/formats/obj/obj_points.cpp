@@ -1,5 +1,3 @@
-#include "obj_points.h"
-
 #include <algorithm>
 #include <array>
 #include <string>
@@ -7,8 +5,9 @@
 
 #include <mesh/read_guard.h>
 
-#include "formats/point_columns.h"
-#include "formats/text_scanner.h"
+#include "formats/common/point_columns.h"
+#include "formats/common/text_scanner.h"
+#include "obj_io.h"
 
 namespace meshrepair {
 namespace {

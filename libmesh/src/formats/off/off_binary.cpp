@@ -10,7 +10,7 @@
 #include <base/byte_order.h>
 #include <mesh/read_guard.h>
 
-#include "formats/face_list.h"
+#include "formats/common/face_list.h"
 #include "off_header.h"
 #include "off_io.h"
 

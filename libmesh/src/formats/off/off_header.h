@@ -6,7 +6,7 @@
 
 #include <mesh/mesh_source.h>
 
-#include "formats/text_scanner.h"
+#include "formats/common/text_scanner.h"
 
 namespace meshrepair {
 

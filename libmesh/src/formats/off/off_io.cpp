@@ -19,8 +19,8 @@
 
 #include <mesh/read_guard.h>
 
-#include "formats/face_list.h"
-#include "formats/text_writer.h"
+#include "formats/common/face_list.h"
+#include "formats/common/text_writer.h"
 #include "off_header.h"
 
 namespace meshrepair {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <mesh/mesh_source.h>
-#include <mesh/soup_io.h>
+#include <mesh/reading.h>
 
 namespace meshrepair {
 

@@ -21,7 +21,7 @@
 #include <mesh/mesh_source.h>
 #include <mesh/openmesh.h>
 
-#include "formats/face_list.h"
+#include "formats/common/face_list.h"
 
 namespace meshrepair {
 namespace {

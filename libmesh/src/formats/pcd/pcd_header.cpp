@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "formats/text_scanner.h"
+#include "formats/common/text_scanner.h"
 
 namespace meshrepair {
 namespace {
@@ -14,23 +14,23 @@ namespace {
 constexpr std::size_t kMostValues = 1u << 20;
 constexpr std::size_t kMostFields = 4096;
 
-std::optional<PlyType> type_of(char letter, std::size_t size) {
+std::optional<ValueType> type_of(char letter, std::size_t size) {
   switch (letter) {
     case 'F':
-      if (size == 4) return PlyType::float32;
-      if (size == 8) return PlyType::float64;
+      if (size == 4) return ValueType::float32;
+      if (size == 8) return ValueType::float64;
       return std::nullopt;
     case 'I':
-      if (size == 1) return PlyType::int8;
-      if (size == 2) return PlyType::int16;
-      if (size == 4) return PlyType::int32;
-      if (size == 8) return PlyType::int64;
+      if (size == 1) return ValueType::int8;
+      if (size == 2) return ValueType::int16;
+      if (size == 4) return ValueType::int32;
+      if (size == 8) return ValueType::int64;
       return std::nullopt;
     case 'U':
-      if (size == 1) return PlyType::uint8;
-      if (size == 2) return PlyType::uint16;
-      if (size == 4) return PlyType::uint32;
-      if (size == 8) return PlyType::uint64;
+      if (size == 1) return ValueType::uint8;
+      if (size == 2) return ValueType::uint16;
+      if (size == 4) return ValueType::uint32;
+      if (size == 8) return ValueType::uint64;
       return std::nullopt;
     default:
       return std::nullopt;
@@ -140,7 +140,7 @@ class PcdHeaderReader {
         source_.fail("the PCD field '" + printable(names_[i]) + "' has an unknown type");
       }
       header_.fields.push_back(
-          {names_[i], type.value_or(PlyType::uint8), sizes_[i], counts_[i], header_.record});
+          {names_[i], type.value_or(ValueType::uint8), sizes_[i], counts_[i], header_.record});
       header_.record += header_.fields.back().bytes();
     }
     if (header_.record == 0) source_.fail("the points of the PCD file are empty");
@@ -162,14 +162,6 @@ class PcdHeaderReader {
 };
 
 }  // namespace
-
-bool begins_with_pcd(std::string_view bytes) {
-  if (bytes.starts_with("# .PCD")) return true;
-  TextScanner text(bytes.substr(0, 4096), {.comment = '#'});
-  if (!text.next_anywhere()) return false;
-  const std::string_view word = text.peek_token();
-  return word == "VERSION" || word == "FIELDS" || word == "COLUMNS";
-}
 
 PcdHeader read_pcd_header(const MeshSource& source) { return PcdHeaderReader(source).run(); }
 

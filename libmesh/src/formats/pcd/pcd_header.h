@@ -24,7 +24,7 @@
 
 #include <mesh/mesh_source.h>
 
-#include "formats/ply/ply_header.h"
+#include "formats/common/value_type.h"
 
 namespace meshrepair {
 
@@ -32,7 +32,7 @@ enum class PcdEncoding { ascii, binary, compressed };
 
 struct PcdField {
   std::string name;
-  PlyType type = PlyType::float32;
+  ValueType type = ValueType::float32;
   std::size_t size = 4;   // of one value, in bytes
   std::size_t count = 1;  // of values
   std::size_t at = 0;     // position in a record
@@ -47,8 +47,6 @@ struct PcdHeader {
   std::size_t points = 0;  // as declared: not to be trusted
   std::size_t data_at = 0;
 };
-
-[[nodiscard]] bool begins_with_pcd(std::string_view bytes);
 
 // Throws InputError, with the line, for a header that cannot be understood or has no end.
 [[nodiscard]] PcdHeader read_pcd_header(const MeshSource& source);

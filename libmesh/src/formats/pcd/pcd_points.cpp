@@ -12,35 +12,35 @@
 #include <base/byte_order.h>
 #include <mesh/read_guard.h>
 
-#include "formats/text_scanner.h"
+#include "formats/common/text_scanner.h"
 #include "lzf.h"
 #include "pcd_header.h"
 
 namespace meshrepair {
 namespace {
 
-double value_at(PlyType type, const char* bytes) {
+double value_at(ValueType type, const char* bytes) {
   constexpr std::endian kOrder = std::endian::little;
   switch (type) {
-    case PlyType::int8:
+    case ValueType::int8:
       return load<std::int8_t>(bytes, kOrder);
-    case PlyType::uint8:
+    case ValueType::uint8:
       return load<std::uint8_t>(bytes, kOrder);
-    case PlyType::int16:
+    case ValueType::int16:
       return load<std::int16_t>(bytes, kOrder);
-    case PlyType::uint16:
+    case ValueType::uint16:
       return load<std::uint16_t>(bytes, kOrder);
-    case PlyType::int32:
+    case ValueType::int32:
       return load<std::int32_t>(bytes, kOrder);
-    case PlyType::uint32:
+    case ValueType::uint32:
       return load<std::uint32_t>(bytes, kOrder);
-    case PlyType::int64:
+    case ValueType::int64:
       return static_cast<double>(load<std::int64_t>(bytes, kOrder));
-    case PlyType::uint64:
+    case ValueType::uint64:
       return static_cast<double>(load<std::uint64_t>(bytes, kOrder));
-    case PlyType::float32:
+    case ValueType::float32:
       return load<float>(bytes, kOrder);
-    case PlyType::float64:
+    case ValueType::float64:
       break;
   }
   return load<double>(bytes, kOrder);
@@ -187,7 +187,7 @@ class PcdReader {
   // As text, a colour is an integer, or the float whose bits it has.
   [[nodiscard]] std::uint32_t packed_colour(double value) const {
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
-    if (colour_->type == PlyType::float32)
+    if (colour_->type == ValueType::float32)
       return std::bit_cast<std::uint32_t>(static_cast<float>(value));
     return value >= 0 && value <= kMost ? static_cast<std::uint32_t>(value) : 0;
   }
@@ -220,6 +220,14 @@ class PcdReader {
 };
 
 }  // namespace
+
+bool begins_with_pcd(std::string_view bytes) {
+  if (bytes.starts_with("# .PCD")) return true;
+  TextScanner text(bytes.substr(0, 4096), {.comment = '#'});
+  if (!text.next_anywhere()) return false;
+  const std::string_view word = text.peek_token();
+  return word == "VERSION" || word == "FIELDS" || word == "COLUMNS";
+}
 
 PointReadResult read_pcd_points(const MeshSource& source, const PointReadOptions& options) {
   return PcdReader(source, options).run();

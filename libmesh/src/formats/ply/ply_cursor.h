@@ -18,7 +18,7 @@
 #include <base/byte_order.h>
 #include <mesh/mesh_source.h>
 
-#include "formats/text_scanner.h"
+#include "formats/common/text_scanner.h"
 #include "ply_header.h"
 
 namespace meshrepair {
@@ -36,15 +36,15 @@ class PlyBinaryCursor {
   void end_item() {}
   [[nodiscard]] bool garbage() const { return false; }
   [[nodiscard]] std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
-  [[nodiscard]] std::size_t room(PlyType type) const { return remaining() / size_of(type); }
+  [[nodiscard]] std::size_t room(ValueType type) const { return remaining() / size_of(type); }
 
-  bool skip(PlyType type, std::size_t count) {
+  bool skip(ValueType type, std::size_t count) {
     if (count > room(type)) return false;
     at_ += count * size_of(type);
     return true;
   }
 
-  bool read(PlyType type, double& value) {
+  bool read(ValueType type, double& value) {
     const char* const bytes = at_;
     if (!skip(type, 1)) return false;
     value = value_at(type, bytes);
@@ -52,27 +52,27 @@ class PlyBinaryCursor {
   }
 
  private:
-  static double value_at(PlyType type, const char* bytes) {
+  static double value_at(ValueType type, const char* bytes) {
     switch (type) {
-      case PlyType::int8:
+      case ValueType::int8:
         return load<std::int8_t>(bytes, Order);
-      case PlyType::uint8:
+      case ValueType::uint8:
         return load<std::uint8_t>(bytes, Order);
-      case PlyType::int16:
+      case ValueType::int16:
         return load<std::int16_t>(bytes, Order);
-      case PlyType::uint16:
+      case ValueType::uint16:
         return load<std::uint16_t>(bytes, Order);
-      case PlyType::int32:
+      case ValueType::int32:
         return load<std::int32_t>(bytes, Order);
-      case PlyType::uint32:
+      case ValueType::uint32:
         return load<std::uint32_t>(bytes, Order);
-      case PlyType::int64:
+      case ValueType::int64:
         return static_cast<double>(load<std::int64_t>(bytes, Order));
-      case PlyType::uint64:
+      case ValueType::uint64:
         return static_cast<double>(load<std::uint64_t>(bytes, Order));
-      case PlyType::float32:
+      case ValueType::float32:
         return load<float>(bytes, Order);
-      case PlyType::float64:
+      case ValueType::float64:
         break;
     }
     return load<double>(bytes, Order);
@@ -94,7 +94,7 @@ class PlyTextCursor {
 
   bool more() { return text_.next_anywhere(); }
   [[nodiscard]] std::size_t remaining() const { return text_.remaining(); }
-  [[nodiscard]] std::size_t room(PlyType /*type*/) const { return text_.remaining(); }
+  [[nodiscard]] std::size_t room(ValueType /*type*/) const { return text_.remaining(); }
 
   // Told by the first element without lists, whose items have a known number of values.
   void begin_element(const PlyElement& element) {
@@ -111,7 +111,7 @@ class PlyTextCursor {
     if (lines_count_) text_.skip_line();
   }
 
-  bool skip(PlyType type, std::size_t count) {
+  bool skip(ValueType type, std::size_t count) {
     double ignored = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (!read(type, ignored)) return false;
@@ -120,7 +120,7 @@ class PlyTextCursor {
   }
 
   // A token that is no number is read as NaN.
-  bool read(PlyType /*type*/, double& value) {
+  bool read(ValueType /*type*/, double& value) {
     if (!(lines_count_ ? text_.next_on_line() : text_.next_anywhere())) return false;
     if (!text_.read_real(value)) garbage_ = true;
     return true;

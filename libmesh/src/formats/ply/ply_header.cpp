@@ -4,31 +4,31 @@
 #include <optional>
 #include <utility>
 
-#include "formats/text_scanner.h"
+#include "formats/common/text_scanner.h"
 
 namespace meshrepair {
 namespace {
 
-std::optional<PlyType> parse_type(std::string_view word) {
-  static constexpr std::array<std::pair<std::string_view, PlyType>, 18> kTypes = {{
-      {"char", PlyType::int8},
-      {"int8", PlyType::int8},
-      {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},
-      {"short", PlyType::int16},
-      {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16},
-      {"uint16", PlyType::uint16},
-      {"int", PlyType::int32},
-      {"int32", PlyType::int32},
-      {"uint", PlyType::uint32},
-      {"uint32", PlyType::uint32},
-      {"int64", PlyType::int64},
-      {"uint64", PlyType::uint64},
-      {"float", PlyType::float32},
-      {"float32", PlyType::float32},
-      {"double", PlyType::float64},
-      {"float64", PlyType::float64},
+std::optional<ValueType> parse_type(std::string_view word) {
+  static constexpr std::array<std::pair<std::string_view, ValueType>, 18> kTypes = {{
+      {"char", ValueType::int8},
+      {"int8", ValueType::int8},
+      {"uchar", ValueType::uint8},
+      {"uint8", ValueType::uint8},
+      {"short", ValueType::int16},
+      {"int16", ValueType::int16},
+      {"ushort", ValueType::uint16},
+      {"uint16", ValueType::uint16},
+      {"int", ValueType::int32},
+      {"int32", ValueType::int32},
+      {"uint", ValueType::uint32},
+      {"uint32", ValueType::uint32},
+      {"int64", ValueType::int64},
+      {"uint64", ValueType::uint64},
+      {"float", ValueType::float32},
+      {"float32", ValueType::float32},
+      {"double", ValueType::float64},
+      {"float64", ValueType::float64},
   }};
   for (const auto& [name, type] : kTypes) {
     if (word == name) return type;
@@ -100,9 +100,9 @@ class PlyHeaderReader {
     header_.elements.push_back(std::move(element));
   }
 
-  PlyType take_type() {
+  ValueType take_type() {
     const std::string_view word = take_word();
-    const std::optional<PlyType> type = parse_type(word);
+    const std::optional<ValueType> type = parse_type(word);
     if (!type) fail("unknown PLY type '" + printable(word) + "'");
     return *type;
   }
@@ -140,30 +140,6 @@ class PlyHeaderReader {
 };
 
 }  // namespace
-
-std::size_t size_of(PlyType type) {
-  switch (type) {
-    case PlyType::int8:
-    case PlyType::uint8:
-      return 1;
-    case PlyType::int16:
-    case PlyType::uint16:
-      return 2;
-    case PlyType::int32:
-    case PlyType::uint32:
-    case PlyType::float32:
-      return 4;
-    default:
-      return 8;
-  }
-}
-
-bool begins_with_ply(std::string_view bytes) {
-  TextScanner text(bytes);
-  if (!bytes.starts_with("ply")) return false;
-  text.skip_token();
-  return text.position() == 3 && !text.next_on_line() && text.remaining() > 0;
-}
 
 PlyHeader read_ply_header(const MeshSource& source) { return PlyHeaderReader(source).run(); }
 

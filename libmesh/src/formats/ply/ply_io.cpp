@@ -8,8 +8,8 @@
 #include <base/assert.h>
 #include <mesh/read_guard.h>
 
-#include "formats/face_list.h"
-#include "formats/text_writer.h"
+#include "formats/common/face_list.h"
+#include "formats/common/text_writer.h"
 #include "ply_cursor.h"
 #include "ply_header.h"
 
@@ -253,6 +253,13 @@ std::string format_header(const TriangleSoup& soup, std::string_view format,
 }
 
 }  // namespace
+
+bool begins_with_ply(std::string_view bytes) {
+  TextScanner text(bytes);
+  if (!bytes.starts_with("ply")) return false;
+  text.skip_token();
+  return text.position() == 3 && !text.next_on_line() && text.remaining() > 0;
+}
 
 ReadResult read_ply(const MeshSource& source) {
   const PlyHeader header = read_ply_header(source);

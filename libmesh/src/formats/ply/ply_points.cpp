@@ -1,5 +1,3 @@
-#include "ply_points.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,9 +7,10 @@
 #include <base/error.h>
 #include <mesh/read_guard.h>
 
-#include "formats/point_columns.h"
+#include "formats/common/point_columns.h"
 #include "ply_cursor.h"
 #include "ply_header.h"
+#include "ply_io.h"
 
 namespace meshrepair {
 namespace {
@@ -66,7 +65,7 @@ class PlyPoints {
       const auto place = static_cast<std::size_t>(name - kNames.begin());
       places_.push_back(property.is_list || place == kNowhere || there[place] ? kNowhere : place);
       if (places_.back() != kNowhere) there[place] = true;
-      if (place == 6 && property.type >= PlyType::float32) colour_scale_ = 255;  // 0 to 1
+      if (place == 6 && property.type >= ValueType::float32) colour_scale_ = 255;  // 0 to 1
     }
     if (!there[0] || !there[1] || !there[2]) {
       source_.fail("the vertices of the PLY file have no x, y and z");

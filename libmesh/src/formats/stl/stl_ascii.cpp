@@ -19,8 +19,8 @@
 #include <mesh/read_guard.h>
 #include <mesh/weld_points.h>
 
-#include "formats/text_scanner.h"
-#include "formats/text_writer.h"
+#include "formats/common/text_scanner.h"
+#include "formats/common/text_writer.h"
 #include "polygons/triangulate_polygon.h"
 #include "stl_io.h"
 

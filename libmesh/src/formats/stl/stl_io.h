@@ -4,7 +4,7 @@
 #include <string>
 
 #include <mesh/mesh_source.h>
-#include <mesh/soup_io.h>
+#include <mesh/reading.h>
 
 namespace meshrepair {
 

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <utility>
 
-#include "formats/text_scanner.h"
+#include "formats/common/text_scanner.h"
 
 namespace meshrepair {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/point_columns.h"
+#include "formats/common/point_columns.h"
 
 namespace meshrepair {
 

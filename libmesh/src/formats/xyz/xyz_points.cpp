@@ -8,10 +8,9 @@
 #include <utility>
 
 #include <mesh/read_guard.h>
-#include <mesh/recognize_format.h>
 
-#include "formats/point_columns.h"
-#include "formats/text_scanner.h"
+#include "formats/common/point_columns.h"
+#include "formats/common/text_scanner.h"
 #include "point_table.h"
 
 namespace meshrepair {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <mesh/mesh_source.h>
-#include <mesh/point_io.h>
+#include <mesh/point_reading.h>
 
 namespace meshrepair {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <base/progress.h>
-#include <mesh/soup_io.h>
+#include <mesh/reading.h>
 
 namespace meshrepair {
 

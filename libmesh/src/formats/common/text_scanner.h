@@ -14,6 +14,9 @@
 
 namespace meshrepair {
 
+// No byte that text does not have, near the start.
+[[nodiscard]] bool looks_like_text(std::string_view bytes);
+
 struct TextDialect {
   char comment = '\0';        // a token that begins with it ends the line; 0: there are no comments
   bool continuation = false;  // a backslash at the end of a line joins it to the next

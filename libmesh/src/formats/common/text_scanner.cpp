@@ -47,6 +47,15 @@ bool parse_plain(std::string_view number, double& value) {
 
 }  // namespace
 
+bool looks_like_text(std::string_view bytes) {
+  constexpr std::size_t kStart = 4096;
+  const std::string_view start = bytes.substr(0, kStart);
+  return std::none_of(start.begin(), start.end(), [](char c) {
+    const bool is_white = c >= '\t' && c <= '\r';
+    return static_cast<unsigned char>(c) < ' ' && !is_white && c != '\x1A';
+  });
+}
+
 bool equals_ignoring_case(std::string_view token, std::string_view lower) {
   return std::equal(token.begin(), token.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return to_lower(a) == b; });

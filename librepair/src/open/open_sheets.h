@@ -1,12 +1,18 @@
-// Solid regions around which too little is closed.
+// Sheets that enclose nothing, and solid regions around which too little is closed.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include <bsp/clean_soup.h>
+
 #include "cells/covered_cells.h"
 
 namespace meshrepair::internal {
+
+// All triangles but those that close holes, of which there are some, are of open parts, and lie in
+// one plane but for the rounding.
+[[nodiscard]] bool is_flat_sheet(const CleanSoup& soup);
 
 // Makes empty what only open parts surround, if all of their triangles around it lie in one plane
 // but for the rounding of their coordinates, or if what no triangle covers is about as large as

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "formats/text_scanner.h"
-#include "formats/text_writer.h"
+#include "formats/common/text_scanner.h"
+#include "formats/common/text_writer.h"
 
 namespace meshrepair {
 namespace {

@@ -1,0 +1,47 @@
+// What readers of meshes are asked, and what they return.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <base/progress.h>
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+enum class SoupFormat { stl_binary, stl_ascii, obj, off, ply_binary, ply_ascii };
+
+// What a reader passed over. A count of 0 everywhere means that the file was read in full.
+struct ReadReport {
+  SoupFormat format = SoupFormat::obj;
+  std::size_t bytes = 0;
+  std::size_t declared_triangles =
+      0;                      // faces or triangles that the header promised; 0 if it has none
+  std::size_t polygons = 0;   // faces with more than three corners, triangulated
+  std::size_t bad_faces = 0;  // faces dropped: index out of range, too few corners, not numbers
+  // Points with a coordinate that is no number, or missing: kept as NaN, so that the indices of the
+  // others hold. "nan", "inf", "-1.#IND" and the like are numbers: kept as they are, and not
+  // counted.
+  std::size_t bad_points = 0;
+  std::size_t missing_faces = 0;   // promised by the header, not in the file
+  std::size_t trailing_bytes = 0;  // after the last element of a binary file
+  // One sentence for each kind of oddity, for the user, without the file's name.
+  std::vector<std::string> warnings;
+};
+
+struct ReadResult {
+  TriangleSoup soup;
+  ReadReport report;
+};
+
+struct ReadOptions {
+  // More throw LimitError, as soon as it is known; polygons count as what they will become.
+  std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
+  // A file that holds no points and no faces, and promises none, is no error.
+  bool may_be_empty = false;
+  ProgressObserver* progress = nullptr;
+};
+
+}  // namespace meshrepair

@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""Checks the structure of the code: which library and which room includes which.
+
+A library is a folder libNAME with a CMakeLists.txt; a room is a folder in its src. What lies
+directly in src is the library's own room, which may use all others. Fails where
+
+- a library includes one that its CMakeLists.txt does not link, or libraries link in a circle;
+- the rooms of a library include each other in a circle;
+- a room has more than one private header that other rooms include: its door (a room named `common`
+  is a box of tools, all of which are for others);
+- a folder holds more than 15 sources;
+- a source or a header is not where its name says, or its test stands in another room.
+"""
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+MOST_SOURCES = 15
+TOOLS = "common"
+ROOT = Path(__file__).resolve().parent.parent
+INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]', re.MULTILINE)
+LIBRARY_CALL = re.compile(r"meshrepair_library\((.*?)\)\n", re.DOTALL)
+
+
+class Library:
+    """A library: what it links, and its files by room."""
+
+    def __init__(self, folder: Path) -> None:
+        self.name = folder.name.removeprefix("lib")
+        self.folder = folder
+        self.src = folder / "src"
+        call = LIBRARY_CALL.search((folder / "CMakeLists.txt").read_text())
+        assert call is not None, f"{folder} has no meshrepair_library()"
+        link = re.search(r"\bLINK (.*?)(LINK_PRIVATE|$)", call.group(1), re.DOTALL)
+        self.links = set(re.findall(r"meshrepair::(\w+)", link.group(1) if link else ""))
+        self.sources = sorted(self.src.rglob("*.cpp"))
+        self.private = sorted(self.src.rglob("*.h"))
+        self.public = sorted((folder / "include").rglob("*.h"))
+        self.room_of = {p: self.room_of_path(p) for p in self.sources + self.private}
+        self.room_of |= {p: self.room_of_public(p) for p in self.public}
+
+    def room_of_path(self, path: Path) -> str:
+        return str(path.parent.relative_to(self.src)).removeprefix(".")
+
+    def room_of_public(self, header: Path) -> str:
+        """The room of the source of the same name; headers without one have no room."""
+        for source in self.sources:
+            if source.stem == header.stem:
+                return self.room_of_path(source)
+        return HEADERS_ALONE
+
+    def files(self) -> list[Path]:
+        return self.sources + self.private + self.public
+
+
+HEADERS_ALONE = "(headers)"
+
+
+def read_libraries() -> dict[str, Library]:
+    folders = sorted(p.parent for p in ROOT.glob("lib*/CMakeLists.txt"))
+    return {library.name: library for library in map(Library, folders)}
+
+
+def includes_of(path: Path) -> list[tuple[str, str]]:
+    return INCLUDE.findall(path.read_text())
+
+
+def closure(links: dict[str, set[str]]) -> dict[str, set[str]]:
+    """What each reaches, over any number of arrows."""
+    reached: dict[str, set[str]] = {}
+    for start in links:
+        seen: set[str] = set()
+        waiting = list(links[start])
+        while waiting:
+            name = waiting.pop()
+            if name not in seen:
+                seen.add(name)
+                waiting.extend(links.get(name, ()))
+        reached[start] = seen
+    return reached
+
+
+def circles(links: dict[str, set[str]]) -> list[str]:
+    return [name for name, seen in closure(links).items() if name in seen]
+
+
+def check_libraries(libraries: dict[str, Library], faults: list[str]) -> dict[str, set[str]]:
+    """The arrows between libraries, as included."""
+    links = {name: library.links for name, library in libraries.items()}
+    faults += [f"lib{name} links itself, in a circle" for name in circles(links)]
+    reached = closure(links)
+    arrows: dict[str, set[str]] = {name: set() for name in libraries}
+    for name, library in libraries.items():
+        for path in library.files():
+            for kind, target in includes_of(path):
+                other = target.split("/")[0]
+                if kind != "<" or other not in libraries or other == name:
+                    continue
+                arrows[name].add(other)
+                if other not in reached[name]:
+                    where = path.relative_to(ROOT)
+                    faults.append(f"{where} includes <{target}>, but lib{name} does not link {other}")
+    return arrows
+
+
+def target_of(library: Library, path: Path, kind: str, target: str) -> Path | None:
+    """The file of the same library that is included, if it is one."""
+    if kind == "<":
+        header = library.folder / "include" / target
+        return header if header.exists() else None
+    for folder in (path.parent, library.src):
+        if (folder / target).exists():
+            return folder / target
+    return None
+
+
+def check_rooms(library: Library, faults: list[str]) -> dict[str, set[str]]:
+    """The arrows between the rooms of a library."""
+    arrows: dict[str, set[str]] = {room: set() for room in library.room_of.values()}
+    doors: dict[str, set[Path]] = defaultdict(set)
+    for path in library.files():
+        room = library.room_of[path]
+        for kind, target in includes_of(path):
+            header = target_of(library, path, kind, target)
+            if header is None:
+                continue
+            other = library.room_of[header]
+            if other in (room, HEADERS_ALONE) or room == HEADERS_ALONE:
+                continue
+            arrows[room].add(other)
+            if header in library.private and not other.endswith(TOOLS):
+                doors[other].add(header)
+    faults += [f"lib{library.name}/src/{room}: includes itself, in a circle" for room in circles(arrows)]
+    for room, headers in sorted(doors.items()):
+        if len(headers) > 1:
+            names = ", ".join(sorted(h.name for h in headers))
+            faults.append(f"lib{library.name}/src/{room}: other rooms include {len(headers)} private headers: {names}")
+    return arrows
+
+
+def check_sizes(library: Library, faults: list[str]) -> None:
+    count: dict[Path, int] = defaultdict(int)
+    for source in library.sources:
+        count[source.parent] += 1
+    for folder, sources in count.items():
+        if sources > MOST_SOURCES:
+            faults.append(f"{folder.relative_to(ROOT)}: {sources} sources, more than {MOST_SOURCES}")
+
+
+def check_tests(library: Library, faults: list[str]) -> None:
+    """A test of the name of a source, or a header, stands in the same room."""
+    tests = ROOT / "tests" / library.folder.name
+    rooms = {p.stem: room for p, room in library.room_of.items() if room != HEADERS_ALONE}
+    for test in sorted(tests.rglob("*_test.cpp")):
+        stem = test.stem.removesuffix("_test")
+        room = str(test.parent.relative_to(tests)).removeprefix(".")
+        if stem in rooms and rooms[stem] != room:
+            faults.append(f"{test.relative_to(ROOT)}: its source is in the room '{rooms[stem]}'")
+
+
+def lines_of(paths: list[Path]) -> int:
+    return sum(path.read_text().count("\n") for path in paths)
+
+
+def print_rooms(library: Library, arrows: dict[str, set[str]]) -> None:
+    print(f"\nlib{library.name}: {lines_of(library.files())} lines")
+    by_room: dict[str, list[Path]] = defaultdict(list)
+    for path, room in library.room_of.items():
+        by_room[room].append(path)
+    for room in sorted(by_room):
+        sources = sum(p.suffix == ".cpp" for p in by_room[room])
+        uses = ", ".join(sorted(other or "(own)" for other in arrows.get(room, ())))
+        name = room or "(own)"
+        print(f"  {name:<18}{sources:>3} sources {lines_of(by_room[room]):>6} lines" + (f"   -> {uses}" if uses else ""))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-q", "--quiet", action="store_true", help="print faults only")
+    options = parser.parse_args()
+    os.chdir(ROOT)
+    faults: list[str] = []
+    libraries = read_libraries()
+    arrows = check_libraries(libraries, faults)
+    rooms = {name: check_rooms(library, faults) for name, library in libraries.items()}
+    for library in libraries.values():
+        check_sizes(library, faults)
+        check_tests(library, faults)
+    if not options.quiet:
+        for name in sorted(libraries, key=lambda n: (len(closure(arrows)[n]), n)):
+            uses = ", ".join(sorted(arrows[name]))
+            print(f"lib{name:<9}" + (f" -> {uses}" if uses else ""))
+        for name in sorted(libraries, key=lambda n: (len(closure(arrows)[n]), n)):
+            print_rooms(libraries[name], rooms[name])
+    for fault in faults:
+        print(f"check_structure.py: {fault}", file=sys.stderr)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
