@@ -2,11 +2,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <spdlog/spdlog.h>
 

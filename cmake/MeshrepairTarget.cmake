@@ -10,10 +10,11 @@ function(meshrepair_configure target)
   endif()
 endfunction()
 
-# meshrepair_library(NAME bsp SOURCES ... HEADERS ... LINK ...): a static library with its own
-# include root, installed and exported as meshrepair::NAME.
+# meshrepair_library(NAME bsp KNOWS "..." SOURCES ... HEADERS ... LINK ...): a static library with its
+# own include root, installed and exported as meshrepair::NAME. KNOWS says what it is about, for the
+# picture of the architecture.
 function(meshrepair_library)
-  cmake_parse_arguments(ARG "" "NAME" "SOURCES;HEADERS;LINK;LINK_PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME;KNOWS" "SOURCES;HEADERS;LINK;LINK_PRIVATE" ${ARGN})
   set(target meshrepair_${ARG_NAME})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(meshrepair::${ARG_NAME} ALIAS ${target})

@@ -146,7 +146,7 @@ def ply_seeds():
     }
 
 
-# ---- OpenMesh's own format, see libbsp/src/om_io.cpp
+# ---- OpenMesh's own format, see libmesh/src/formats/om/om_io.cpp
 
 def om_chunk(entity, kind, is_float, dimension, size, data, name=b""):
     bits = (2 if name else 0) | entity << 2 | kind << 5 | 1 << 9 | is_float << 10

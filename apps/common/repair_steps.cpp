@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <string_view>
 #include <system_error>
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <base/atomic_file.h>

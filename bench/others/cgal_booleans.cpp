@@ -1,10 +1,5 @@
 // cgal_booleans A B OPERATION OUT [corefinement|nef]: the same as bspbool, by CGAL, for comparison.
 // Prints a line of JSON; exit code 1 where CGAL gives no result.
-#include <chrono>
-#include <cstdio>
-#include <exception>
-#include <string>
-
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Nef_polyhedron_3.h>
@@ -14,6 +9,10 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <string>
 
 namespace {
 

@@ -1,13 +1,5 @@
 // cgal_points CLOUD.xyz OUT front|poisson: a surface through points by CGAL, for comparison. Prints
 // a line of JSON; exit code 1 where CGAL gives no surface.
-#include <array>
-#include <chrono>
-#include <cstdio>
-#include <fstream>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
@@ -18,6 +10,13 @@
 #include <CGAL/mst_orient_normals.h>
 #include <CGAL/pca_estimate_normals.h>
 #include <CGAL/poisson_surface_reconstruction.h>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 

@@ -15,6 +15,7 @@
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+
 #include <climits>
 
 #include <base/atomic_file.h>

@@ -1,7 +1,6 @@
 #include "point_index.h"
 
 #include <limits>
-
 #include <nanoflann.hpp>
 
 namespace meshrepair {

@@ -1,10 +1,10 @@
+#include "common/common_options.h"
+
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-
-#include "common/common_options.h"
 
 namespace meshrepair {
 namespace {

@@ -1,3 +1,5 @@
+#include "common/exit_code.h"
+
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -5,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-
-#include "common/exit_code.h"
 
 namespace meshrepair {
 namespace {

@@ -1,11 +1,11 @@
-#include <limits>
+#include "common/json_report.h"
 
 #include <gmock/gmock.h>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-
-#include "common/json_report.h"
 
 namespace meshrepair {
 namespace {

@@ -1,8 +1,8 @@
+#include "common/memory_limit.h"
+
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-
-#include "common/memory_limit.h"
 
 namespace meshrepair {
 namespace {

@@ -1,12 +1,12 @@
+#include "common/progress_bar.h"
+
+#include <gmock/gmock.h>
 #include <limits>
 #include <memory>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-
-#include "common/progress_bar.h"
 
 namespace meshrepair {
 namespace {

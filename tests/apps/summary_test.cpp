@@ -1,9 +1,9 @@
+#include "common/summary.h"
+
 #include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
-
-#include "common/summary.h"
 
 namespace meshrepair {
 namespace {

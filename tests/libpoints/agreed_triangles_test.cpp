@@ -1,6 +1,7 @@
+#include "agreed_triangles.h"
+
 #include <gtest/gtest.h>
 
-#include "agreed_triangles.h"
 #include "drop_crumbs.h"
 #include "single_fans.h"
 

@@ -1,3 +1,5 @@
+#include "tangent_plane.h"
+
 #include <cmath>
 #include <numeric>
 
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "random_geometry.h"
-#include "tangent_plane.h"
 
 namespace meshrepair {
 namespace {

@@ -1,3 +1,5 @@
+#include "tangent_star.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,8 +7,6 @@
 #include <set>
 
 #include <gtest/gtest.h>
-
-#include "tangent_star.h"
 
 namespace meshrepair {
 namespace {

@@ -1,4 +1,6 @@
 // What bounds nothing gives a solid, or none and a reason: never anything between.
+#include "open_surfaces.h"
+
 #include <string>
 
 #include <gtest/gtest.h>
@@ -6,7 +8,6 @@
 #include <repair/repair.h>
 
 #include "complexes.h"
-#include "open_surfaces.h"
 
 namespace meshrepair {
 namespace {

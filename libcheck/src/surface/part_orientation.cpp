@@ -19,7 +19,8 @@ PartOrientation examine_part_orientation(const TriangleSoup& mesh, ProgressObser
   orientation.depth = internal::nesting_depths(mesh, orientation.part_of, parts, progress);
   for (std::uint32_t part = 0; part < parts; ++part) {
     const int right = orientation.depth[part] % 2 == 0 ? 1 : -1;
-    orientation.inside_out.push_back(volume_sign(mesh.points, mesh.triangles, members[part]) == right ? 0 : 1);
+    orientation.inside_out.push_back(
+        volume_sign(mesh.points, mesh.triangles, members[part]) == right ? 0 : 1);
   }
   return orientation;
 }

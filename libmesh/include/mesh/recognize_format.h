@@ -12,8 +12,8 @@ namespace meshrepair {
 // count, for one, looks like any other bytes. The two PLY formats are not told apart.
 [[nodiscard]] std::optional<SoupFormat> recognize_content(std::string_view bytes);
 
-// A .bsp file begins with this (tree_io.h of libbsp). Readers of meshes have to know it, to say what
-// they were given.
+// A .bsp file begins with this (tree_io.h of libbsp). Readers of meshes have to know it, to say
+// what they were given.
 inline constexpr std::string_view kTreeSignature("BSP\r\n\x1A\n\0", 8);
 
 // As far as text mode transfers leave the signature alone.

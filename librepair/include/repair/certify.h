@@ -1,15 +1,11 @@
-// Making sure that the coordinates as they are written bound a solid, and mending them where not.
+// Making sure that the coordinates as they are written bound a solid, and mending them where not:
+// what can be asked, and what is told.
 #pragma once
 
 #include <cstddef>
-#include <functional>
 
-#include <base/progress.h>
-#include <exact/grid.h>
 #include <extract/cut_nonmanifold.h>
-#include <extract/surface.h>
 #include <mesh/precision.h>
-#include <mesh/soup.h>
 
 namespace meshrepair {
 
@@ -45,27 +41,5 @@ struct CertifyReport {
   }
   [[nodiscard]] bool passed() const { return done && faults() == 0; }
 };
-
-// How the surface can be made again.
-struct CertifyHelp {
-  // Repairs a soup that is a solid already but for places where its sheets cross: the whole
-  // pipeline, without certification. May throw NoSolidError.
-  std::function<Surface(const TriangleSoup&)> repair_again;
-  // Gives the surface with its input points on the working grid where triangles would intersect;
-  // needed where it was changed since it was decided on, as by simplify_cuts(), else empty.
-  std::function<Surface()> settle_again = {};
-};
-
-// Rounds the coordinates to the precision and tests exactly for triangles that intersect or have no
-// area. Where it finds some, it brings their input corners onto the working grid, where every
-// decision was exact, and mends what is left place by place; then it brings all their corners onto
-// this and coarser grids, and repairs what comes of that. The best attempt is returned.
-// Points of the input that are not concerned stay where they are. Parts that take part in faults
-// and are no thicker than two steps of the numbers are dropped, as are those so thin that rounding
-// turned them inside out; or turned where there is nothing else. Thicker ones that face the wrong
-// way are counted and left. `surface.source` keeps naming triangles of the first input.
-[[nodiscard]] Surface certify(Surface surface, const Grid& grid, const CertifyOptions& options,
-                              const CertifyHelp& help, ProgressObserver* progress,
-                              CertifyReport& report);
 
 }  // namespace meshrepair

@@ -1,10 +1,20 @@
 #include "covered_cells.h"
 
 #include <optional>
+#include <utility>
 
+#include <bsp/build_tree.h>
 #include <extract/build_cells.h>
 
 namespace meshrepair::internal {
+
+Tree divide_space(CleanSoup clean, const RepairOptions& options, RepairReport& report,
+                  StageMeter& meter) {
+  meter.begin("tree");
+  BuildTreeOptions tree_options = options.tree;
+  tree_options.progress = options.progress;
+  return build_tree(std::move(clean), tree_options, report.tree);
+}
 
 CoveredCells make_cells(const Tree& tree, const IdVector<TriangleId, std::int32_t>& winding,
                         const RepairOptions& options, RepairReport& report, StageMeter& meter) {

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include <base/stage_meter.h>
+#include <bsp/clean_soup.h>
+#include <bsp/tree.h>
 #include <extract/cell_complex.h>
 #include <extract/cover_facets.h>
 #include <repair/repair_options.h>
@@ -16,6 +18,10 @@ struct CoveredCells {
   IdVector<FacetId, Cover> cover;
   std::vector<CoverLayer> layers;
 };
+
+// Divides space along the triangles.
+[[nodiscard]] Tree divide_space(CleanSoup clean, const RepairOptions& options, RepairReport& report,
+                                StageMeter& meter);
 
 // The cells of the tree, with `winding` of each triangle against the normal of its plane. The tree
 // has to outlive them.

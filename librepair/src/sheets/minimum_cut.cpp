@@ -1,10 +1,9 @@
 #include "minimum_cut.h"
 
-#include <cstddef>
-#include <utility>
-
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <cstddef>
+#include <utility>
 
 namespace meshrepair::internal {
 namespace {

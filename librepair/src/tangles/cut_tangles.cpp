@@ -14,9 +14,9 @@
 #include <extract/extract_surface.h>
 
 #include "cells/covered_cells.h"
-#include "finish/make_surface.h"
 #include "sew_pieces.h"
 #include "sheets/fill_slits.h"
+#include "surface/make_surface.h"
 #include "tangle_labels.h"
 #include "tangles.h"
 #include "valid/keep_valid.h"

@@ -51,10 +51,9 @@ void describe_mended(const CleanSoup& soup, const MendedSolid& solid, const Repa
   inside.turned_parts = solid.turned_parts;
   inside.doubtful_parts = report.orient.doubtful_parts;
   inside.cavity_walls = solid.cavity_walls;
-  describe_inside(
-      options,
-      "once mended, the mesh is the boundary of a solid" + what_was_turned(inside),
-      inside);
+  describe_inside(options,
+                  "once mended, the mesh is the boundary of a solid" + what_was_turned(inside),
+                  inside);
   for (const Triangle& t : soup.triangles) {
     report.parts.bounding_triangles += t.source != Triangle::kNoSource;
   }

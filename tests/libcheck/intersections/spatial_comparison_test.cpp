@@ -1,3 +1,5 @@
+#include "intersections/spatial_comparison.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,7 +14,6 @@
 #include <check/triangle_list.h>
 
 #include "degenerate_soups.h"
-#include "intersections/spatial_comparison.h"
 #include "intersections/triangle_hubs.h"
 #include "shapes.h"
 

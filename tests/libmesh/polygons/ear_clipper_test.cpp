@@ -1,3 +1,5 @@
+#include "polygons/ear_clipper.h"
+
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "large_polygons.h"
-#include "polygons/ear_clipper.h"
 
 namespace meshrepair::internal {
 namespace {

@@ -1,3 +1,5 @@
+#include "polygons/triangulate_polygon.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "large_polygons.h"
-#include "polygons/triangulate_polygon.h"
 #include "soup_fixtures.h"
 
 namespace meshrepair {

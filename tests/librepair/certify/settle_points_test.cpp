@@ -1,10 +1,11 @@
+#include "certify/settle_points.h"
+
 #include <gtest/gtest.h>
 
 #include <bsp/clean_soup.h>
 #include <check/self_intersections.h>
 #include <repair/repair.h>
 
-#include "certify/settle_points.h"
 #include "random_geometry.h"
 #include "shapes.h"
 #include "surfaces.h"

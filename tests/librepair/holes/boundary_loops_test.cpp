@@ -1,3 +1,5 @@
+#include "holes/boundary_loops.h"
+
 #include <algorithm>
 #include <set>
 
@@ -5,7 +7,6 @@
 
 #include <repair/orient_parts.h>
 
-#include "holes/boundary_loops.h"
 #include "shapes.h"
 #include "trees.h"
 

@@ -1,6 +1,7 @@
+#include "mend/fault_counter.h"
+
 #include <gtest/gtest.h>
 
-#include "mend/fault_counter.h"
 #include "shapes.h"
 
 namespace meshrepair::internal {

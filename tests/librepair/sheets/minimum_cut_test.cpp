@@ -1,3 +1,5 @@
+#include "sheets/minimum_cut.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "random_geometry.h"
-#include "sheets/minimum_cut.h"
 
 namespace meshrepair::internal {
 namespace {

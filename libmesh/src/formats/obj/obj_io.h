@@ -20,8 +20,9 @@ namespace meshrepair {
 [[nodiscard]] std::string format_obj(const TriangleSoup& soup,
                                      const std::vector<std::string>& comments);
 
-// The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to 1; `vn` a normal.
-// Normals belong to the points in order, and are none of theirs where there are not as many.
+// The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to
+// 1; `vn` a normal. Normals belong to the points in order, and are none of theirs where there are
+// not as many.
 [[nodiscard]] PointReadResult read_obj_points(const MeshSource& source,
                                               const PointReadOptions& options);
 

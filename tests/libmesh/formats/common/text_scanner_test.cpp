@@ -1,10 +1,11 @@
+#include "formats/common/text_scanner.h"
+
 #include <bit>
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "formats/common/text_scanner.h"
 #include "formats/common/text_writer.h"
 
 namespace meshrepair {

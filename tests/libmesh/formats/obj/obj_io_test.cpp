@@ -1,7 +1,7 @@
 #include <cmath>
+#include <gmock/gmock.h>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <mesh/soup_io.h>

@@ -2,9 +2,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <gmock/gmock.h>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <mesh/soup_io.h>

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <iterator>
 #include <numeric>
 #include <random>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <gtest/gtest.h>

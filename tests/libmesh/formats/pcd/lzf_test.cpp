@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "formats/pcd/lzf.h"
+
+#include <gtest/gtest.h>
 
 namespace meshrepair {
 namespace {

@@ -3,9 +3,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <gmock/gmock.h>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <base/error.h>

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <cstring>
+#include <gmock/gmock.h>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <mesh/soup_io.h>

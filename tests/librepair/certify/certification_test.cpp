@@ -1,3 +1,5 @@
+#include "certify/certification.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -28,10 +30,23 @@ Surface surface_of(const TriangleSoup& soup) {
 
 Surface no_repair(const TriangleSoup& soup) { return surface_of(soup); }
 
-Surface certified(const Surface& surface, const CertifyOptions& options, CertifyReport& report) {
+// All that can be asked of it, with another way to repair what comes of a round.
+template <class RepairAgain>
+Surface certified(const Surface& surface, const CertifyOptions& options, RepairAgain repair_again,
+                  CertifyReport& report) {
   CleanReport cleaned;
   const Grid grid = clean_soup(surface.mesh, cleaned).grid;
-  return certify(surface, grid, options, {no_repair}, nullptr, report);
+  internal::Certification certification(surface, grid, options, nullptr, report);
+  if (certification.may_settle()) certification.settle();
+  certification.mend_in_place();
+  while (certification.may_go_on()) {
+    certification.end_round(repair_again(certification.begin_round()));
+  }
+  return certification.result();
+}
+
+Surface certified(const Surface& surface, const CertifyOptions& options, CertifyReport& report) {
+  return certified(surface, options, no_repair, report);
 }
 
 TEST(Certify, LeavesASoundSurfaceAsItIs) {
@@ -58,11 +73,9 @@ TEST(Certify, SaysWhatItCannotMend) {
 TEST(Certify, LosesNoSolidToACoarserGrid) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {0.5, 0.25, 0.125}));
-  CleanReport cleaned;
-  const Grid grid = clean_soup(soup, cleaned).grid;
   CertifyReport report;
   const auto scrap = [](const TriangleSoup&) { return surface_of(scaled(cube(), 0.01)); };
-  const Surface result = certify(surface_of(soup), grid, {}, {scrap}, nullptr, report);
+  const Surface result = certified(surface_of(soup), {}, scrap, report);
   EXPECT_FALSE(report.passed());
   EXPECT_NEAR(signed_volume(result.mesh), 2, 1e-6);
 }
@@ -189,15 +202,13 @@ TEST(Certify, SaysThatAThickPartFacesTheWrongWay) {
 TEST(Certify, DoesNotRepairAgainBecauseAPartFacesTheWrongWay) {
   TriangleSoup soup = box({0, 0, 0}, {4, 4, 4});
   append(soup, box({1, 1, 1}, {2, 2, 2}));
-  CleanReport cleaned;
   CertifyReport report;
   std::size_t repairs = 0;
-  (void)certify(surface_of(soup), clean_soup(soup, cleaned).grid, {},
-                {[&](const TriangleSoup& again) {
-                  ++repairs;
-                  return surface_of(again);
-                }},
-                nullptr, report);
+  const auto count = [&](const TriangleSoup& again) {
+    ++repairs;
+    return surface_of(again);
+  };
+  (void)certified(surface_of(soup), {}, count, report);
   EXPECT_EQ(repairs, 0u);
   EXPECT_EQ(report.inside_out_parts, 1u);
   EXPECT_FALSE(report.passed());

@@ -1,8 +1,9 @@
+#include "mend/drop_thin_parts.h"
+
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "certify/drop_thin_parts.h"
 #include "shapes.h"
 #include "surfaces.h"
 

@@ -4,12 +4,21 @@
 #include <vector>
 
 #include <base/stage_meter.h>
+#include <bsp/clean_soup.h>
 #include <extract/surface.h>
-#include <repair/repair.h>
+#include <repair/orient_parts.h>
+#include <repair/repair_options.h>
+#include <repair/repair_report.h>
 
 #include "cells/covered_cells.h"
 
 namespace meshrepair::internal {
+
+// Divides space along all triangles of the soup, finds which cells are solid, and makes the surface
+// between these and the others. Throws NoSolidError when none is.
+[[nodiscard]] Surface surface_by_cells(CleanSoup soup, const Orientation& orientation,
+                                       const RepairOptions& options, RepairReport& report,
+                                       StageMeter& meter);
 
 // The boundary between the cells that are solid and the others, simplified and certified as the
 // options say: the first attempt that passes, else the one with the fewest faults. `covered` is

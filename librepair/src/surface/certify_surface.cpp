@@ -1,0 +1,77 @@
+#include "certify_surface.h"
+
+#include <utility>
+
+#include <base/error.h>
+#include <base/stage_meter.h>
+
+#include "certify/certification.h"
+#include "make_surface.h"
+#include "prepare/prepare.h"
+
+namespace meshrepair::internal {
+namespace {
+
+CertifyOptions certify_options(const RepairOptions& options) {
+  CertifyOptions certify = options.certify;
+  certify.touching = options.extract.touching;
+  if (options.predicates != Predicates::exact) certify.most_rounds = 0;
+  return certify;
+}
+
+// Orientation is sound by now, and overlaps made by moving points are to be united.
+RepairOptions options_of_again(const RepairOptions& options, ProgressObserver& quiet) {
+  RepairOptions again = options;
+  again.inside.rule = InsideRule::winding;
+  again.holes = {};
+  again.opacity.clear();
+  again.examine = nullptr;
+  again.certify.wanted = false;
+  // Points that are on the grid now, and coarser, say what they say.
+  if (options.certify.precision == Precision::float64) again.slit_steps = 0;
+  again.progress = &quiet;
+  return again;
+}
+
+// A soup that is a solid already but for places where its sheets cross, by cells everywhere.
+Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
+  CancelOnly quiet(options.progress);
+  const RepairOptions again = options_of_again(options, quiet);
+  RepairReport report;
+  StageMeter meter(report.stages, again.progress);
+  CleanSoup clean = close_soup(soup, again, report, meter);
+  const Orientation orientation = orient_soup(clean, again, report, meter);
+  return surface_by_cells(std::move(clean), orientation, again, report, meter);
+}
+
+// With its input points where everything was decided: simplified anew, if it was before.
+void settle(const Surface& surface, bool was_simplified, Simplifier& simplifier,
+            Certification& certification) {
+  if (!was_simplified) return certification.settle();
+  Surface settled = certification.settled(surface);
+  std::optional<Surface> again = simplifier.simplified(settled);
+  certification.start_again(again ? std::move(*again) : std::move(settled));
+}
+
+}  // namespace
+
+Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplifier& simplifier,
+                        const Grid& grid, const RepairOptions& options, CertifyReport& report) {
+  const CertifyOptions certify = certify_options(options);
+  const bool was_simplified = simpler.has_value();
+  Certification certification(was_simplified ? std::move(*simpler) : std::move(surface), grid,
+                              certify, options.progress, report);
+  if (certification.may_settle()) settle(surface, was_simplified, simplifier, certification);
+  certification.mend_in_place();
+  while (certification.may_go_on()) {
+    const TriangleSoup& coarser = certification.begin_round();
+    try {
+      certification.end_round(repair_again(coarser, options));
+    } catch (const NoSolidError&) {
+      break;  // the coarser grid leaves nothing
+    }
+  }
+  return certification.result();
+}
+
+}  // namespace meshrepair::internal
