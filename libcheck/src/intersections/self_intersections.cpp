@@ -1,10 +1,8 @@
-// The triangles' boxes are put into a tree, and the tree is compared with itself: two nodes whose
-// boxes meet, then their children, down to pairs of triangles, which are tested exactly. The upper
-// part of that walk becomes a list of tasks, the same whatever the number of threads. With a list
-// of triangles the tree holds these alone, and all the others are looked up in it. Where boxes tell
-// little, spatial_comparison.h takes over.
+// The triangles' boxes are put into a tree, and the tree is compared with itself. With a list of
+// triangles the tree holds these alone, and all the others are looked up in it. Where boxes tell
+// little, spatial_comparison.h takes over. Boxes around a common corner always meet, so triangles
+// that share one are compared by their directions from it.
 #include <algorithm>
-#include <atomic>
 #include <optional>
 
 #include <tbb/parallel_for.h>
@@ -16,278 +14,26 @@
 #include <check/triangle_pair.h>
 
 #include "crossing_sheets.h"
+#include "findings.h"
 #include "spatial_comparison.h"
+#include "tree_comparison.h"
 #include "triangle_hubs.h"
 
 namespace meshrepair {
 namespace {
 
+using internal::compare;
 using internal::CornerTriangle;
+using internal::Findings;
+using internal::gather;
+using internal::LookUp;
 using internal::Meeting;
+using internal::Pair;
+using internal::SortedTriangles;
 using internal::TriangleList;
-using Pair = std::array<std::uint32_t, 2>;
 
-// Enough that all threads end at about the same time.
-constexpr std::size_t kTasks = 1024;
+// Enough that looking up takes longer than handing out the task.
 constexpr std::size_t kLookUpsPerTask = 4096;
-// A few hundred microseconds of work.
-constexpr std::size_t kStepsPerQuestion = 4096;
-
-// What one task has found: counts of all, and the lowest `most` pairs.
-class Findings {
- public:
-  explicit Findings(std::size_t most) : most_(most) {}
-
-  void add(std::uint32_t a, std::uint32_t b, Meeting meeting) {
-    ++counts_[static_cast<std::size_t>(meeting)];
-    pairs_.push_back({std::min(a, b), std::max(a, b)});
-    if (pairs_.size() > most_ && pairs_.size() - most_ >= most_ + 64) keep_lowest();
-  }
-
-  [[nodiscard]] bool any() const {
-    return std::any_of(counts_.begin(), counts_.end(), [](std::size_t count) { return count > 0; });
-  }
-
-  void add_to(SelfIntersections& result) const {
-    result.pairs.insert(result.pairs.end(), pairs_.begin(), pairs_.end());
-    result.crossing += counts_[static_cast<std::size_t>(Meeting::crossing)];
-    result.touching += counts_[static_cast<std::size_t>(Meeting::touching)];
-    result.coplanar += counts_[static_cast<std::size_t>(Meeting::coplanar)];
-  }
-
- private:
-  void keep_lowest() {
-    const auto middle = pairs_.begin() + static_cast<std::ptrdiff_t>(most_);
-    std::nth_element(pairs_.begin(), middle, pairs_.end());
-    pairs_.resize(most_);
-  }
-
-  std::size_t most_;
-  std::vector<Pair> pairs_;
-  std::array<std::size_t, 4> counts_{};
-};
-
-SelfIntersections gather(const std::vector<Findings>& tasks, std::size_t most) {
-  SelfIntersections result;
-  for (const Findings& findings : tasks) findings.add_to(result);
-  std::sort(result.pairs.begin(), result.pairs.end());
-  if (result.pairs.size() > most) result.pairs.resize(most);
-  result.count = result.crossing + result.touching + result.coplanar;
-  return result;
-}
-
-// Two nodes to be compared, or, if they are one, a node with itself.
-struct NodePair {
-  std::uint32_t a;
-  std::uint32_t b;
-};
-
-// The triangles of a list in the order of a tree's leaves, so that what is compared lies together.
-struct SortedTriangles {
-  SortedTriangles(std::span<const CornerTriangle> given, std::span<const Box> given_boxes,
-                  std::span<const std::uint32_t> given_ids, const BoxTree& box_tree)
-      : tree(box_tree) {
-    triangles.reserve(given.size());
-    boxes.reserve(given.size());
-    ids.reserve(given.size());
-    for (const std::uint32_t item : tree.order()) {
-      triangles.push_back(given[item]);
-      boxes.push_back(given_boxes[item]);
-      ids.push_back(given_ids[item]);
-    }
-  }
-  SortedTriangles(const TriangleList& list, const BoxTree& box_tree)
-      : SortedTriangles(list.triangles(), list.boxes(), list.ids(), box_tree) {}
-
-  // Leaves out pairs of triangles with the same hub. `hubs` are those of the triangles as given.
-  void leave_out_hubs(const std::vector<std::uint32_t>& hubs) {
-    for (const std::uint32_t item : tree.order()) hub.push_back(hubs[item]);
-    node_hub.assign(tree.nodes().size(), internal::kNoHub);
-    for (std::size_t n = tree.nodes().size(); n-- > 0;) {  // children come behind their parent
-      const BoxNode& node = tree.nodes()[n];
-      if (!node.is_leaf()) {
-        if (node_hub[n + 1] == node_hub[node.right]) node_hub[n] = node_hub[n + 1];
-        continue;
-      }
-      const auto first = hub.begin() + node.first;
-      if (std::all_of(first, first + node.count, [&](std::uint32_t h) { return h == *first; })) {
-        node_hub[n] = *first;
-      }
-    }
-  }
-
-  [[nodiscard]] bool may_meet(NodePair pair) const {
-    if (!node_hub.empty() && node_hub[pair.a] != internal::kNoHub &&
-        node_hub[pair.a] == node_hub[pair.b]) {
-      return false;
-    }
-    return pair.a == pair.b || tree.nodes()[pair.a].box.meets(tree.nodes()[pair.b].box);
-  }
-  [[nodiscard]] bool left_out(std::uint32_t i, std::uint32_t j) const {
-    return !hub.empty() && hub[i] != internal::kNoHub && hub[i] == hub[j];
-  }
-
-  const BoxTree& tree;
-  std::vector<CornerTriangle> triangles;
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> ids;
-  std::vector<std::uint32_t> hub, node_hub;  // empty: nothing is left out
-};
-
-// Calls visit(a, b) for each pair of children to be compared further.
-template <class Visit>
-void split(std::span<const BoxNode> nodes, NodePair pair, Visit visit) {
-  const auto [a, b] = pair;
-  if (a == b) {
-    visit(NodePair{a + 1, a + 1});
-    visit(NodePair{nodes[a].right, nodes[a].right});
-    visit(NodePair{a + 1, nodes[a].right});
-  } else if (nodes[b].is_leaf() || (!nodes[a].is_leaf() && nodes[a].count >= nodes[b].count)) {
-    visit(NodePair{a + 1, b});
-    visit(NodePair{nodes[a].right, b});
-  } else {
-    visit(NodePair{a, b + 1});
-    visit(NodePair{a, nodes[b].right});
-  }
-}
-
-bool both_are_leaves(std::span<const BoxNode> nodes, NodePair pair) {
-  return nodes[pair.a].is_leaf() && nodes[pair.b].is_leaf();
-}
-
-std::vector<NodePair> make_tasks(const SortedTriangles& sorted) {
-  const std::span<const BoxNode> nodes = sorted.tree.nodes();
-  std::vector<NodePair> tasks;
-  if (nodes.empty()) return tasks;
-  tasks.push_back({0, 0});
-  bool has_split = true;
-  while (has_split && tasks.size() < kTasks) {
-    has_split = false;
-    std::vector<NodePair> finer;
-    for (const NodePair& task : tasks) {
-      if (both_are_leaves(nodes, task)) {
-        finer.push_back(task);
-        continue;
-      }
-      has_split = true;
-      split(nodes, task, [&](NodePair part) {
-        if (sorted.may_meet(part)) finer.push_back(part);
-      });
-    }
-    tasks.swap(finer);
-  }
-  return tasks;
-}
-
-// The walk below one task.
-class TreeComparison {
- public:
-  TreeComparison(const SortedTriangles& sorted, SharedProgress& progress, Findings& findings)
-      : sorted_(sorted), nodes_(sorted.tree.nodes()), progress_(progress), findings_(findings) {}
-
-  void run(NodePair task) {
-    stack_.assign(1, task);
-    while (!stack_.empty()) {
-      const NodePair pair = stack_.back();
-      stack_.pop_back();
-      if (++steps_ % kStepsPerQuestion == 0) progress_.poll();
-      if (both_are_leaves(nodes_, pair)) {
-        compare_leaves(pair);
-      } else {
-        split(nodes_, pair, [&](NodePair part) {
-          if (sorted_.may_meet(part)) stack_.push_back(part);
-        });
-      }
-    }
-  }
-
- private:
-  void compare_leaves(NodePair pair) {
-    const BoxNode& a = nodes_[pair.a];
-    const BoxNode& b = nodes_[pair.b];
-    for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
-      const Box& box = sorted_.boxes[i];
-      for (std::uint32_t j = pair.a == pair.b ? i + 1 : b.first; j < b.first + b.count; ++j) {
-        if (!box.meets(sorted_.boxes[j]) || sorted_.left_out(i, j)) continue;
-        const Meeting meeting = meeting_of(sorted_.triangles[i], sorted_.triangles[j]);
-        if (meeting != Meeting::apart) findings_.add(sorted_.ids[i], sorted_.ids[j], meeting);
-      }
-    }
-  }
-
-  const SortedTriangles& sorted_;
-  std::span<const BoxNode> nodes_;
-  SharedProgress& progress_;
-  Findings& findings_;
-  std::vector<NodePair> stack_;
-  std::size_t steps_ = 0;
-};
-
-// Looks up triangles in a tree of others. The tree is not empty.
-class LookUp {
- public:
-  LookUp(const SortedTriangles& sorted, double nearness, SharedProgress& progress,
-         Findings& findings)
-      : sorted_(sorted),
-        nodes_(sorted.tree.nodes()),
-        nearness_(nearness),
-        progress_(progress),
-        findings_(findings) {}
-
-  [[nodiscard]] bool may_meet_any(const Box& box) const { return nodes_[0].box.meets(box); }
-
-  // Of two triangles that are both in the tree the pair is found once.
-  void run(std::uint32_t id, const CornerTriangle& triangle, const Box& box, bool is_in_tree) {
-    stack_.assign(1, 0);
-    while (!stack_.empty()) {
-      const std::uint32_t n = stack_.back();
-      stack_.pop_back();
-      if (++steps_ % kStepsPerQuestion == 0) progress_.poll();
-      const BoxNode& node = nodes_[n];
-      if (!node.box.meets(box)) continue;
-      if (!node.is_leaf()) {
-        stack_.push_back(node.right);
-        stack_.push_back(n + 1);
-        continue;
-      }
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const std::uint32_t other = sorted_.ids[i];
-        if (other == id || (is_in_tree && other < id) || !sorted_.boxes[i].meets(box)) continue;
-        const Meeting meeting = meeting_with(triangle, sorted_.triangles[i]);
-        if (meeting != Meeting::apart) findings_.add(id, other, meeting);
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] Meeting meeting_with(const CornerTriangle& a, const CornerTriangle& b) const {
-    const Meeting meeting = meeting_of(a, b);
-    if (meeting != Meeting::apart || nearness_ == 0) return meeting;
-    return nearly_overlap(a, b, nearness_) ? Meeting::coplanar : Meeting::apart;
-  }
-
-  const SortedTriangles& sorted_;
-  std::span<const BoxNode> nodes_;
-  double nearness_;
-  SharedProgress& progress_;
-  Findings& findings_;
-  std::vector<std::uint32_t> stack_;
-  std::size_t steps_ = 0;
-};
-
-void compare(const SortedTriangles& sorted, const SelfIntersectionOptions& options,
-             std::vector<Findings>& findings) {
-  const std::vector<NodePair> tasks = make_tasks(sorted);
-  const std::size_t before = findings.size();
-  findings.resize(before + tasks.size(), Findings(options.most_pairs));
-  SharedProgress progress(options.progress, tasks.size());
-  std::atomic<bool> enough = false;
-  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
-    if (!enough) TreeComparison(sorted, progress, findings[before + i]).run(tasks[i]);
-    if (options.only_whether && findings[before + i].any()) enough = true;
-    progress.done();
-  });
-}
 
 // The triangles of one group, to be compared with each other.
 struct Group {
