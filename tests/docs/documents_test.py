@@ -22,6 +22,7 @@ import unittest
 
 import documents
 import sample_files
+import report_schema  # found where sample_files says
 from documents import DOCUMENTS, ROOT, name_of
 
 PROGRAMS = pathlib.Path()  # set by main()
@@ -175,6 +176,16 @@ class Links(unittest.TestCase):
                     if anchor:
                         self.assertIn(anchor, documents.anchors(path))
 
+    def test_files_that_are_named_are_there(self) -> None:
+        listed = subprocess.run(["git", "ls-files"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
+        if listed.returncode != 0:
+            self.skipTest("no git repository")
+        names = {pathlib.PurePath(path).name for path in listed.stdout.splitlines()}
+        for document in DOCUMENTS:
+            for line, text in documents.text_lines(document):
+                for name in re.findall(r"`([\w./]+\.(?:h|cpp|py|sh))`", text):
+                    self.assertIn(pathlib.PurePath(name).name, names, f"{name_of(document)}:{line}")
+
     def test_every_document_is_linked_to_from_the_readme(self) -> None:
         linked = {(ROOT / target.partition("#")[0]).resolve() for _, target in documents.links(DOCUMENTS[0])}
         self.assertEqual([name_of(document) for document in DOCUMENTS[1:] if document not in linked], [])
@@ -203,6 +214,60 @@ class Snippets(unittest.TestCase):
         build = (ROOT / "samples/CMakeLists.txt").read_text(encoding="utf-8")
         for sample in (ROOT / "samples").glob("*.cpp"):
             self.assertIn(f"meshrepair_sample({sample.stem} ", build)
+
+
+def objects_of(node: object):
+    """All objects in a schema that say which keys they have."""
+    if isinstance(node, dict):
+        if isinstance(node.get("properties"), dict) and node.get("type") == "object":
+            yield node
+        for inner in node.values():
+            yield from objects_of(inner)
+    elif isinstance(node, list):
+        for inner in node:
+            yield from objects_of(inner)
+
+
+class Schema(unittest.TestCase):
+    """The schema of reports is strict, and describes every key."""
+
+    def setUp(self) -> None:
+        self.schema = json.loads(report_schema.SCHEMA.read_text(encoding="utf-8"))
+        text = subprocess.run([PROGRAMS / "meshrepair", "-q", sample_files.MESHES / "broken_torus_box.stl", "/dev/null",
+                               "--format", "obj", "--report", "-"], stdout=subprocess.PIPE, check=True).stdout
+        self.report = json.loads(text)
+
+    def complaints(self) -> list[str]:
+        return list(report_schema.complaints(json.dumps(self.report).encode()))
+
+    def test_it_is_a_schema(self) -> None:
+        report_schema.jsonschema.Draft7Validator.check_schema(self.schema)
+
+    def test_objects_have_no_other_keys_and_each_key_is_described(self) -> None:
+        for node in objects_of(self.schema):
+            self.assertIs(node["additionalProperties"], False, node.get("description"))
+            for key, value in node["properties"].items():
+                self.assertTrue("description" in value, key)
+
+    def test_a_report_fits(self) -> None:
+        self.assertEqual(self.complaints(), [])
+
+    def test_an_unknown_key_does_not_fit(self) -> None:
+        self.report["holes"]["unheard_of"] = 1
+        self.assertIn("unheard_of", " ".join(self.complaints()))
+
+    def test_a_missing_key_does_not_fit(self) -> None:
+        del self.report["clean"]["triangles_in"]
+        self.assertIn("triangles_in", " ".join(self.complaints()))
+
+    def test_success_without_a_certificate_that_holds_does_not_fit(self) -> None:
+        self.report["certificate"]["closed"] = "FAIL"
+        self.assertIn("certificate.closed", " ".join(self.complaints()))
+
+    def test_a_section_of_another_program_does_not_fit(self) -> None:
+        self.report["program"] = "bspbuild"
+        self.report["base"] = {"floor": 0, "parts": 1, "dropped_triangles": 0, "skirt_triangles": 4}
+        self.assertIn("base", " ".join(self.complaints()))
 
 
 class Tables(unittest.TestCase):
