@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <exception>
 
-#include <bsp/point_io.h>
-#include <bsp/soup_io.h>
-#include <repair/point_soup.h>
+#include <mesh/point_io.h>
+#include <mesh/soup_io.h>
+#include <points/point_soup.h>
 #include <repair/repair.h>
 
 int main(int argc, char** argv) {

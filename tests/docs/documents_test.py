@@ -180,11 +180,11 @@ class Links(unittest.TestCase):
         listed = subprocess.run(["git", "ls-files"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
         if listed.returncode != 0:
             self.skipTest("no git repository")
-        names = {pathlib.PurePath(path).name for path in listed.stdout.splitlines()}
+        paths = ["/" + path for path in listed.stdout.splitlines()]
         for document in DOCUMENTS:
             for line, text in documents.text_lines(document):
-                for name in re.findall(r"`([\w./]+\.(?:h|cpp|py|sh))`", text):
-                    self.assertIn(pathlib.PurePath(name).name, names, f"{name_of(document)}:{line}")
+                for name in re.findall(r"`<?([\w./]+\.(?:h|cpp|py|sh))>?`", text):
+                    self.assertTrue(any(path.endswith("/" + name) for path in paths), f"{name_of(document)}:{line}: {name}")
 
     def test_every_document_is_linked_to_from_the_readme(self) -> None:
         linked = {(ROOT / target.partition("#")[0]).resolve() for _, target in documents.links(DOCUMENTS[0])}
