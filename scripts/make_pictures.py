@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Draws the pictures of README.md: a broken mesh, and what meshrepair makes of it.
 
-A small rasteriser with a depth buffer, shading by the angle to the light, and supersampling. Back faces are red, boundary edges yellow.
+A small rasteriser with a depth buffer, shading by the angle to the light, and supersampling. Back faces are red,
+boundary edges yellow.
 Writes docs/pictures/before.png and docs/pictures/after.png. Needs python3-numpy.
 """
 

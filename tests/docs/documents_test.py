@@ -93,6 +93,8 @@ class Commands(unittest.TestCase):
         self.assertEqual(code, command.exit_code, printed)
         if command.output is not None:
             self.assertIsNone(difference(command.output, printed.splitlines()))
+        for name in re.findall(r"--report (\S+)", command.text):
+            self.assertEqual(list(report_schema.complaints((folder / name).read_bytes())), [])
 
     def test_what_is_not_run_exists(self) -> None:
         presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))
