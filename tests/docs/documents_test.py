@@ -92,7 +92,9 @@ class Commands(unittest.TestCase):
         code, printed = run(command.text, folder, stand_ins)
         self.assertEqual(code, command.exit_code, printed)
         if command.output is not None:
-            self.assertIsNone(difference(command.output, printed.splitlines()))
+            found = difference(command.output, printed.splitlines())
+            if found:
+                self.fail(found)
         for name in re.findall(r"--report (\S+)", command.text):
             self.assertEqual(list(report_schema.complaints((folder / name).read_bytes())), [])
 
