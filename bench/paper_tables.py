@@ -329,6 +329,20 @@ def point_accuracy(programs):
     accuracy_table(text)
 
 
+def million_points(programs):
+    print("## A million points\n")
+    print("`points_table --sizes 1000000 --only torus`: seconds of processor time, and the most memory of the whole run.\n")
+    _, peak, _, text = programs.run("points_table", "--sizes", 1000000, "--only", "torus", timeout=100 * programs.timeout)
+    million_table(text, megabytes(peak))
+
+
+def million_table(text, peak):
+    rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in text.splitlines()[2:]]
+    table(["cloud", "triangles", "result", "triangulation, s", "repair, s"],
+          [[row[1], row[3].split(" / ")[0], row[12], row[13], row[14]] for row in rows])
+    print(f"Peak memory: {peak} MB.")
+
+
 def accuracy_table(text):
     largest, certified = {}, {}
     for line in text.splitlines()[2:]:
@@ -371,6 +385,7 @@ def main():
         accuracy(programs, models, args.meshes)
         point_clouds(programs)
         point_accuracy(programs)
+        million_points(programs)
     return 0
 
 
