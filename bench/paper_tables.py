@@ -338,8 +338,8 @@ def million_points(programs):
 
 def million_table(text, peak):
     rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in text.splitlines()[2:]]
-    table(["cloud", "triangles", "result", "triangulation, s", "repair, s"],
-          [[row[1], row[3].split(" / ")[0], row[12], row[13], row[14]] for row in rows])
+    table(["cloud", "triangles of three votes", "result", "triangulation, s", "repair, s"],
+          [[row[1], thousands(int(row[3].split(" / ")[0])), row[12], row[13], row[14]] for row in rows])
     print(f"Peak memory: {peak} MB.")
 
 
