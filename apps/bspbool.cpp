@@ -230,13 +230,17 @@ void add_bool_options(CLI::App& app, BoolOptions& options) {
   static const auto operations = named_operations();
   add_choice(
       app, "--op", operations, [&options](SetOperation value) { options.operation = value; },
-      "union; intersection; difference: the first without all others; xor: what is in one of "
-      "two")
+      "What the result is (required):\n"
+      "  union         what is in any solid\n"
+      "  intersection  what is in all solids\n"
+      "  difference    what is in the first and in no other\n"
+      "  xor           what is in an odd number of solids")
       ->required();
   add_choice(
       app, "--regions", kRegionTests, [&options](RegionTest value) { options.test = value; },
-      "How regions are found to be cut by a plane: by carrying their cells along, or by linear "
-      "programs; the results are the same")
+      "How to tell whether a plane cuts a region; the result is the same:\n"
+      "  cells     by carrying the cell of the region along\n"
+      "  programs  by linear programs\n")
       ->default_str("cells");
 }
 
@@ -260,7 +264,8 @@ int main(int argc, char** argv) {
                   "  bspbool a.bsp b.bsp --op intersection -o both.bsp\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.inputs,
-                 "Two or more solids: meshes, repaired first where they are none, and trees (.bsp)")
+                 "Two or more solids: meshes, which are repaired first if they are no solids,\n"
+                 "and trees (.bsp)")
       ->required()
       ->expected(-1);
   add_output_option(app, options.step.output, "OUT",

@@ -62,7 +62,7 @@ ExitCode check_mesh(Options& options, Run& run) {
 }
 
 std::string mark_help() {
-  std::string text = "Write the mesh as a PLY with coloured triangles:";
+  std::string text = "Write the mesh as PLY, each triangle coloured by its worst defect:";
   for (const std::string& line : colour_legend()) text += "\n  " + line;
   return text;
 }
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   app.add_option("IN", options.input, "Mesh to check: STL, OBJ, OFF or PLY; - is standard input")
       ->required();
   app.add_flag("--weld", options.check.weld,
-               "Take points with equal coordinates for one, as STL does anyway")
+               "Treat points with equal coordinates as one, as always in STL")
       ->group("Check");
   app.add_option("--places", options.check.most_places, "List this many places of each defect")
       ->type_name("N")

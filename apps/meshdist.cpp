@@ -58,17 +58,17 @@ void add_distance_options(CLI::App& app, DistanceOptions& options) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}))
       ->capture_default_str()
       ->group("Distance");
-  app.add_option("--seed", options.seed, "Of the choice of these points")
+  app.add_option("--seed", options.seed, "Seed of the choice of these points")
       ->type_name("N")
       ->capture_default_str()
       ->group("Distance");
   CLI::Option* bound =
       app.add_flag("--bound", options.bound,
-                   "Also find a distance that is surely nowhere exceeded, by cutting\n"
-                   "triangles until it is near the largest one found")
+                   "Also find a distance that no point exceeds, rounding included, by dividing\n"
+                   "triangles until it is near the largest distance found")
           ->group("Distance");
   app.add_option("--bound-factor", options.bound_factor,
-                 "How near: at most this times the largest distance found")
+                 "How near: at most this many times the largest distance found")
       ->type_name("F")
       ->check(CLI::Range(1.001, 1000.0))
       ->capture_default_str()

@@ -45,9 +45,8 @@ int main(int argc, char** argv) {
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   app.add_flag("--always", always,
-               "Do the whole work also for a mesh that is the boundary of a solid\n"
-               "already, which else comes out as it is, or needs only its holes\n"
-               "closed and its triangles turned")
+               "Do the whole work, also for a mesh that is the boundary of a solid already,\n"
+               "or that needs only its holes closed and its triangles turned")
       ->group("Repair");
   add_predicates_options(app, options.repair);
   add_check_cells_option(app, options.repair.check_cells);

@@ -9,6 +9,7 @@
 # are joined by dots, the value is JSON ("report.json:exit_code=3", "report.json:error=null").
 # SIGNAL sends signals (INT, TERM) one after the other once the program has printed something to stdout, or,
 # with SIGNAL_AFTER, once what it has printed to stderr matches.
+# Each report that the program writes is held against docs/report.schema.json.
 # FILE_SIZE_LIMIT is that of "ulimit -f". No test may leave a temporary file (*.tmp) behind.
 # CLOSED_STDOUT gives it a stdout whose other end is closed, UNREAD_STDOUT one that is open but that nobody reads; RUN_IN_TERMINAL gives it a terminal as stderr.
 function(cli_test)

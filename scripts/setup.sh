@@ -35,6 +35,7 @@ build_packages=(
   ninja-build
   nlohmann-json3-dev
   python3
+  python3-jsonschema
 )
 check_packages=(
   clang

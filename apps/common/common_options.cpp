@@ -97,25 +97,26 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
   app.formatter(std::make_shared<HelpFormatter>());
   const std::string running = "Running";
   const std::string telling = "Reporting";
-  app.add_option("--threads", options.threads, "Number of threads; 0 uses all")
+  app.add_option("--threads", options.threads, "Number of threads; 0: all")
       ->capture_default_str()
       ->check(CLI::Range(0U, kMostThreads))
       ->type_name("N")
       ->group(running);
-  app.add_option("--time-limit", options.time_limit, "Give up after this time; 0 is never")
+  app.add_option("--time-limit", options.time_limit, "Give up after this time; 0: never")
       ->capture_default_str()
       ->check(why_no_duration)
       ->type_name("SECONDS")
       ->group(running);
   app.add_option("--max-memory", options.max_memory,
-                 "Give up rather than take more: 200M, 1.5G, or a share of what is free; 0 is any")
+                 "Give up rather than take more memory: 200M, 1.5G, or a share of what\n"
+                 "is free; 0: no limit")
       ->capture_default_str()
       ->type_name("SIZE")
       ->group(running);
   app.add_option_function<std::string>(
          "--max-triangles",
          [&options](const std::string& text) { options.max_triangles = *parse_count(text); },
-         "Give up on inputs of more triangles; 0 is any number")
+         "Give up on inputs of more triangles; 0: no limit")
       ->default_str("0")
       ->check(why_no_count)
       ->type_name("N")

@@ -91,30 +91,32 @@ PointCloud keep(PointReadResult result, Findings& findings) {
 
 void add_point_options(CLI::App& app, PointSoupOptions& options) {
   app.add_option("--votes", options.votes,
-                 "Take triangles that so many of their corners want: 1, 2 or 3")
+                 "Keep triangles that at least this many of their corners want: 1, 2 or 3")
       ->check(CLI::Range(1, 3))
       ->type_name("N")
       ->capture_default_str()
       ->group("Points");
   app.add_option("--reach", options.reach,
-                 "Span gaps up to this radius, in spacings of the points around")
+                 "Span gaps up to this radius, in spacings of the points around them")
       ->check(CLI::Range(0.1, 1000.0))
       ->type_name("X")
       ->capture_default_str()
       ->group("Points");
-  app.add_option("--neighbours", options.neighbours, "Points that a tangent plane is fitted to")
+  app.add_option("--neighbours", options.neighbours,
+                 "Neighbours of a point that its tangent plane is fitted to")
       ->check(CLI::Range(5, 1000))
       ->type_name("N")
       ->capture_default_str()
       ->group("Points");
   app.add_option("--outliers", options.outlier,
-                 "Drop points whose spacing is so many times that of their neighbours; 0: none")
+                 "Drop points whose spacing is this many times that of their neighbours; 0: none")
       ->check(CLI::NonNegativeNumber)
       ->type_name("X")
       ->capture_default_str()
       ->group("Points");
   app.add_option("--project", options.project,
-                 "Move noisy points so many times onto the surface that their neighbours suggest")
+                 "Smooth noisy points: move each this many times onto the surface that its\n"
+                 "neighbours suggest")
       ->check(CLI::Range(0, 100))
       ->type_name("N")
       ->capture_default_str()
@@ -148,14 +150,15 @@ PointSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, R
 }
 
 void add_point_repair_options(CLI::App& app, PointOptions& options) {
-  app.add_flag("--points", options.as_points, "Take a mesh for its points, as if it had no faces")
+  app.add_flag("--points", options.as_points,
+               "Use only the points of a mesh, as if it had no faces")
       ->group("Points");
   app.add_flag("--base", options.base,
-               "Close an open scan, of a terrain for one, by walls down to a floor")
+               "Close an open scan, such as a terrain, by walls down to a floor")
       ->group("Points");
   app.add_option_function<std::string>(
          "--up", [&options](const std::string& axis) { options.scan_base.axis = axis[0] - 'x'; },
-         "The axis that points up from the floor: x, y, z")
+         "The axis that points up from the floor: x, y or z")
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->type_name("NAME")
       ->default_str("z")

@@ -64,14 +64,14 @@ void add_inside_options(CLI::App& app, InsideOptions& inside) {
       app, "--inside", kRules, [&inside](InsideRule value) { inside.rule = value; },
       "How to decide what is solid:\n"
       "  auto      winding where the orientation can be trusted, else solidity\n"
-      "  solidity  looks at no orientation; fills voids\n"
-      "  parity    looks at no orientation; voids and overlaps are empty\n"
-      "  winding   trusts the orientation; overlaps are solid, voids empty\n")
+      "  winding   what the triangles wind around; overlaps are solid, voids empty\n"
+      "  solidity  what no way leads into from outside; overlaps and voids are solid\n"
+      "  parity    what is inside an odd number of surfaces; overlaps and voids are empty\n")
       ->default_str(std::string(rule_name(inside.rule)))
       ->group("Repair");
   add_choice(
       app, "--cavities", kCavities, [&inside](Cavities value) { inside.cavities = value; },
-      "What becomes of voids that no way leads into from outside:\n"
+      "Voids that no way leads into from outside:\n"
       "  keep  as the rule of --inside says\n"
       "  fill  solid, whatever the rule\n")
       ->default_str("keep")
@@ -82,11 +82,11 @@ void add_holes_option(CLI::App& app, HoleOptions& holes) {
   add_choice(
       app, "--holes", kHoleModes, [&holes](HoleMode value) { holes.mode = value; },
       "How to close holes and gaps:\n"
-      "  patch   with triangles over each hole, bent where the surface around it\n"
-      "          is; what is left, as with extend\n"
-      "  flat    the same without new points\n"
+      "  patch   by triangles over each hole, curved as the surface around it is;\n"
+      "          what is left, as with extend\n"
+      "  flat    the same, without new points\n"
       "  extend  along planes that the mesh already has\n"
-      "  none    not at all: a part with a hole encloses nothing\n")
+      "  none    not at all: a component with a hole encloses nothing\n")
       ->default_str(std::string(hole_mode_name(holes.mode)))
       ->group("Repair");
 }
@@ -95,7 +95,7 @@ void add_max_hole_option(CLI::App& app, HoleOptions& holes) {
   app.add_option_function<double>(
          "--max-hole",
          [&holes](double share) { holes.largest_share = holes.largest_flat_share = share; },
-         "Patch holes of at most this share of the area of their part")
+         "Patch holes of at most this share of the area of the rest of their component")
       ->check(why_no_share)
       ->type_name("SHARE")
       ->default_str(
@@ -107,9 +107,9 @@ void add_touching_option(CLI::App& app, Touching& touching) {
   add_choice(
       app, "--touching", kTouchings, [&touching](Touching value) { touching = value; },
       "Solids that touch along an edge:\n"
-      "  separate  are parts of their own\n"
-      "  join      are one part, connected there\n"
-      "Those that touch in a point are separate either way.")
+      "  separate  become separate components\n"
+      "  join      become one component, connected there\n"
+      "Solids that touch in a point are separate either way.")
       ->default_str("separate")
       ->group("Repair");
 }
@@ -117,8 +117,10 @@ void add_touching_option(CLI::App& app, Touching& touching) {
 void add_simplify_option(CLI::App& app, double& simplify) {
   simplify = kDefaultSimplify;
   app.add_option("--simplify", simplify,
-                 "Fewer triangles where the mesh was cut, moving the surface by at most this\n"
-                 "share of the diagonal; what was not cut stays as it is; 0: no such thing")
+                 "Remove vertices that cutting made, moving the surface by at most this share\n"
+                 "of the diagonal; triangles that were not cut stay as they are; 0: merge only\n"
+                 "what lies in one plane. Left out where the result can only be certified\n"
+                 "without it.")
       ->check(why_no_share)
       ->type_name("SHARE")
       ->capture_default_str()
@@ -133,41 +135,42 @@ void add_output_option(CLI::App& app, std::string& output, const std::string& ty
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
-      "Format of OUT: stl, stl-ascii, obj, off, ply, ply-ascii")
+      "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii")
       ->default_str("by the name of OUT")
       ->group("Output");
 }
 
 void add_sources_option(CLI::App& app, bool& sources) {
   app.add_flag("--sources", sources,
-               "PLY: give each face the property source_triangle, the number from 0 of the\n"
-               "input triangle that it lies in, or -1 where a gap was closed")
+               "PLY only: give each face the property source_triangle, the number of the\n"
+               "input triangle that it lies in, counted from 0; -1 where a gap was closed")
       ->group("Output");
 }
 
 void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
   add_choice(
       app, "--precision", kPrecisions, [&certify](Precision value) { certify.precision = value; },
-      "Round the coordinates of OUT to this, and certify them so: float64, float32;\n"
+      "Round the coordinates of OUT to float64 or float32, and certify them so;\n"
       "binary STL is always float32")
       ->default_str("float64")
       ->group("Output");
-  app.add_flag("--strict", strict, "Write nothing when the result cannot be certified")
+  app.add_flag("--strict", strict, "Write nothing if the result cannot be certified")
       ->group("Output");
 }
 
 void add_predicates_options(CLI::App& app, RepairOptions& repair) {
   add_choice(
       app, "--predicates", kPredicates, [&repair](Predicates value) { repair.predicates = value; },
-      "Who says on which side of a plane a point lies, while the cells are cut:\n"
-      "  exact  integers that are long enough\n"
-      "  float  rounded distances with a tolerance; not repaired again, for comparison\n")
+      "How to tell on which side of a plane a point lies, while cells are cut:\n"
+      "  exact  with integers that are long enough\n"
+      "  float  with rounded distances and a tolerance, for comparison; the result is\n"
+      "         certified, but not mended\n")
       ->default_str(std::string(predicates_name(repair.predicates)))
       ->group("Repair");
   const CLI::Option* epsilon =
       app.add_option("--eps", repair.epsilon,
-                     "With --predicates float: points as near to a plane are on it, as a share of\n"
-                     "the largest side of the mesh")
+                     "With --predicates float: a point this near to a plane is on it, as a share\n"
+                     "of the largest side of the bounding box")
           ->check(why_no_epsilon)
           ->type_name("SHARE")
           ->capture_default_str()
@@ -181,7 +184,7 @@ void add_predicates_options(CLI::App& app, RepairOptions& repair) {
 
 void add_check_cells_option(CLI::App& app, bool& check_cells) {
   app.add_flag("--check-cells", check_cells,
-               "Debugging: prove the cells' invariants after each cut; slow")
+               "For debugging: prove the invariants of the cells after each cut; slow")
       ->group("Repair");
 }
 

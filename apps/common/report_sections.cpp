@@ -284,7 +284,8 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "simplify")) {
     report.set_section("simplify", section_of(repair.simplify));
   }
-  if (was_begun(repair, "check")) {
+  // meshcheck has a stage of this name, too, but no result.
+  if (has("extract") && was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));
     report.set_section("certificate", certificate_of(repair));
   }

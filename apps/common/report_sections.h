@@ -1,4 +1,4 @@
-// The sections that findings make in the JSON report (README.md, "Report").
+// The sections that findings make in the JSON report (docs/report.schema.json).
 #pragma once
 
 #include <vector>

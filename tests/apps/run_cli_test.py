@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs a program in a folder of its own and compares what it did with what was expected.
 
-Called by the CMake function cli_test (cmake/CliTest.cmake), which says what the options mean.
+Called by the CMake function cli_test (cmake/CliTest.cmake), which says what the options mean. Each report that
+the program writes is held against docs/report.schema.json.
 """
 
 import argparse
@@ -17,6 +18,8 @@ import sys
 import tempfile
 import threading
 import time
+
+import report_schema
 
 TIMEOUT_SECONDS = 110
 UNREAD_SECONDS = 3  # from a signal to the end of a program whose output nobody reads
@@ -162,6 +165,33 @@ def check_json(check, folder, stdout):
     return None
 
 
+def report_files(command):
+    """What the command line names as files for reports; "-" is stdout."""
+    for word, following in zip(command, command[1:] + [""]):
+        if word == "--json":
+            yield "-"
+        elif word == "--report":
+            yield following
+        elif word.startswith("--report="):
+            yield word.removeprefix("--report=")
+
+
+def report_complaints(options, folder, stdout):
+    """What is wrong with the reports that were written."""
+    given = {os.path.join(folder, name) for name, _ in copies(options)}
+    for name in report_files(options.command):
+        path = os.path.normpath(os.path.join(folder, name))
+        if name == "-" and stdout.startswith(b"{"):
+            text = stdout
+        elif os.path.isfile(path) and path not in given:
+            with open(path, "rb") as file:
+                text = file.read()
+        else:
+            continue
+        for complaint in report_schema.complaints(text):
+            yield f"report {name}: {complaint}"
+
+
 def complaints(options, folder, code, stdout, stderr):
     if code != options.exit:
         yield f"exit code {code}, not {options.exit}"
@@ -189,6 +219,7 @@ def complaints(options, folder, code, stdout, stderr):
             complaint = f"{check}: {error!r}"
         if complaint:
             yield complaint
+    yield from report_complaints(options, folder, stdout)
 
 
 def main():
