@@ -20,6 +20,12 @@ import os
 import re
 import sys
 
+# Compiled copies of the parts are neither kept nor used. Where the disk is full Python cuts such a copy without
+# noticing, and from then on each start fails on it, when there is room again, too. There are none below
+# /dev/null, so those that an earlier version has cut are not met either. A start takes 20 milliseconds longer.
+sys.dont_write_bytecode = True
+sys.pycache_prefix = os.devnull
+
 from folder_repair.basics import EXTENSION_OF_FORMAT, NAME, OUTPUT, USAGE, Stop, say, text
 from folder_repair.folder_run import FolderRun
 from folder_repair.out_folder import OutFolder

@@ -9,7 +9,7 @@ import subprocess
 from .basics import USAGE, Stop
 
 BUILT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "../../build/release/bin/meshrepair")
-PROBE_SECONDS = 20  # for --help and --version
+PROBE_SECONDS = 60  # for --help and --version
 NO_MESH = "/nonexistent/mesh.ply"
 
 
