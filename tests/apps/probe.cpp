@@ -1,6 +1,7 @@
 // A program that does nothing but end in one of the ways in which programs end: what is tested with
 // it is the frame that all programs share.
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <string>
@@ -35,14 +36,22 @@ ExitCode fail(const std::string& how) {
   return how == "not_certified" ? ExitCode::not_certified : ExitCode::done;
 }
 
-// Until it is told to stop, and at most 20 seconds.
+// Two signals, with nothing between them: how long the first one takes to have an effect does not
+// matter.
+ExitCode take_two_signals() {
+  std::raise(SIGINT);
+  std::raise(SIGTERM);
+  return ExitCode::done;
+}
+
+// Until it is told to stop, and at most ten minutes.
 ExitCode work(ProgressBar& progress, bool deaf) {
   progress.stage("waiting");
   std::puts("working");
   std::fflush(stdout);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 60000; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    progress.advance(i / 2000.0);
+    progress.advance(i / 60000.0);
     if (!deaf && progress.cancelled()) throw Cancelled();
   }
   return ExitCode::done;
@@ -70,6 +79,7 @@ ExitCode probe(const std::string& what, Run& run) {
   run.report.set_input({{"path", what}});
   if (what == "work") return work(run.progress, false);
   if (what == "deaf") return work(run.progress, true);
+  if (what == "two_signals") return take_two_signals();
   if (what == "hoard") return hoard(run.progress);
   if (what == "gulp") return gulp(run.progress);
   if (what == "stdin") {
