@@ -9,7 +9,7 @@
 namespace meshrepair {
 namespace {
 
-constexpr int kLinesLookedAt = 3;
+constexpr int kLinesWithSeparators = 3;
 
 // "// X", "X", "x:" and the like are x.
 std::string_view bare_name(std::string_view token) {
@@ -43,7 +43,7 @@ std::size_t columns_below(std::string_view text) {
 Separators find_separators(std::string_view bytes) {
   TextScanner text(bytes, {.comment = '#'});
   bool separated = false, semicolons = false, commas = false, points = false;
-  for (int lines = 0; lines < kLinesLookedAt && text.next_anywhere(); ++lines) {
+  for (int lines = 0; lines < kLinesWithSeparators && text.next_anywhere(); ++lines) {
     const std::string_view token = text.peek_token();
     const auto count =
         std::count_if(token.begin(), token.end(), [](char c) { return c == ',' || c == ';'; });
