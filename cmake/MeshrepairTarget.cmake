@@ -1,5 +1,25 @@
 # What every target of the project has in common.
 
+# Headers of others that are parsed once, not for each source; the project's own are not among them, so a change of one of these
+# compiles again what includes it and nothing else. Sources include what they use all the same: OFF shows whether they do.
+option(MESHREPAIR_PRECOMPILE "Precompile headers of the standard library, Eigen, GoogleTest and others" ${PROJECT_IS_TOP_LEVEL})
+
+# meshrepair_precompile(tests HEADERS <vector> ... LINK GTest::gtest): the targets of this folder and those below it share these.
+function(meshrepair_precompile name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
+  if(NOT MESHREPAIR_PRECOMPILE)
+    return()
+  endif()
+  set(target meshrepair_precompiled_${name})
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp CONTENT "")
+  add_library(${target} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+  target_link_libraries(${target} PRIVATE ${ARG_LINK})
+  target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
+  set(MESHREPAIR_PRECOMPILED "")
+  meshrepair_configure(${target})
+  set(MESHREPAIR_PRECOMPILED ${target} PARENT_SCOPE)
+endfunction()
+
 # Compile settings shared by libraries, programs and tests. Contraction of a*b+c into one rounding is
 # off: the error bounds of the predicates and the "same input, same bytes" promise assume none.
 function(meshrepair_configure target)
@@ -7,6 +27,9 @@ function(meshrepair_configure target)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Werror)
+  endif()
+  if(MESHREPAIR_PRECOMPILED)
+    target_precompile_headers(${target} REUSE_FROM ${MESHREPAIR_PRECOMPILED})
   endif()
 endfunction()
 

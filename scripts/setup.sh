@@ -42,6 +42,7 @@ check_packages=(
   clang-format-14
   clang-tidy
   libclang-rt-dev
+  lld
   python3-numpy
 )
 

@@ -15,4 +15,5 @@ jobs=$(nproc)
 scripts/setup.sh build
 cmake --preset release
 cmake --build build/release --parallel "$jobs"
-ctest --test-dir build/release --output-on-failure --parallel "$jobs" --no-tests=error
+# In an order of chance: none may need what another one leaves.
+ctest --test-dir build/release --output-on-failure --parallel "$jobs" --schedule-random --no-tests=error

@@ -11,6 +11,7 @@
 
 #include "random_geometry.h"
 #include "shapes.h"
+#include "share_of_cases.h"
 
 namespace meshrepair {
 namespace {
@@ -68,7 +69,7 @@ double volume_of_union(const std::vector<Tetrahedron>& tetrahedra) {
 }
 
 TEST(OverlappingFaces, OfTetrahedraAreUnited) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(30u); ++seed) {
     const std::vector<Tetrahedron> tetrahedra = tetrahedra_of(3 + seed % 6, seed);
     for (const InsideRule rule : {InsideRule::automatic, InsideRule::winding}) {
       RepairOptions options;

@@ -10,6 +10,7 @@
 
 #include "complexes.h"
 #include "degenerate_soups.h"
+#include "share_of_cases.h"
 
 namespace meshrepair {
 namespace {
@@ -121,7 +122,7 @@ bool has_equal_triangles(const TriangleSoup& soup) {
 
 TEST(BoxUnions, WindingGivesTheExactVolume) {
   int tried = 0;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(120u); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const std::int32_t size = random.integer(4, 24);
@@ -141,7 +142,7 @@ TEST(BoxUnions, WindingGivesTheExactVolume) {
 // Faces of different boxes in one plane are where the parity of a boundary is not that of its
 // boxes; with all planes different it is, and the flood fills every void.
 TEST(BoxUnions, ParityAndSolidityGiveTheExactVolume) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(60u); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const std::int32_t count = random.integer(1, 9);
@@ -172,7 +173,7 @@ TEST(BoxUnions, ParityAndSolidityGiveTheExactVolume) {
 
 // Unit cubes that share corners and edges, mostly.
 TEST(BoxUnions, CubesThatTouchAreSeparatedOrJoined) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(30u); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TriangleSoup soup;

@@ -9,6 +9,7 @@
 #include <repair/repair.h>
 
 #include "degenerate_soups.h"
+#include "share_of_cases.h"
 #include "tree_bytes.h"
 
 namespace meshrepair {
@@ -44,7 +45,7 @@ TEST(DamagedTrees, AreRefusedOrExtracted) {
       labelled_bytes(cube()), labelled_bytes(random_grid_boxes(4, 5, 1)),
       labelled_bytes(tetrahedra_soup(5, 2)), labelled_bytes(noisy_sphere(80, 0.2, 3))};
   std::array<int, 3> fates{};
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(3000u); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     std::string bytes = files[seed % files.size()];

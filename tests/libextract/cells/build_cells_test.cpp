@@ -7,6 +7,7 @@
 #include <extract/check_complex.h>
 
 #include "shapes.h"
+#include "share_of_cases.h"
 #include "trees.h"
 #include "unreliable_engine.h"
 
@@ -103,7 +104,7 @@ TEST(BuildCells, PlaneOfTheRegionsOwnFacetIsRefused) {
 
 TEST(Clipper, TopologySurvivesWrongPredicates) {
   ClipReport total;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(60u); ++seed) {
     BuildTreeReport tree_report;
     const Tree tree = tree_of(seed % 2 == 0 ? random_soup(25, 5, seed) : sphere(24), tree_report);
     UnreliableEngine engine(seed, seed % 3 == 0 ? 0.02 : seed % 3 == 1 ? 0.3 : 1.0);

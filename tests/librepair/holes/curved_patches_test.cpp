@@ -11,6 +11,7 @@
 #include <repair/repair.h>
 
 #include "shapes.h"
+#include "share_of_cases.h"
 #include "trees.h"
 
 namespace meshrepair {
@@ -86,7 +87,7 @@ TEST(CurvedPatches, AreTheSameWhicheverWayTheSurfaceRuns) {
 
 TEST(CurvedPatches, OfNoisySpheresDoNotBulge) {
   for (const double noise : {0.005, 0.015}) {  // 10 % and 30 % of an edge
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= share_of_cases(4u); ++seed) {
       SCOPED_TRACE(seed);
       Random random(seed);
       TriangleSoup whole = sphere(5000);
@@ -203,7 +204,7 @@ TEST(CurvedPatches, NewPointsAreOnTheGridAndDifferent) {
 // Whatever the hole looks like: a closed solid, and the same whatever the number of threads.
 TEST(CurvedPatches, RandomHolesAreClosed) {
   const TriangleSoup whole = sphere(3000);
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (std::uint64_t seed = 1; seed <= share_of_cases(12u); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TriangleSoup open = whole;

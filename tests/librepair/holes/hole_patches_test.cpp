@@ -14,6 +14,7 @@
 #include "degenerate_soups.h"
 #include "random_geometry.h"
 #include "shapes.h"
+#include "share_of_cases.h"
 #include "trees.h"
 
 namespace meshrepair {
@@ -112,7 +113,7 @@ TEST(PatchHoles, ALargeLoopThatIsNotConvexGetsNoMoreThanItsArea) {
 
 TEST(PatchHoles, HolesOfASphereAreClosedSmoothly) {
   const TriangleSoup whole = sphere(5000);
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(10u); ++seed) {
     SCOPED_TRACE(seed);
     const TriangleSoup broken = without_some(whole, 0.05, seed);
     const Patched p = patched(broken);

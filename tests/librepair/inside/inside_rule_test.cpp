@@ -10,6 +10,7 @@
 
 #include "graphs.h"
 #include "shapes.h"
+#include "share_of_cases.h"
 
 namespace meshrepair {
 namespace {
@@ -81,7 +82,7 @@ TEST(InsideRule, OverlappingSpheresWithMissingTriangles) {
 TEST(InsideRule, AnInvertedCoreInACavityThatDoesNotTellIsSolid) {
   const TriangleSoup outer = sphere(1000), wall = sphere(1000, 0.7), core = sphere(1000, 0.4);
   const double expected = signed_volume(outer) - signed_volume(wall) + signed_volume(core);
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(10u); ++seed) {
     SCOPED_TRACE(seed);
     TriangleSoup soup = outer;
     append(soup, with_some_flipped(wall, 0.5, seed));

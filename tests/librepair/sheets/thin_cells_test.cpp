@@ -10,6 +10,7 @@
 
 #include "complexes.h"
 #include "shapes.h"
+#include "share_of_cases.h"
 
 namespace meshrepair {
 namespace {
@@ -105,7 +106,7 @@ TEST(ThinCells, FixedCellsStay) {
 
 TEST(ThinCells, TheVolumeChangesByAFewStepsOfTheNumbers) {
   std::size_t changed = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(20u); ++seed) {
     TriangleSoup soup = moved(random_cubes(12, seed), {3000, 0, 0});
     // Copies a little beside, so that sheets lie at small distances.
     append(soup, moved(soup, {1e-4, 2e-4, 1e-4}));
@@ -224,7 +225,7 @@ TEST(ThinCells, FacesThatNearlyCoincideBecomeOne) {
 TEST(ThinCells, StacksOfSlitsAreFilledInDoublePrecisionToo) {
   double area = 0, area_without = 0;
   std::size_t triangles = 0, without = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(20u); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const Eigen::Matrix3d turn = random_rotation(random);
@@ -252,7 +253,7 @@ TEST(ThinCells, StacksOfSlitsAreFilledInDoublePrecisionToo) {
 // In steps of the grid that the soup's points were put on.
 TEST(ThinCells, WhatNearlyCoincidesStaysAValidSolidOfItsVolume) {
   std::size_t changed = 0;
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (std::uint64_t seed = 0; seed < share_of_cases(12u); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TriangleSoup solid = seed % 2 == 0 ? turned_box(random) : noisy_sphere(100, 0.2, seed);

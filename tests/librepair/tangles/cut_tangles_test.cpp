@@ -16,6 +16,7 @@
 #include "open_surfaces.h"
 #include "random_solids.h"
 #include "shapes.h"
+#include "share_of_cases.h"
 #include "triangles_by_place.h"
 
 namespace meshrepair {
@@ -137,7 +138,7 @@ TriangleSoup random_scene(std::uint64_t seed) {
 
 TEST(CutTangles, ScenesComeOutAsFromAllCells) {
   std::size_t cut = 0;
-  for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+  for (std::uint64_t seed = 1; seed <= share_of_cases(kScenes); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     RepairOptions options;
@@ -154,7 +155,7 @@ TEST(CutTangles, ScenesComeOutAsFromAllCells) {
 // Coarse boxes with coordinates that are few: faces overlap, and edges and corners touch.
 TEST(CutTangles, BoxesOnALatticeComeOutAsFromAllCells) {
   std::size_t cut = 0;
-  for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+  for (std::uint64_t seed = 1; seed <= share_of_cases(kScenes); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TriangleSoup soup;
@@ -296,7 +297,7 @@ TEST(CutTangles, IsCertifiedInSinglePrecision) {
   options.certify.precision = Precision::float32;
   options.certify.welded = true;
   options.simplify = kDefaultSimplify;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= share_of_cases(8u); ++seed) {
     SCOPED_TRACE(seed);
     const RepairResult result = repair_sparing(random_scene(seed), options);
     if (result.report.set_aside == 0) continue;

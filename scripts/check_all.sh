@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# What .ci/run checks, at length: all cases, all sources alone, new inputs for the fuzz targets, threads.
+set -euo pipefail
+
+usage() {
+  cat <<TEXT
+Usage: scripts/check_all.sh [STEP...]
+
+Does at length what .ci/run does in a hurry, and prints how long each STEP took. Steps, all by default:
+
+  release   builds without precompiled headers, so that each source has to include what it uses, and runs all tests
+  headers   each header compiles alone
+  tidy      clang-tidy with all checks and the static analyzer, on each source alone
+  sanitize  all tests but that of the package under ASan and UBSan, with all their cases
+  fuzz      each fuzz target tries its stored inputs and 1,000 changes of them
+  threads   the tests of the libraries under the thread sanitizer
+
+Takes some hours on two cores. Exit code 1 if anything failed.
+TEXT
+}
+case "${1:-}" in -h | --help) usage; exit 0 ;; esac
+
+steps=(release headers tidy sanitize fuzz threads)
+chosen=("$@")
+if [ "$#" -eq 0 ]; then chosen=("${steps[@]}"); fi
+for name in "${chosen[@]}"; do
+  [[ " ${steps[*]} " == *" $name "* ]] || { usage >&2; exit 2; }
+done
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+jobs=$(nproc)
+summary=()
+failed=0
+
+run_tests() { ctest --test-dir "$1" --output-on-failure --parallel "$jobs" --schedule-random --no-tests=error "${@:2}"; }
+
+check_release() {
+  cmake --preset release -B build/check &&
+    cmake build/check -DMESHREPAIR_PRECOMPILE=OFF &&
+    cmake --build build/check --parallel "$jobs" &&
+    run_tests build/check
+}
+
+check_headers() {
+  cmake --preset release -B build/check &&
+    cmake --build build/check --parallel "$jobs" --target all_verify_interface_header_sets
+}
+
+check_tidy() { scripts/tidy.sh --all; }
+
+# Sanitizers end the process where memory ends.
+check_sanitize() {
+  cmake --preset asan-ubsan &&
+    cmake --build build/asan-ubsan --parallel "$jobs" &&
+    ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
+      run_tests build/asan-ubsan --label-exclude 'package|memory'
+}
+
+# The same random numbers each time: whether a commit passes should not be chance.
+check_fuzz() { scripts/fuzz.sh all 0 -seed=1 -runs=1000; }
+
+# TBB is not built for it: what happens inside, and between its threads, it cannot judge.
+check_threads() {
+  cmake --preset tsan &&
+    cmake --build build/tsan --parallel "$jobs" &&
+    TSAN_OPTIONS=ignore_noninstrumented_modules=1 \
+      run_tests build/tsan --label-exclude 'package|memory|scripts|cli'
+}
+
+scripts/setup.sh all
+for name in "${chosen[@]}"; do
+  echo
+  echo "==== $name"
+  start=$SECONDS verdict=ok
+  "check_$name" || { verdict=FAILED; failed=1; }
+  summary+=("$(printf '%-7s %5d s  %s' "$verdict" "$((SECONDS - start))" "$name")")
+done
+
+echo
+printf '%s\n' "${summary[@]}"
+exit "$failed"
