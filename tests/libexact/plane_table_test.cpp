@@ -15,7 +15,7 @@ namespace {
 
 using testing::Random;
 
-Plane random_plane(Random& random, std::int32_t radius) {
+Plane plane_near_origin(Random& random, std::int32_t radius) {
   Plane plane;
   do {
     plane = plane_through(random.grid_point(radius), random.grid_point(radius),
@@ -35,7 +35,7 @@ TEST(PlaneTable, CoplanarIsTheSameIdAndNothingElseIs) {
   std::map<std::array<std::int64_t, 4>, PlaneId> seen;
   int again = 0;
   for (int i = 0; i < 5000; ++i) {
-    Plane plane = random_plane(random, 3);
+    Plane plane = plane_near_origin(random, 3);
     const PlaneTable::Interned interned = table.intern(plane);
     const bool turned = make_canonical(plane);
     EXPECT_EQ(interned.turned, turned);
@@ -64,7 +64,7 @@ TEST(PlaneTable, MultiplesOfAPlaneAreThatPlane) {
   Random random(2);
   PlaneTable table;
   for (int i = 0; i < 500; ++i) {
-    const Plane plane = random_plane(random, 1000);
+    const Plane plane = plane_near_origin(random, 1000);
     const auto once = table.intern(plane);
     const auto twice = table.intern(times(plane, 6));
     const auto round = table.intern(times(plane, -35));
@@ -93,7 +93,7 @@ TEST(PlaneTable, ReleasingTheIndexForgetsNothing) {
   PlaneTable table;
   std::vector<std::pair<Plane, PlaneId>> all;
   for (int i = 0; i < 300; ++i) {
-    const Plane plane = random_plane(random, 50);
+    const Plane plane = plane_near_origin(random, 50);
     all.emplace_back(plane, table.intern(plane).id);
     if (i % 37 == 0) table.release_index();
   }
@@ -116,7 +116,7 @@ TEST(PlaneTable, StoredPlaneSeparatesPointsAsTheGivenOneDid) {
   Random random(4);
   PlaneTable table;
   for (int i = 0; i < 2000; ++i) {
-    const Plane plane = random_plane(random, kGridRadius);
+    const Plane plane = plane_near_origin(random, kGridRadius);
     const auto interned = table.intern(plane);
     const GridPoint p = random.grid_point();
     EXPECT_EQ(side(p, plane), (interned.turned ? -1 : 1) * side(p, table[interned.id]));

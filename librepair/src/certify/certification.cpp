@@ -33,13 +33,13 @@ namespace meshrepair::internal {
 namespace {
 
 // More are counted but not mended in one round.
-constexpr std::size_t kMostPairs = 1'000'000;
+constexpr std::size_t kPairsToMend = 1'000'000;
 
 // A coarser grid may take the solid away instead of its faults: nothing is better whose volume
 // differs by more than this share, and what the surface encloses when it is moved by so many steps
 // of the numbers.
 constexpr double kMostLost = 0.1;
-constexpr double kMostSteps = 4;
+constexpr double kStepsMoved = 4;
 
 // How far edges are collapsed or turned to mend a place, in steps of the numbers.
 constexpr double kMendSteps = 16;
@@ -111,7 +111,7 @@ Certification::Certification(Surface surface, const Grid& grid, const CertifyOpt
   round_step_ = step_;
   volume_ = signed_volume(surface.mesh);
   area_ = surface_area(surface.mesh);
-  most_lost_ = kMostLost * std::abs(volume_) + kMostSteps * spacing_ * area_;
+  most_lost_ = kMostLost * std::abs(volume_) + kStepsMoved * spacing_ * area_;
   current_.surface = std::move(surface);
   test(current_);
   report_.pairs_at_first = current_.found.count;
@@ -200,7 +200,7 @@ void Certification::test(Attempt& attempt, std::vector<Vec3d> before) const {
   attempt.dropped_parts += meshrepair::internal::drop_turned_parts(attempt.surface, before);
   join_ends(attempt.surface);
   SelfIntersectionOptions options;
-  options.most_pairs = kMostPairs;
+  options.most_pairs = kPairsToMend;
   options.progress = progress_;
   attempt.found = self_intersections(attempt.surface.mesh, options);
   if (const std::size_t dropped = drop_thin_at_fault(attempt); dropped > 0) {

@@ -10,13 +10,13 @@
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::size_t kMostPairs = 1'000'000;
+constexpr std::size_t kPairsToSettle = 1'000'000;
 
 class Settler {
  public:
   Settler(Surface& surface, const Grid& grid, ProgressObserver* progress)
       : surface_(surface), grid_(grid) {
-    options_.most_pairs = kMostPairs;
+    options_.most_pairs = kPairsToSettle;
     options_.progress = progress;
   }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kSamples = 16;
 // About a second.
-constexpr std::size_t kMostSteps = 200'000'000;
+constexpr std::size_t kMostRimSteps = 200'000'000;
 constexpr std::size_t kNowhere = ~std::size_t{0};
 
 struct RimPoint {
@@ -59,7 +59,7 @@ class SortedPoints {
 
   [[nodiscard]] bool out_of_reach(const RimPoint& q, const Vec3d& p, const Nearest& nearest) {
     check_.tick();
-    if (++steps_ > kMostSteps) return true;
+    if (++steps_ > kMostRimSteps) return true;
     const double along = q.at[axis_] - p[axis_];
     return along * along > nearest.distance;
   }

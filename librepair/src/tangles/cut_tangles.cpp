@@ -45,7 +45,7 @@ constexpr double kMostFilled = 0.01;
 // What moving points does not mend soon is left to a repair that may cut otherwise; and so are more
 // pairs of triangles that rounding makes meet than may be chance.
 constexpr std::size_t kMostRounds = 1;
-constexpr std::size_t kMostPairs = 32;
+constexpr std::size_t kPairsOfTangles = 32;
 
 bool is_wanted(const Orientation& orientation, const RepairOptions& options) {
   if (!may_spare_cells(options) || may_fill(options.inside)) return false;
@@ -223,7 +223,7 @@ std::optional<Surface> try_to_cut(const CleanSoup& soup, const Orientation& orie
   RepairOptions finishing = options;
   finishing.examine = nullptr;
   finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kMostRounds);
-  finishing.certify.most_pairs_at_first = kMostPairs;
+  finishing.certify.most_pairs_at_first = kPairsOfTangles;
   Surface surface = finish_surface(soup, std::move(*sewn), finishing, report, meter);
   if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
   return surface;

@@ -237,9 +237,9 @@ TEST(CutTangles, SolidsThatTouchAreSewnAsAsked) {
 // Sheets nearer to each other than the numbers of a file: what lies between goes, also where one of
 // them meets nothing else.
 TEST(CutTangles, SlitsAreFilledAroundTangles) {
-  constexpr double kSlit = 0x1p-19;
+  constexpr double kGap = 0x1p-19;
   TriangleSoup soup = divided(cube(), 4);
-  append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kSlit})));
+  append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kGap})));
   append(soup, box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8}));
   RepairOptions options;
   options.certify.precision = Precision::float32;
@@ -260,9 +260,9 @@ TEST(CutTangles, SlitsAreFilledAroundTangles) {
 
 // In double precision what meets nothing stays, and no more is divided for the sake of slits.
 TEST(CutTangles, SlitsOfTheGridCostNoMoreAttempts) {
-  constexpr double kSlit = 0x1p-21;  // a step of the grid
+  constexpr double kGap = 0x1p-21;  // a step of the grid
   TriangleSoup soup = divided(cube(), 4);
-  append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kSlit})));
+  append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kGap})));
   append(soup, box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8}));
   append(soup, moved(scaled(divided(cube(), 5), 8), {16, 1, 2}));
   const RepairResult all = repair(soup), result = repair_sparing(soup);
