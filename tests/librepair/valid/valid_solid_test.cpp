@@ -240,7 +240,7 @@ TEST(ValidSolid, IsWhatARepairMakes) {
       ++kept;
     }
   }
-  EXPECT_GT(kept, 80u);
+  EXPECT_GT(kept, expected_cases(80u));
 }
 
 }  // namespace
