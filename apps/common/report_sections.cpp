@@ -122,6 +122,15 @@ Json section_of(const OrientReport& orient) {
           {"unorientable_parts", orient.unorientable_parts}};
 }
 
+Json section_of(const ArrangeReport& arrange) {
+  return {{"cut_triangles", arrange.cut_triangles},
+          {"facets", arrange.facets},
+          {"new_points", arrange.new_points},
+          {"chambers", arrange.chambers},
+          {"regions", arrange.regions},
+          {"singular_edges", arrange.singular_edges}};
+}
+
 Json cells_of(const RepairReport& repair) {
   const ClipReport& clip = repair.clip;
   const bool exact = repair.predicates == Predicates::exact;
@@ -272,9 +281,11 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("clean", section_of(repair.clean));
     report.set_section("defects", defects_of(repair));
   }
-  if (has("tree")) report.set_section("holes", section_of(repair.holes));
+  if (has("tree") || was_begun(repair, "arrange"))
+    report.set_section("holes", section_of(repair.holes));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
+  if (repair.arrange.chambers > 0) report.set_section("arrange", section_of(repair.arrange));
   if (was_begun(repair, "cells")) report.set_section("cells", cells_of(repair));
   if (has("inside")) report.set_section("inside", section_of(repair.inside));
   if (has("extract")) {

@@ -1,18 +1,21 @@
 // The whole way, and the table of its contents.
 //
-// A soup becomes a solid by the first of four ways that applies. They are tried from the cheapest
+// A soup becomes a solid by the first of five ways that applies. They are tried from the cheapest
 // to the one that always does; where two apply they give the same solid, but for the last bits of
 // new points. Each is a function of one shape: a surface, or nothing and the next way.
 //
-//   as given          when the soup is the boundary of a solid; promises the soup itself, bit for
-//   bit. mended            when it is one once copies are dropped, holes closed and parts turned;
-//                     promises its triangles, with their own coordinates, and patches.
-//   around tangles    when winding numbers are a matter of fact and few triangles meet others;
-//                     promises what all cells would give, certified.
-//   cells everywhere  always; promises a surface as near to a certified one as could be had.
+// - As given, when the soup is the boundary of a solid: promises the soup itself, bit for bit.
+// - Mended, when it is one once copies are dropped, holes closed and parts turned: promises its
+//   triangles, with their own coordinates, and patches.
+// - By chambers, when it is closed, and the inside rule finds no contradiction: triangles that meet
+//   are cut in their own planes, and space is not divided. Promises what all cells would give,
+//   certified.
+// - Around tangles, when winding numbers are a matter of fact and few triangles meet others:
+//   promises the same.
+// - Cells everywhere, always: promises a surface as near to a certified one as could be had.
 //
-// The last two make cells (cells/), say which are solid (solid/, tangles/), and hand them to
-// surface/, where the boundary is extracted, simplified and certified: attempt by attempt
+// The last two make cells (cells/), and all three say what is solid (inside/, solid/, tangles/).
+// In surface/ the boundary is extracted, simplified and certified: attempt by attempt
 // (make_surface.cpp), each with rounds of repairing it again on coarser grids
 // (certify_surface.cpp).
 #include <array>
@@ -62,6 +65,13 @@ std::optional<Surface> mended(Job& job) {
                                job.meter);
 }
 
+std::optional<Surface> by_chambers(Job& job) {
+  if (!internal::may_spare_cells(job.options)) return std::nullopt;
+  job.prepare();
+  return internal::surface_by_chambers(job.clean, job.orientation, job.options, job.report,
+                                       job.meter);
+}
+
 std::optional<Surface> around_tangles(Job& job) {
   job.prepare();
   return internal::cut_tangles(job.clean, job.orientation, job.options, job.report, job.meter);
@@ -73,7 +83,7 @@ std::optional<Surface> cells_everywhere(Job& job) {
                                     job.meter);
 }
 
-constexpr std::array kWays = {as_given, mended, around_tangles, cells_everywhere};
+constexpr std::array kWays = {as_given, mended, by_chambers, around_tangles, cells_everywhere};
 
 std::vector<char> solid_cells(const Tree& tree, const CellComplex& complex) {
   std::vector<char> solid;

@@ -40,4 +40,14 @@ class SoupRays {
   BoxTree tree_;
 };
 
+// A ray up the z axis from right beside a corner of a triangle, inside of it.
+struct CornerRay {
+  std::uint32_t triangle = 0, corner = 0;
+};
+
+// The triangles that each ray passes, ascending, but for its own, exactly. None of their own is
+// parallel to z. Few rays do without a tree.
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> triangles_above(
+    const TriangleSoup& soup, std::span<const CornerRay> rays);
+
 }  // namespace meshrepair

@@ -31,6 +31,16 @@ struct RayStart {
 [[nodiscard]] int passed_upward(const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                 const RayStart& start);
 
+// Whether the triangle's box is such that the ray may pass it.
+[[nodiscard]] inline bool may_reach(const Vec3d& start, const Vec3d& a, const Vec3d& b,
+                                    const Vec3d& c) {
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    if (a[k] < start[k] && b[k] < start[k] && c[k] < start[k]) return false;
+    if (a[k] > start[k] && b[k] > start[k] && c[k] > start[k]) return false;
+  }
+  return a.z() >= start.z() || b.z() >= start.z() || c.z() >= start.z();
+}
+
 // Calls visit(item) for all whose boxes the ray may reach.
 template <class Visit>
 void visit_column(const BoxTree& tree, const Vec3d& start, Visit visit) {

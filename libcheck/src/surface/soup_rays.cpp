@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <Eigen/Geometry>
 
 #include <check/soup_rays.h>
 #include <check/triangle_list.h>
 #include <exact/double_predicates.h>
+#include <mesh/edge_table.h>
 
 #include "column_ray.h"
 
@@ -122,6 +124,34 @@ bool SoupRays::sees(const Vec3d& from, const Vec3d& to, std::uint32_t but) const
                                                           soup_.points[c[1]], soup_.points[c[2]]));
               });
   return free;
+}
+
+std::vector<std::vector<std::uint32_t>> triangles_above(const TriangleSoup& soup,
+                                                        std::span<const CornerRay> rays) {
+  constexpr std::size_t kFew = 12;  // so often all are looked at sooner than a tree is built
+  std::optional<BoxTree> tree;
+  if (rays.size() > kFew) tree.emplace(boxes_of(soup));
+  std::vector<std::vector<std::uint32_t>> above;
+  above.reserve(rays.size());
+  for (const CornerRay& ray : rays) {
+    IndexTriangle corners = soup.triangles[ray.triangle];
+    std::rotate(corners.begin(), corners.begin() + ray.corner, corners.end());
+    const RayStart start = RayStart::in(soup, corners);
+    std::vector<std::uint32_t>& passed = above.emplace_back();
+    const auto look_at = [&](std::uint32_t t) {
+      const auto& c = soup.triangles[t];
+      const Vec3d &p = soup.points[c[0]], &q = soup.points[c[1]], &r = soup.points[c[2]];
+      if (t == ray.triangle || !internal::may_reach(start.corner, p, q, r)) return;
+      if (internal::passed_upward(p, q, r, start) != 0) passed.push_back(t);
+    };
+    if (tree) {
+      internal::visit_column(*tree, start.corner, look_at);
+      std::sort(passed.begin(), passed.end());
+    } else {
+      for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) look_at(t);
+    }
+  }
+  return above;
 }
 
 }  // namespace meshrepair

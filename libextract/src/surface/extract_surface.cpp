@@ -14,7 +14,7 @@
 
 #include "facets/loose_regions.h"
 #include "input_points.h"
-#include "triangulate/region_triangulator.h"
+#include "region_triangulator.h"
 
 namespace meshrepair {
 namespace {

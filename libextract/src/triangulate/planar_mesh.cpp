@@ -17,9 +17,6 @@
 namespace meshrepair::internal {
 namespace {
 
-std::uint32_t next_slot(std::uint32_t slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; }
-std::uint32_t previous_slot(std::uint32_t slot) { return slot % 3 == 0 ? slot + 2 : slot - 1; }
-
 using Vector = std::array<double, 3>;
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -181,12 +178,18 @@ void PlanarMesh::improve() {
       queue_.push_back(slot);
     }
   }
+  flip_while_better();
+}
+
+void PlanarMesh::flip_while_better() {
   // Each flip gains; the bound only stops what rounding might keep going.
   std::size_t flips_left = 16 * queue_.size();
   while (!queue_.empty() && flips_left > 0) {
     const std::uint32_t slot = queue_.back();
     queue_.pop_back();
-    if (across_[slot] == kNone || !wants_flip(slot) || (loose_ && !can_flip(slot))) continue;
+    if (across_[slot] == kNone || mark_[slot] != kNone || !wants_flip(slot) ||
+        (loose_ && !can_flip(slot)))
+      continue;
     flip(slot);
     --flips_left;
     const std::uint32_t other = across_[slot];

@@ -1,4 +1,5 @@
-// A triangulated region of a plane from which vertices can be taken away, exactly.
+// A triangulated region of a plane to which vertices and edges can be added, and from which
+// vertices can be taken away, exactly.
 #pragma once
 
 #include <array>
@@ -10,6 +11,14 @@
 #include <exact/point.h>
 
 namespace meshrepair::internal {
+
+// Of the same triangle.
+[[nodiscard]] inline std::uint32_t next_slot(std::uint32_t slot) {
+  return slot % 3 == 2 ? slot - 2 : slot + 1;
+}
+[[nodiscard]] inline std::uint32_t previous_slot(std::uint32_t slot) {
+  return slot % 3 == 0 ? slot + 2 : slot - 1;
+}
 
 // Triangles are counter-clockwise in the region's own sense. Slot 3 t + k is the side of triangle t
 // from its corner k to corner k + 1. The region may have holes and touch itself at vertices: a
@@ -30,17 +39,31 @@ class PlanarMesh {
   std::uint32_t add_triangle(const std::array<std::uint32_t, 3>& vertices);
   // The two slots are the same edge, passed in opposite directions.
   void join(std::uint32_t slot, std::uint32_t other);
-  // Marks a slot on the outline; kNone is no mark.
+  // Marks a slot on the outline, or both slots of an edge that is to stay; kNone is no mark.
   void mark(std::uint32_t slot, std::uint32_t mark) { mark_[slot] = mark; }
+
+  // Adds a vertex inside the region, or on an edge, whose parts then both have its mark. False
+  // where there is one already, or no region. Flips edges without a mark so that few long ones
+  // stay.
+  [[nodiscard]] bool insert_vertex(const Point& point, std::uint32_t& vertex);
+  // Flips edges until the two are connected by one, and marks its slots. False where a vertex, the
+  // outline or an edge with a mark is in between.
+  [[nodiscard]] bool insert_edge(std::uint32_t from, std::uint32_t to, std::uint32_t mark);
 
   // Takes away a vertex that is inside the region, or inside a straight part of its outline, and
   // fills the star around it again. The new side of the outline, if any, carries no mark. False
   // where that cannot be, which leaves the mesh of no use; never so with exact points.
   [[nodiscard]] bool remove_vertex(std::uint32_t vertex);
 
-  // Flips edges until the triangulation is constrained Delaunay as far as rounded angles tell.
-  // Every triangle stays proper.
+  // Flips edges without a mark until the triangulation is constrained Delaunay as far as rounded
+  // angles tell. Every triangle stays proper.
   void improve();
+
+  // Slots of all triangles, those that were taken away, too, whose slots start at no vertex.
+  [[nodiscard]] std::uint32_t slots() const { return static_cast<std::uint32_t>(corners_.size()); }
+  [[nodiscard]] std::uint32_t vertex_at(std::uint32_t slot) const { return corners_[slot]; }
+  [[nodiscard]] std::uint32_t across(std::uint32_t slot) const { return across_[slot]; }
+  [[nodiscard]] std::uint32_t mark_of(std::uint32_t slot) const { return mark_[slot]; }
 
   // Calls visit(vertices, marks), two arrays of three, for each triangle.
   template <class Visit>
@@ -74,6 +97,19 @@ class PlanarMesh {
   [[nodiscard]] bool wants_flip(std::uint32_t slot) const;
   [[nodiscard]] bool can_flip(std::uint32_t slot) const;
   void flip(std::uint32_t slot);
+  void flip_while_better();
+  [[nodiscard]] bool find_triangle(const Point& point, std::uint32_t& triangle,
+                                   std::array<int, 3>& turns) const;
+  [[nodiscard]] bool look_into(std::uint32_t triangle, const Point& point,
+                               std::array<int, 3>& turns) const;
+  void split_triangle(std::uint32_t triangle, std::uint32_t vertex);
+  void split_side(std::uint32_t slot, std::uint32_t vertex);
+  void set_triangle(std::uint32_t triangle, const std::array<std::uint32_t, 3>& vertices,
+                    const std::array<Beyond, 3>& beyond);
+  template <class Visit>
+  void for_each_slot_at(std::uint32_t vertex, Visit visit) const;
+  [[nodiscard]] std::uint32_t slot_between(std::uint32_t from, std::uint32_t to) const;
+  [[nodiscard]] bool list_crossed(std::uint32_t from, std::uint32_t to);
   [[nodiscard]] Beyond beyond(std::uint32_t slot) const { return {across_[slot], mark_[slot]}; }
 
   const PlaneTable& planes_;
@@ -89,6 +125,7 @@ class PlanarMesh {
   std::vector<LinkVertex> link_;
   std::vector<std::uint32_t> free_;
   std::vector<std::uint32_t> queue_;
+  std::vector<std::array<std::uint32_t, 2>> crossed_;  // edges, by their vertices
 };
 
 }  // namespace meshrepair::internal

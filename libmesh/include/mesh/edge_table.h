@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace meshrepair {
@@ -11,11 +12,13 @@ namespace meshrepair {
 using IndexTriangle = std::array<std::uint32_t, 3>;
 
 // All edges of a list of triangles, sorted by their end points, each with the triangles' sides that
-// run along it. Side 3 t + k of triangle t runs from its corner k to corner k + 1. Sorting makes it
-// n log n.
+// run along it. Side 3 t + k of triangle t runs from its corner k to corner k + 1. Linear in the
+// triangles and the largest index, but for points at which many edges meet.
 class EdgeTable {
  public:
-  explicit EdgeTable(std::span<const IndexTriangle> triangles);
+  // Sides with an entry in `across` other than all ones are left out; none are if it is empty.
+  explicit EdgeTable(std::span<const IndexTriangle> triangles,
+                     std::span<const std::uint32_t> across = {});
 
   // Calls visit(std::span<const std::uint32_t> sides) for each edge, the sides in ascending order.
   template <class Visit>
@@ -25,6 +28,10 @@ class EdgeTable {
     }
   }
   [[nodiscard]] std::size_t edges() const { return first_.size() - 1; }
+  // The sides of all edges, one after the other, and where those of each edge begin, and end. The
+  // table is empty then.
+  [[nodiscard]] std::vector<std::uint32_t> take_sides() { return std::move(sides_); }
+  [[nodiscard]] std::vector<std::uint32_t> take_first() { return std::move(first_); }
 
  private:
   std::vector<std::uint32_t> sides_;

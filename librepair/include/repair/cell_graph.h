@@ -32,6 +32,15 @@ class CellGraph {
             ProgressObserver* progress = nullptr, std::span<const CoverLayer> layers = {},
             std::span<const char> left_out = {});
 
+  // Of any regions, with the links between them; those that are not bounded have a flag. A layer is
+  // one more triangle on a link.
+  struct Layer {
+    std::uint32_t link;
+    TriangleId triangle;
+  };
+  CellGraph(std::vector<Link> links, std::vector<Layer> layers, std::vector<double> volumes,
+            std::vector<char> unbounded);
+
   // Sets the windings of the links to those of triangles that are turned otherwise, against the
   // normals of their planes.
   void set_windings(const IdVector<TriangleId, std::int32_t>& winding);
@@ -57,11 +66,7 @@ class CellGraph {
   [[nodiscard]] bool unbounded(CellId cell) const { return unbounded_[cell.index()] != 0; }
 
  private:
-  // One more triangle on a link.
-  struct Layer {
-    std::uint32_t link;
-    TriangleId triangle;
-  };
+  void list_links_of_cells();
 
   std::vector<Link> links_;
   std::vector<Layer> layers_;

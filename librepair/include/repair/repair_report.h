@@ -7,6 +7,7 @@
 #include <base/stage_meter.h>
 #include <bsp/build_tree.h>
 #include <bsp/clean_soup.h>
+#include <extract/arrange.h>
 #include <extract/clip_cell.h>
 #include <extract/cover_facets.h>
 #include <extract/extract_surface.h>
@@ -36,6 +37,7 @@ struct RepairReport {
   BuildTreeReport tree;
   Predicates predicates = Predicates::exact;  // and, if they are not exact, their epsilon
   double epsilon = 0;
+  ArrangeReport arrange;  // all 0 where cells were made
   std::size_t cells = 0;
   std::size_t facets = 0;
   ClipReport clip;

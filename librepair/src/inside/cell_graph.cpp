@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <repair/cell_graph.h>
 
@@ -44,15 +45,30 @@ CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>&
       links_.push_back({facet.below, facet.above,
                         static_cast<float>(std::max(measure.area, kLeastArea)), cover[f].winding,
                         first.valid() ? 1.0f : 0.0f, first, first.valid() && is_given(first)});
-      ++first_[facet.below.index() + 1];
-      ++first_[facet.above.index() + 1];
     }
+  }
+  list_links_of_cells();
+}
+
+CellGraph::CellGraph(std::vector<Link> links, std::vector<Layer> layers,
+                     std::vector<double> volumes, std::vector<char> unbounded)
+    : links_(std::move(links)),
+      layers_(std::move(layers)),
+      first_(volumes.size() + 1, 0),
+      volume_(std::move(volumes)),
+      unbounded_(std::move(unbounded)) {
+  list_links_of_cells();
+}
+
+void CellGraph::list_links_of_cells() {
+  for (const Link& link : links_) {
+    ++first_[link.below.index() + 1];
+    ++first_[link.above.index() + 1];
   }
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   of_cell_.resize(2 * links_.size());
   std::vector<std::uint32_t> filled(first_.begin(), first_.end() - 1);
   for (std::uint32_t l = 0; l < links_.size(); ++l) {
-    check.tick();
     of_cell_[filled[links_[l].below.index()]++] = l;
     of_cell_[filled[links_[l].above.index()]++] = l;
   }

@@ -14,7 +14,8 @@ namespace {
 // two sheets towards each other at most, in any direction.
 constexpr double kGridSteps = 2;
 
-// In grid units.
+}  // namespace
+
 double widest_slit(const CleanSoup& soup, const RepairOptions& options) {
   if (options.certify.precision == Precision::float64) return kGridSteps;
   double farthest = 0;
@@ -22,8 +23,6 @@ double widest_slit(const CleanSoup& soup, const RepairOptions& options) {
   const double spacing = number_spacing(farthest, options.certify.precision);
   return std::max(kGridSteps, options.slit_steps * spacing / soup.grid.unit);
 }
-
-}  // namespace
 
 bool widens_slits(const CoveredCells& covered, const RepairOptions& options) {
   return options.certify.precision == Precision::float32 && options.slit_steps > 0 &&

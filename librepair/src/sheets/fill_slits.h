@@ -11,12 +11,15 @@
 
 namespace meshrepair::internal {
 
+// How near two sheets may be so that what lies between goes, in grid units: steps of the working
+// grid, or so near that they would cross once they are written.
+[[nodiscard]] double widest_slit(const CleanSoup& soup, const RepairOptions& options);
+
 // Whether wider ones may be filled and dropped in another attempt.
 [[nodiscard]] bool widens_slits(const CoveredCells& covered, const RepairOptions& options);
 
-// Changes `solid`, of each cell, where sheets are nearer to each other than steps of the working
-// grid, or so near that they would cross once they are written; says so in the report. `states` and
-// `stays` as ThinCellsOptions has them.
+// Changes `solid`, of each cell, where sheets are nearer to each other than widest_slit(); says so
+// in the report. `states` and `stays` as ThinCellsOptions has them.
 void fill_slits(const CoveredCells& covered, const RepairOptions& options,
                 std::span<const CellState> states, std::span<const char> stays,
                 std::vector<char>& solid, RepairReport& report);

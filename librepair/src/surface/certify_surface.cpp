@@ -33,7 +33,7 @@ RepairOptions options_of_again(const RepairOptions& options, ProgressObserver& q
   return again;
 }
 
-// A soup that is a solid already but for places where its sheets cross, by cells everywhere.
+// A soup that is a solid already but for places where its sheets cross.
 Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   CancelOnly quiet(options.progress);
   const RepairOptions again = options_of_again(options, quiet);
@@ -41,6 +41,11 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   StageMeter meter(report.stages, again.progress);
   CleanSoup clean = close_soup(soup, again, report, meter);
   const Orientation orientation = orient_soup(clean, again, report, meter);
+  // In single precision slits have to be filled, or rounding makes sheets cross again and again.
+  if (again.keep_valid && again.slit_steps == 0) {
+    auto surface = surface_by_chambers(clean, orientation, again, report, meter);
+    if (surface) return std::move(*surface);
+  }
   return surface_by_cells(std::move(clean), orientation, again, report, meter);
 }
 

@@ -11,6 +11,7 @@
 #include <base/error.h>
 #include <extract/extract_surface.h>
 
+#include "arrange/chamber_surface.h"
 #include "sheets/fill_slits.h"
 #include "solid/find_solid.h"
 
@@ -157,6 +158,22 @@ Surface surface_by_cells(CleanSoup soup, const Orientation& orientation,
   tree.leaves = {};
   const CellLabels labels = find_solid(covered, orientation, options, report, meter);
   return make_surface(std::move(covered), labels.solid, options, report, meter);
+}
+
+std::optional<Surface> surface_by_chambers(const CleanSoup& soup, const Orientation& orientation,
+                                           const RepairOptions& options, RepairReport& report,
+                                           StageMeter& meter) {
+  RepairReport attempt = report;
+  std::optional<Surface> surface = surface_of_chambers(soup, orientation, options, attempt, meter);
+  if (!surface) return std::nullopt;
+  RepairOptions finishing = options;
+  finishing.examine = nullptr;
+  surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
+  if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
+  attempt.stages = std::move(report.stages);
+  report = std::move(attempt);
+  if (options.examine) options.examine(report);
+  return surface;
 }
 
 }  // namespace meshrepair::internal

@@ -1,6 +1,7 @@
 // From labelled cells to a surface that is certified.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <base/stage_meter.h>
@@ -19,6 +20,14 @@ namespace meshrepair::internal {
 [[nodiscard]] Surface surface_by_cells(CleanSoup soup, const Orientation& orientation,
                                        const RepairOptions& options, RepairReport& report,
                                        StageMeter& meter);
+
+// The surface that all cells would give, made without them where surface_of_chambers() can; nothing
+// elsewhere, or if it is to be certified and is not, and the report says only which stages there
+// were.
+[[nodiscard]] std::optional<Surface> surface_by_chambers(const CleanSoup& soup,
+                                                         const Orientation& orientation,
+                                                         const RepairOptions& options,
+                                                         RepairReport& report, StageMeter& meter);
 
 // The boundary between the cells that are solid and the others, simplified and certified as the
 // options say: the first attempt that passes, else the one with the fewest faults. `covered` is

@@ -1,9 +1,12 @@
 // Meshes of which few triangles meet: cells are made around these alone, and what comes out is what
 // the cells of all would have given.
+#include "tangles/cut_tangles.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -14,6 +17,7 @@
 #include <repair/repair.h>
 
 #include "open_surfaces.h"
+#include "prepare/prepare.h"
 #include "random_solids.h"
 #include "shapes.h"
 #include "share_of_cases.h"
@@ -68,17 +72,32 @@ void expect_same(const RepairResult& cut, const RepairResult& whole, Dividing di
   EXPECT_NEAR(a.closing_area, b.closing_area, 1e-9 * b.output_area);
 }
 
-// Whether cells were made around tangles alone; then the result is that of the whole work.
+// By cells around tangles alone, if that way applies.
+std::optional<RepairResult> repair_around_tangles(const TriangleSoup& soup, RepairOptions options) {
+  options.keep_valid = true;
+  RepairReport report;
+  std::optional<Surface> surface;
+  {
+    StageMeter meter(report.stages, options.progress);
+    const CleanSoup clean = internal::close_soup(soup, options, report, meter);
+    const Orientation orientation = internal::orient_soup(clean, options, report, meter);
+    surface = internal::cut_tangles(clean, orientation, options, report, meter);
+  }
+  if (!surface) return std::nullopt;
+  return RepairResult{std::move(*surface), std::move(report)};
+}
+
+// Whether it applies; then the result is that of the whole work.
 bool cuts_tangles(const TriangleSoup& soup, RepairOptions options,
                   Dividing dividing = Dividing::same) {
-  options.keep_valid = true;
-  RepairResult cut;
+  std::optional<RepairResult> around;
   try {
-    cut = repair(soup, options);
+    around = repair_around_tangles(soup, options);
   } catch (const NoSolidError&) {
     return false;
   }
-  if (cut.report.set_aside == 0) return false;
+  if (!around || around->report.set_aside == 0) return false;
+  const RepairResult& cut = *around;
   EXPECT_TRUE(cut.report.certify.passed());
   options.keep_valid = false;
   const RepairResult whole = repair(soup, options);
@@ -169,6 +188,8 @@ TEST(CutTangles, BoxesOnALatticeComeOutAsFromAllCells) {
 }
 
 RepairResult repair_sparing(const TriangleSoup& soup, RepairOptions options = {}) {
+  std::optional<RepairResult> around = repair_around_tangles(soup, options);
+  if (around) return std::move(*around);
   options.keep_valid = true;
   return repair(soup, options);
 }

@@ -9,7 +9,7 @@
 #include <extract/merge_facets.h>
 #include <extract/triangulate.h>
 
-#include "planar_mesh.h"
+#include "triangulate/planar_mesh.h"
 
 namespace meshrepair::internal {
 

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <extract/arrange.h>
+
+#include "arranged_facets.h"
+#include "arranged_points.h"
+#include "chambers.h"
+#include "cut_set.h"
+#include "kept_facets.h"
+#include "sheet_edges.h"
+#include "sheet_surface.h"
+#include "stacks.h"
+
+namespace meshrepair {
+
+struct Arrangement::Parts {
+  Parts(const CleanSoup& soup_in, std::span<const Pair> pairs)
+      : soup(soup_in), cut(soup_in, pairs) {}
+
+  [[nodiscard]] Vec3d place(std::uint32_t point) const {
+    const auto at = points->at(point).position;
+    return {at[0], at[1], at[2]};
+  }
+  [[nodiscard]] std::array<Vec3d, 3> places(std::uint32_t f) const {
+    const IndexTriangle& c = sheets.corners[f];
+    return {place(c[0]), place(c[1]), place(c[2])};
+  }
+  [[nodiscard]] ChamberWall wall(std::uint32_t f) const {
+    const auto [a, b, c] = places(f);
+    const bool along = internal::corner_side(soup, sheets.triangle[f]) > 0;
+    const std::uint32_t front = chambers.front[f], behind = chambers.behind[f];
+    return {along ? behind : front, along ? front : behind, sheets.triangle[f],
+            0.5 * (b - a).cross(c - a).norm()};
+  }
+
+  const CleanSoup& soup;
+  internal::CutSet cut;
+  std::optional<internal::ArrangedPoints> points;
+  internal::Sheets sheets;
+  std::optional<internal::SheetEdges> edges;
+  std::optional<internal::Stacks> stacks;
+  internal::Chambers chambers;
+};
+
+Arrangement::Arrangement(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Arrangement::Arrangement(Arrangement&&) noexcept = default;
+Arrangement& Arrangement::operator=(Arrangement&&) noexcept = default;
+Arrangement::~Arrangement() = default;
+
+std::optional<Arrangement> Arrangement::make(const CleanSoup& soup, std::span<const Pair> pairs,
+                                             ArrangeReport& report, ProgressObserver* progress) {
+  auto parts = std::make_unique<Parts>(soup, pairs);
+  report = {};
+  report.cut_triangles = parts->cut.size();
+  {
+    const auto facets = internal::arrange_facets(parts->cut, pairs, parts->points, progress);
+    if (!facets) {
+      return std::nullopt;
+    }
+    report.facets = facets->corners.size();
+    parts->sheets = internal::join_sheets(parts->cut, *facets, *parts->points);
+  }
+  report.new_points = parts->points->size() - parts->points->first_new();
+  parts->edges.emplace(parts->cut, *parts->points, parts->sheets, progress);
+  parts->stacks.emplace(parts->sheets, *parts->edges);
+  auto chambers = internal::find_chambers(parts->cut, *parts->points, parts->sheets, *parts->edges,
+                                          *parts->stacks, progress);
+  if (!chambers) return std::nullopt;
+  parts->chambers = std::move(*chambers);
+  report.chambers = parts->chambers.count;
+  return Arrangement(std::move(parts));
+}
+
+std::size_t Arrangement::chambers() const { return parts_->chambers.count; }
+
+std::vector<double> Arrangement::volumes() const {
+  std::vector<double> volumes(chambers(), 0);
+  for (std::uint32_t f = 0; f < parts_->sheets.size(); ++f) {
+    const auto [a, b, c] = parts_->places(f);
+    const double moment = a.dot(b.cross(c)) / 6;
+    volumes[parts_->chambers.behind[f]] += moment;
+    volumes[parts_->chambers.front[f]] -= moment;
+  }
+  return volumes;
+}
+
+// Facets that are in no stack in their order, then those of the lowest triangle of each stack.
+std::vector<ChamberWall> Arrangement::walls() const {
+  std::vector<ChamberWall> walls;
+  for (std::uint32_t f = 0; f < parts_->sheets.size(); ++f) {
+    if (!parts_->stacks->contains(f)) walls.push_back(parts_->wall(f));
+  }
+  parts_->stacks->for_each([&](std::span<const std::uint32_t> stack) {
+    const std::uint32_t above = parts_->wall(stack.back()).above;
+    for (const std::uint32_t f : stack) {
+      if (parts_->sheets.triangle[f] != parts_->sheets.triangle[stack.front()]) break;
+      walls.push_back(parts_->wall(f));
+      walls.back().above = above;
+    }
+  });
+  return walls;
+}
+
+std::vector<Arrangement::Layer> Arrangement::layers() const {
+  std::vector<Layer> layers;
+  std::uint32_t wall = 0;
+  for (std::uint32_t f = 0; f < parts_->sheets.size(); ++f)
+    wall += parts_->stacks->contains(f) ? 0 : 1;
+  parts_->stacks->for_each([&](std::span<const std::uint32_t> stack) {
+    const auto triangle = [&](std::uint32_t f) { return parts_->sheets.triangle[f]; };
+    for (std::size_t i = 0; i < stack.size() && triangle(stack[i]) == triangle(stack[0]); ++i) {
+      for (std::size_t k = 1; k < stack.size(); ++k) {
+        const bool is_another = triangle(stack[k]) != triangle(stack[k - 1]);
+        if (is_another) layers.push_back({wall, triangle(stack[k])});
+      }
+      ++wall;
+    }
+  });
+  return layers;
+}
+
+std::optional<Arrangement::Boundary> Arrangement::boundary(const std::vector<char>& solid,
+                                                           Touching touching, ArrangeReport& report,
+                                                           ProgressObserver* progress) const {
+  internal::KeptFacets kept =
+      internal::keep_facets(parts_->soup, parts_->sheets, *parts_->edges, *parts_->stacks,
+                            parts_->chambers, solid, touching);
+  if (!kept.closed) {
+    return std::nullopt;
+  }
+  report.singular_edges = kept.singular_edges;
+  report.regions = 0;
+  std::optional<Surface> surface = internal::make_sheet_surface(
+      parts_->cut, *parts_->points, parts_->sheets, *parts_->edges, kept, report, progress);
+  if (!surface) return std::nullopt;
+  return Boundary{std::move(*surface), std::move(kept.places)};
+}
+
+}  // namespace meshrepair

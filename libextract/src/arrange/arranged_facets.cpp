@@ -1,0 +1,364 @@
+// In this order, each step over all triangles at once:
+//
+//   1  Each pair tells its points and segments.
+//   2  Points on an edge are put into order along it; those at one place are joined.
+//   3  In each triangle, the segments are compared with each other: three triangles make a point.
+//   4  Points on each segment are put into order along it, as in 2.
+//   5  Each triangle is triangulated with all its points, and with the parts of its segments as
+//      edges.
+#include "arranged_facets.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include <base/shared_progress.h>
+
+#include "cut_lines.h"
+#include "meeting_records.h"
+#include "triangulate/planar_mesh.h"
+
+namespace meshrepair::internal {
+namespace {
+
+constexpr std::size_t kTrianglesPerTask = 128;
+
+// Items of each of so many keys, in their order.
+template <class Item>
+struct Grouped {
+  std::vector<std::uint32_t> first;
+  std::vector<Item> items;
+
+  template <class Record, class Key, class Value>
+  void fill(const std::vector<Record>& records, std::size_t keys, Key key, Value value) {
+    first.assign(keys + 1, 0);
+    for (const Record& r : records) ++first[key(r) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    items.resize(records.size());
+    std::vector<std::uint32_t> at(first.begin(), first.end() - 1);
+    for (const Record& r : records) items[at[key(r)]++] = value(r);
+  }
+  [[nodiscard]] std::span<const Item> of(std::size_t key) const {
+    return {items.data() + first[key], first[key + 1] - first[key]};
+  }
+  [[nodiscard]] std::span<Item> of(std::size_t key) {
+    return {items.data() + first[key], first[key + 1] - first[key]};
+  }
+};
+
+using SamePoints = std::vector<std::array<std::uint32_t, 2>>;
+
+// Points of a line in order, each place once.
+class PointSorter {
+ public:
+  PointSorter(const CutSet& cut, const ArrangedPoints& points) : cut_(cut), points_(points) {}
+
+  // Adds to `same` what is at one place.
+  void sort(const Direction& direction, std::vector<std::uint32_t>& list, SamePoints& same) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    at_.clear();
+    for (const std::uint32_t p : list) at_.push_back(points_.at(p));
+    order_.resize(list.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    const auto order = [&](std::uint32_t i, std::uint32_t j) {
+      return order_along(direction, at_[i], at_[j], cut_.planes());
+    };
+    std::sort(order_.begin(), order_.end(),
+              [&](std::uint32_t i, std::uint32_t j) { return order(i, j) > 0; });
+    sorted_.clear();
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (i > 0 && order(order_[i - 1], order_[i]) == 0) {
+        same.push_back({list[order_[i - 1]], list[order_[i]]});
+      }
+      sorted_.push_back(list[order_[i]]);
+    }
+    list.swap(sorted_);
+  }
+
+ private:
+  const CutSet& cut_;
+  const ArrangedPoints& points_;
+  std::vector<Point> at_;
+  std::vector<std::uint32_t> order_, sorted_;
+};
+
+// What one triangle becomes; vertices are points, sides are numbered from its own first one.
+struct CutTriangle {
+  std::vector<IndexTriangle> corners;
+  std::vector<std::uint32_t> across;
+};
+
+class FacetArranger {
+ public:
+  FacetArranger(const CutSet& cut, std::optional<ArrangedPoints>& points,
+                ProgressObserver* progress)
+      : cut_(cut), points_(points), quiet_(progress) {}
+
+  std::optional<ArrangedFacets> run(std::span<const CutSet::Pair> pairs) {
+    if (cut_.edges() >= PointName::kMostEdges) return std::nullopt;
+    group(record_meetings(cut_, pairs, &quiet_));
+    sort_edges();
+    if (!find_lines()) return std::nullopt;
+    sort_lines();
+    points_->settle();
+    return triangulate();
+  }
+
+ private:
+  void group(const MeetingRecords& records) {
+    std::vector<PointName> names;
+    names.reserve(records.on_edges.size());
+    for (const PointOnEdge& p : records.on_edges) names.push_back(p.point);
+    points_.emplace(cut_, std::move(names));
+    on_edges_.fill(
+        records.on_edges, cut_.edges(), [](const PointOnEdge& p) { return p.edge; },
+        [&](const PointOnEdge& p) { return points_->find(p.point); });
+    segments_.fill(
+        records.segments, cut_.size(), [](const CutSegment& s) { return s.cut; },
+        [](const CutSegment& s) { return s; });
+    contacts_.fill(
+        records.contacts, cut_.size(), [](const Contact& c) { return c.cut; },
+        [&](const Contact& c) { return points_->find(c.point); });
+  }
+
+  // Calls do_one(number, task) for all numbers below `count`, those of a task in order.
+  template <class DoOne>
+  void for_all(std::size_t count, DoOne do_one) {
+    const std::size_t tasks = tasks_of(count);
+    SharedProgress shared(&quiet_, tasks);
+    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+      const std::size_t end = std::min(count, (task + 1) * kTrianglesPerTask);
+      for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) {
+        do_one(static_cast<std::uint32_t>(i), task);
+      }
+      shared.done();
+    });
+  }
+
+  static std::size_t tasks_of(std::size_t count) {
+    return (count + kTrianglesPerTask - 1) / kTrianglesPerTask;
+  }
+
+  // Its ends are not among them.
+  void sort_edges() {
+    edge_points_.resize(cut_.edges());
+    same_.resize(tasks_of(cut_.edges()));
+    for_all(cut_.edges(), [&](std::uint32_t e, std::size_t task) {
+      const auto points = on_edges_.of(e);
+      if (points.empty()) return;
+      PointSorter sorter(cut_, *points_);
+      edge_points_[e].assign(points.begin(), points.end());
+      sorter.sort(direction_of_edge(e), edge_points_[e], same_[task]);
+    });
+  }
+
+  [[nodiscard]] Direction direction_of_edge(std::uint32_t e) const {
+    const GridPoint& a = cut_.soup().grid_points[PointId(cut_.ends(e)[0])];
+    const GridPoint& b = cut_.soup().grid_points[PointId(cut_.ends(e)[1])];
+    return {Int128{b.x} - a.x, Int128{b.y} - a.y, Int128{b.z} - a.z};
+  }
+
+  bool find_lines() {
+    lines_.resize(cut_.size());
+    std::atomic<bool> sound = true;
+    for_all(cut_.size(), [&](std::uint32_t t, std::size_t) {
+      lines_[t] = find_cut_lines(cut_, *points_, t, segments_.of(t), contacts_.of(t));
+      if (!lines_[t].sound) sound = false;
+    });
+    if (!sound) return false;
+    std::vector<TripleName> triples;
+    for (const CutLines& lines : lines_) {
+      for (const LinePoint& p : lines.points) {
+        if (p.point == kNone) triples.push_back(p.triple);
+      }
+    }
+    points_->add_triples(std::move(triples));
+    join(same_);
+    for (CutLines& lines : lines_) {
+      for (const auto& [a, b] : lines.same) points_->join(a, b);
+    }
+    return points_->sound();
+  }
+
+  void join(const std::vector<SamePoints>& all) {
+    for (const SamePoints& same : all) {
+      for (const auto& [a, b] : same) points_->join(a, b);
+    }
+  }
+
+  // From their ends on.
+  void sort_lines() {
+    line_points_.resize(cut_.size());
+    same_.assign(tasks_of(cut_.size()), {});
+    for_all(cut_.size(), [&](std::uint32_t t, std::size_t task) {
+      sort_lines_of(t, same_[task]);
+      lines_[t].points = {};
+    });
+    join(same_);
+    same_ = {};
+  }
+
+  void sort_lines_of(std::uint32_t t, SamePoints& same) {
+    const CutLines& found = lines_[t];
+    std::vector<std::vector<std::uint32_t>>& lists = line_points_[t];
+    lists.resize(found.lines.size());
+    for (const LinePoint& p : found.points) {
+      lists[p.line].push_back(p.point == kNone ? points_->find(p.triple) : p.point);
+    }
+    PointSorter sorter(cut_, *points_);
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      const CutLine& line = found.lines[i];
+      lists[i].push_back(line.from);
+      lists[i].push_back(line.to);
+      if (lists[i].size() == 2) continue;
+      sorter.sort(direction_of(cut_.planes()[cut_.plane(t)], cut_.planes()[line.plane]), lists[i],
+                  same);
+    }
+  }
+
+  std::optional<ArrangedFacets> triangulate() {
+    std::vector<CutTriangle> all(cut_.size());
+    std::atomic<bool> sound = true;
+    for_all(cut_.size(), [&](std::uint32_t t, std::size_t) {
+      if (!triangulate(t, all[t])) sound = false;
+      line_points_[t] = {};
+    });
+    if (!sound) return std::nullopt;
+    ArrangedFacets facets;
+    for (std::uint32_t t = 0; t < all.size(); ++t) {
+      const auto first = static_cast<std::uint32_t>(facets.corners.size());
+      facets.first.push_back(first);
+      for (const std::uint32_t s : all[t].across) {
+        facets.across.push_back(s == kNone ? kNone : s + 3 * first);
+      }
+      facets.corners.insert(facets.corners.end(), all[t].corners.begin(), all[t].corners.end());
+      facets.cut.resize(facets.corners.size(), t);
+      all[t] = {};
+    }
+    facets.first.push_back(static_cast<std::uint32_t>(facets.corners.size()));
+    return facets;
+  }
+
+  bool triangulate(std::uint32_t t, CutTriangle& result) const;
+
+  const CutSet& cut_;
+  std::optional<ArrangedPoints>& points_;
+  CancelOnly quiet_;
+  Grouped<std::uint32_t> on_edges_, contacts_;
+  Grouped<CutSegment> segments_;
+  std::vector<std::vector<std::uint32_t>> edge_points_;
+  std::vector<CutLines> lines_;
+  std::vector<std::vector<std::vector<std::uint32_t>>> line_points_;
+  std::vector<SamePoints> same_;
+};
+
+// Puts the points and lines of one triangle into a mesh.
+class TriangleFiller {
+ public:
+  TriangleFiller(const CutSet& cut, const ArrangedPoints& points, std::uint32_t t)
+      : cut_(cut), points_(points), triangle_(t), mesh_(cut.planes(), false) {
+    mesh_.reset(cut.plane(t), cut.side_of(t));
+  }
+
+  void add_corners(std::size_t others) {
+    at_.reserve(3 + others);  // they must not move
+    for (const std::uint32_t p : cut_.corners(triangle_)) {
+      at_.push_back(points_.at(p));
+      mesh_.add_vertex(at_.back());
+      point_.push_back(p);
+    }
+    mesh_.add_triangle({0, 1, 2});
+    for (std::uint32_t k = 0; k < 3; ++k) mesh_.mark(k, kFixed);
+  }
+
+  // All must be there that are, before the edges.
+  bool add_vertices(std::span<const std::uint32_t> points) {
+    for (const std::uint32_t p : points) {
+      std::uint32_t vertex = 0;
+      at_.push_back(points_.at(p));
+      if (!mesh_.insert_vertex(at_.back(), vertex)) return false;
+      point_.push_back(p);
+    }
+    return true;
+  }
+
+  bool add_edge(std::uint32_t from, std::uint32_t to) {
+    return mesh_.insert_edge(vertex_of(from), vertex_of(to), kFixed);
+  }
+
+  void fill(CutTriangle& result) const {
+    for (std::uint32_t slot = 0; slot < mesh_.slots(); ++slot) {
+      if (slot % 3 == 0) result.corners.emplace_back();
+      result.corners.back()[slot % 3] = point_[mesh_.vertex_at(slot)];
+      result.across.push_back(mesh_.mark_of(slot) == kNone ? mesh_.across(slot) : kNone);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kFixed = 0;
+
+  [[nodiscard]] std::uint32_t vertex_of(std::uint32_t point) const {
+    return static_cast<std::uint32_t>(std::find(point_.begin(), point_.end(), point) -
+                                      point_.begin());
+  }
+
+  const CutSet& cut_;
+  const ArrangedPoints& points_;
+  const std::uint32_t triangle_;
+  PlanarMesh mesh_;
+  std::vector<Point> at_;
+  std::vector<std::uint32_t> point_;  // of each vertex
+};
+
+bool FacetArranger::triangulate(std::uint32_t t, CutTriangle& result) const {
+  std::vector<std::uint32_t> on_sides, inside;
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const std::uint32_t p : edge_points_[cut_.edge(t, k)]) {
+      on_sides.push_back(points_->settled(p));
+    }
+  }
+  for (const std::uint32_t p : contacts_.of(t)) inside.push_back(points_->settled(p));
+  for (const auto& list : line_points_[t]) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::uint32_t p = points_->settled(list[i]);
+      inside.push_back(p);
+      if (i == 0) continue;
+      const std::uint32_t q = points_->settled(list[i - 1]);
+      if (p != q) edges.push_back({std::min(p, q), std::max(p, q)});
+    }
+  }
+  const auto make_unique = [](auto& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  make_unique(on_sides);
+  make_unique(inside);
+  make_unique(edges);
+  const auto& corners = cut_.corners(t);
+  std::erase_if(inside, [&](std::uint32_t p) {
+    return std::binary_search(on_sides.begin(), on_sides.end(), p) ||
+           std::find(corners.begin(), corners.end(), p) != corners.end();
+  });
+  TriangleFiller filler(cut_, *points_, t);
+  filler.add_corners(on_sides.size() + inside.size());
+  if (!filler.add_vertices(on_sides) || !filler.add_vertices(inside)) return false;
+  for (const auto& [p, q] : edges) {
+    if (!filler.add_edge(p, q)) return false;
+  }
+  filler.fill(result);
+  return true;
+}
+
+}  // namespace
+
+std::optional<ArrangedFacets> arrange_facets(const CutSet& cut, std::span<const CutSet::Pair> pairs,
+                                             std::optional<ArrangedPoints>& points,
+                                             ProgressObserver* progress) {
+  return FacetArranger(cut, points, progress).run(pairs);
+}
+
+}  // namespace meshrepair::internal

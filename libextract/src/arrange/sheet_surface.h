@@ -1,0 +1,20 @@
+// From the facets that are kept to triangles, as few as their outlines allow.
+#pragma once
+
+#include <optional>
+
+#include <base/progress.h>
+#include <extract/arrange.h>
+#include <extract/surface.h>
+
+#include "kept_facets.h"
+#include "sheet_edges.h"
+
+namespace meshrepair::internal {
+
+// Sets report.regions. Nothing if the result is no manifold, which may be where solids touch.
+[[nodiscard]] std::optional<Surface> make_sheet_surface(
+    const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets, const SheetEdges& edges,
+    const KeptFacets& kept, ArrangeReport& report, ProgressObserver* progress);
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,136 @@
+#include "chamber_surface.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <check/self_intersections.h>
+#include <extract/arrange.h>
+#include <mesh/edge_table.h>
+#include <repair/inside_rule.h>
+
+#include "chamber_graph.h"
+#include "sheets/fill_slits.h"
+
+namespace meshrepair::internal {
+namespace {
+
+// For each triangle; of more, nearly all triangles meet nearly all others.
+constexpr std::size_t kPairsEach = 64;
+
+// Of the surface, how much may lie in slits and fins: little slivers are no reason for cells.
+constexpr double kSlitShare = 1e-3;
+
+TriangleSoup put_on_grid(const CleanSoup& soup) {
+  TriangleSoup mesh;
+  mesh.triangles = index_triangles(soup);
+  mesh.points.reserve(soup.points.size());
+  for (const GridPoint& p : soup.grid_points) mesh.points.push_back(as_vector(p));
+  return mesh;
+}
+
+double area_of_triangle(const TriangleSoup& mesh, std::uint32_t t) {
+  const auto& c = mesh.triangles[t];
+  const Vec3d& a = mesh.points[c[0]];
+  return 0.5 * (mesh.points[c[1]] - a).cross(mesh.points[c[2]] - a).norm();
+}
+
+class ChamberSurface {
+ public:
+  ChamberSurface(const CleanSoup& soup, const Orientation& orientation,
+                 const RepairOptions& options, RepairReport& report, StageMeter& meter)
+      : soup_(soup), orientation_(orientation), options_(options), report_(report), meter_(meter) {}
+
+  std::optional<Surface> run() {
+    if (has_open_edges()) return std::nullopt;
+    std::optional<Arrangement> arrangement = arrange();
+    if (!arrangement) return std::nullopt;
+    meter_.begin("inside");
+    const std::optional<std::vector<char>> solid = label(*arrangement);
+    if (!solid) return std::nullopt;
+    meter_.begin("extract");
+    std::optional<Arrangement::Boundary> boundary = arrangement->boundary(
+        *solid, options_.extract.touching, report_.arrange, options_.progress);
+    arrangement.reset();
+    if (!boundary || boundary->surface.mesh.triangles.empty()) return std::nullopt;
+    if (has_slits(boundary->surface)) return std::nullopt;
+    describe(boundary->places);
+    return std::move(boundary->surface);
+  }
+
+ private:
+  // Around them windings contradict each other.
+  [[nodiscard]] bool has_open_edges() const {
+    const std::vector<IndexTriangle> triangles = index_triangles(soup_);
+    bool any = false;
+    EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+      any = any || (sides.size() == 1 && orientation_.winding[TriangleId(sides[0] / 3)] != 0);
+    });
+    return any;
+  }
+
+  std::optional<Arrangement> arrange() {
+    meter_.begin("tangles");
+    SelfIntersectionOptions meeting;
+    meeting.weld = false;
+    meeting.most_pairs = kPairsEach * soup_.triangles.size();
+    meeting.progress = options_.progress;
+    const SelfIntersections found = self_intersections(put_on_grid(soup_), meeting);
+    if (found.pairs.size() < found.count) return std::nullopt;
+    meter_.begin("arrange");
+    return Arrangement::make(soup_, found.pairs, report_.arrange, options_.progress);
+  }
+
+  std::optional<std::vector<char>> label(const Arrangement& arrangement) {
+    const CellGraph graph = graph_of_chambers(arrangement, soup_, orientation_);
+    report_.links = graph.links().size();
+    InsideOptions inside = options_.inside;
+    inside.solve.progress = options_.progress;
+    CellLabels labels = label_cells(graph, orientation_, inside, report_.inside);
+    if (!report_.inside.exact) return std::nullopt;
+    return std::move(labels.solid);
+  }
+
+  // Whether pieces of triangles lie so near to each other that all cells would fill what is
+  // between.
+  [[nodiscard]] bool has_slits(const Surface& surface) const {
+    if (options_.slit_steps <= 0) return false;
+    const std::vector<char> whole = find_whole_triangles(soup_, surface);
+    std::vector<std::uint32_t> pieces;
+    for (std::uint32_t t = 0; t < whole.size(); ++t) {
+      if (whole[t] == 0) pieces.push_back(t);
+    }
+    CancelOnly quiet(options_.progress);
+    SelfIntersectionOptions near;
+    near.nearness = widest_slit(soup_, options_) * soup_.grid.unit;
+    near.most_pairs = surface.mesh.triangles.size();
+    near.progress = &quiet;
+    double area = 0;
+    for (const auto& [a, b] : self_intersections(surface.mesh, pieces, near).pairs) {
+      area += std::min(area_of_triangle(surface.mesh, a), area_of_triangle(surface.mesh, b));
+    }
+    return area > kSlitShare * report_.input_area;
+  }
+
+  void describe(const std::vector<std::uint8_t>& places) {
+    report_.parts = find_part_fates(soup_, places);
+  }
+
+  const CleanSoup& soup_;
+  const Orientation& orientation_;
+  const RepairOptions& options_;
+  RepairReport& report_;
+  StageMeter& meter_;
+};
+
+}  // namespace
+
+std::optional<Surface> surface_of_chambers(const CleanSoup& soup, const Orientation& orientation,
+                                           const RepairOptions& options, RepairReport& report,
+                                           StageMeter& meter) {
+  return ChamberSurface(soup, orientation, options, report, meter).run();
+}
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,25 @@
+// The surface between solid and empty without cells: triangles that meet are cut in their own
+// planes.
+#pragma once
+
+#include <optional>
+
+#include <base/stage_meter.h>
+#include <bsp/clean_soup.h>
+#include <extract/surface.h>
+#include <repair/orient_parts.h>
+#include <repair/repair_options.h>
+#include <repair/repair_report.h>
+
+namespace meshrepair::internal {
+
+// The surface of the solid that all cells would give, if the soup is closed: the regions into which
+// its triangles divide space are labelled as cells are. Nothing if the inside rule finds a
+// contradiction, if sheets are so near to each other that cells would fill what is between, or in
+// rare cases (Arrangement); then the report may hold what was found so far.
+[[nodiscard]] std::optional<Surface> surface_of_chambers(const CleanSoup& soup,
+                                                         const Orientation& orientation,
+                                                         const RepairOptions& options,
+                                                         RepairReport& report, StageMeter& meter);
+
+}  // namespace meshrepair::internal
