@@ -34,7 +34,7 @@ struct Failure {
 // What the first signal received makes of the run; empty if there was none.
 [[nodiscard]] std::optional<Failure> failure_of_signal();
 
-// The family of bsp/error.h by type, std::bad_alloc to limit, the rest to internal. Once a signal
+// The family of base/error.h by type, std::bad_alloc to limit, the rest to internal. Once a signal
 // was received every failure is that interruption: a cancelled read looks like a broken one. The
 // message has no newline.
 [[nodiscard]] Failure describe_failure(const std::exception_ptr& error);

@@ -35,10 +35,6 @@ void check_report(Run& run, const std::string& file, const std::string& what) {
   throw UsageError("--report: " + report + " is the " + what + ", too");
 }
 
-bool is_stl(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
-}
-
 // Nothing is wrong with triangles that the working grid swallows but that one point is too far off:
 // the user can mend that, and would otherwise look for them in vain.
 void warn_of_coarse_grid(const Findings& findings) {

@@ -14,9 +14,9 @@
 //   promises the same.
 // - Cells everywhere, always: promises a surface as near to a certified one as could be had.
 //
-// The last two make cells (cells/), and all three say what is solid (inside/, solid/, tangles/).
-// In surface/ the boundary is extracted, simplified and certified: attempt by attempt
-// (make_surface.cpp), each with rounds of repairing it again on coarser grids
+// The last two make cells (cells/). The last three say what is solid (arrange/, tangles/, solid/),
+// by the rules of inside/. In surface/ the boundary is extracted, simplified and certified: attempt
+// by attempt (make_surface.cpp), each with rounds of repairing it again on coarser grids
 // (certify_surface.cpp).
 #include <array>
 #include <optional>

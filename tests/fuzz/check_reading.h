@@ -79,10 +79,6 @@ inline TriangleSoup numbered_by_use(const TriangleSoup& soup) {
   return result;
 }
 
-inline bool is_stl(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
-}
-
 // Some finite coordinate of a triangle is beyond single precision.
 inline bool overflows_float32(const TriangleSoup& soup) {
   const auto overflows = [](double x) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <base/progress.h>
 #include <mesh/soup.h>
@@ -17,6 +18,9 @@ struct DistanceOptions {
   double bound_factor = 1.1;     // the bound aims at this times the largest distance found; above 1
   std::size_t most_pieces = 4'000'000;   // that are looked at for the bound, each way
   ProgressObserver* progress = nullptr;  // not owned; stages "sample" and "bound", each way
+  // For one_sided_distance(): of each triangle of the one mesh which of the other one has the same
+  // corners, if any does; all ones: none. Empty: they are looked for.
+  std::span<const std::uint32_t> twins = {};
 };
 
 // From each point of one mesh to the nearest point of the other.

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -87,14 +88,28 @@ FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
   return mesh;
 }
 
+// The same whatever the order of the corners.
+Corners key(Corners corners) {
+  std::sort(corners.begin(), corners.end(), [](const Vec3d& p, const Vec3d& q) {
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  });
+  return corners;
+}
+
+// Of those that the caller names, the ones that are equal.
+std::vector<char> common_triangles(const FiniteMesh& mesh, const FiniteMesh& other,
+                                   std::span<const std::uint32_t> twins) {
+  std::vector<char> common(mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < common.size(); ++t) {
+    if (twins[t] == kNone) continue;
+    const Corners &own = mesh.triangles[t], &twin = other.triangles[twins[t]];
+    common[t] = own == twin || key(own) == key(twin) ? 1 : 0;
+  }
+  return common;
+}
+
 // Which triangles of a mesh are in another one, too, with the same corners in any order?
 std::vector<char> common_triangles(const FiniteMesh& mesh, const FiniteMesh& other) {
-  const auto key = [](Corners corners) {
-    std::sort(corners.begin(), corners.end(), [](const Vec3d& p, const Vec3d& q) {
-      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-    });
-    return corners;
-  };
   const auto hash = [](const Corners& corners) {
     std::uint64_t sum = 0;
     for (const Vec3d& p : corners) {
@@ -238,10 +253,25 @@ void require_sense(const DistanceOptions& options) {
   if (!(options.bound_factor > 1)) throw UsageError("the bound's factor has to be above 1");
 }
 
+// All of it is part of the other one.
+OneSidedDistance no_distance(const FiniteMesh& from, const DistanceOptions& options) {
+  if (options.progress != nullptr) options.progress->stage("sample");
+  SharedProgress(options.progress, 1).done();
+  OneSidedDistance distance;
+  distance.samples = from.area_up_to.back() > 0 ? options.samples : 0;
+  distance.at = distance.samples > 0 ? sample_point(from, 0, options).point : from.corners[0];
+  return distance;
+}
+
 OneSidedDistance distance_between(const FiniteMesh& from, const FiniteMesh& to,
                                   const DistanceOptions& options) {
+  const bool is_told =
+      options.twins.size() == from.triangles.size() && from.not_finite + to.not_finite == 0;
+  const std::vector<char> common =
+      is_told ? common_triangles(from, to, options.twins) : common_triangles(from, to);
+  const bool all = std::find(common.begin(), common.end(), 0) == common.end();
+  if (all && !options.bound) return no_distance(from, options);
   const NearestTriangle nearest(to.triangles);
-  const std::vector<char> common = common_triangles(from, to);
   OneSidedDistance distance = OneWay(from, nearest, common, options).run();
   if (!options.bound) return distance;
   if (options.progress != nullptr) options.progress->stage("bound");

@@ -54,6 +54,8 @@ struct WriteOptions {
 // The format that an extension stands for, if any. Case does not matter.
 [[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
 
+// Formats without indices, whose readers weld points with equal coordinates.
+[[nodiscard]] bool is_stl(SoupFormat format);
 [[nodiscard]] bool is_ply(SoupFormat format);
 
 // Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format

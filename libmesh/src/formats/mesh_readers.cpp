@@ -7,6 +7,7 @@
 
 #include <base/error.h>
 #include <mesh/recognize_format.h>
+#include <mesh/soup_io.h>
 
 #include "formats/common/text_scanner.h"
 #include "formats/obj/obj_io.h"
@@ -23,12 +24,10 @@ void require_triangles(const MeshSource& source, const ReadResult& result) {
   const bool is_empty = result.soup.points.empty() && report.bad_faces == 0 &&
                         report.missing_faces == 0 && report.warnings.empty();
   if (is_empty && source.options.may_be_empty) return;
-  const bool is_stl =
-      report.format == SoupFormat::stl_binary || report.format == SoupFormat::stl_ascii;
   std::string what = "holds no triangles";
   if (report.bad_faces > 0) {
     what = "holds no readable faces";
-  } else if (!is_stl && !result.soup.points.empty()) {
+  } else if (!is_stl(report.format) && !result.soup.points.empty()) {
     what = "holds " + counted(result.soup.points.size(), "point") + " but no faces";
   }
   if (!report.warnings.empty()) what += " (" + report.warnings.front() + ")";
@@ -83,9 +82,11 @@ ReadResult read_mesh_as(SoupFormat format, const MeshSource& source) {
       return read_obj(source);
     case SoupFormat::off:
       return read_off(source);
-    default:
-      return read_ply(source);
+    case SoupFormat::ply_binary:
+    case SoupFormat::ply_ascii:
+      break;
   }
+  return read_ply(source);
 }
 
 void require_mesh(const MeshSource& source, const ReadResult& result) {

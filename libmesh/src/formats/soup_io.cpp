@@ -21,9 +21,21 @@
 namespace meshrepair {
 
 std::string_view format_name(SoupFormat format) {
-  constexpr std::array<std::string_view, 6> kNames = {"binary STL", "ASCII STL",  "OBJ",
-                                                      "OFF",        "binary PLY", "ASCII PLY"};
-  return kNames[static_cast<std::size_t>(format)];
+  switch (format) {
+    case SoupFormat::stl_binary:
+      return "binary STL";
+    case SoupFormat::stl_ascii:
+      return "ASCII STL";
+    case SoupFormat::obj:
+      return "OBJ";
+    case SoupFormat::off:
+      return "OFF";
+    case SoupFormat::ply_binary:
+      return "binary PLY";
+    case SoupFormat::ply_ascii:
+      break;
+  }
+  return "ASCII PLY";
 }
 
 std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
@@ -52,6 +64,10 @@ ReadResult read_soup(std::string_view bytes, const std::string& name, const Read
   result.report.bytes = bytes.size();
   require_mesh(source, result);
   return result;
+}
+
+bool is_stl(SoupFormat format) {
+  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
 }
 
 bool is_ply(SoupFormat format) {
@@ -93,7 +109,7 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {
-  if (format != SoupFormat::stl_binary && format != SoupFormat::stl_ascii) return soup;
+  if (!is_stl(format)) return soup;
   TriangleSoup welded;
   PointWelder welder(welded.points, soup.points.size());
   std::vector<std::uint32_t> index;

@@ -1,9 +1,10 @@
 #include "chamber_graph.h"
 
-#include <algorithm>
-#include <tuple>
+#include <cstdint>
 #include <utility>
 #include <vector>
+
+#include <base/hash_index.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -14,29 +15,41 @@ struct Kind {
   std::uint32_t part = 0;
   std::int32_t winding = 0;
   bool given = false;
-  auto operator<=>(const Kind&) const = default;  // NOLINT(modernize-use-nullptr)
+  bool operator==(const Kind&) const = default;
 };
+
+std::uint64_t hash_of(const Kind& kind) {
+  std::uint64_t h = hash_mix(0, std::uint64_t{kind.below} << 32 | kind.above);
+  h = hash_mix(h, std::uint64_t{kind.part} << 1 | (kind.given ? 1 : 0));
+  return hash_mix(h, static_cast<std::uint64_t>(std::int64_t{kind.winding}));
+}
 
 struct KindOfWall {
   Kind kind;
-  std::uint32_t triangle = 0;
-  double area = 0;
+  std::uint32_t triangle = 0;  // the first one
+  double area = 0;             // of all
 };
 
-// Adds up those that are alike; each keeps its first triangle.
-void merge(std::vector<KindOfWall>& walls) {
-  std::stable_sort(walls.begin(), walls.end(),
-                   [](const KindOfWall& a, const KindOfWall& b) { return a.kind < b.kind; });
-  std::size_t count = 0;
-  for (const KindOfWall& wall : walls) {
-    if (count > 0 && walls[count - 1].kind == wall.kind) {
-      walls[count - 1].area += wall.area;
-    } else {
-      walls[count++] = wall;
+// Adds up walls of one kind, in the order in which kinds come first.
+class WallMerger {
+ public:
+  void add(const Kind& kind, std::uint32_t triangle, double area) {
+    if (index_.full(walls_.size())) {
+      index_.grow(static_cast<std::uint32_t>(walls_.size()),
+                  [&](std::uint32_t i) { return hash_of(walls_[i].kind); });
     }
+    const auto fresh = static_cast<std::uint32_t>(walls_.size());
+    const std::uint32_t at = index_.find_or_insert(
+        hash_of(kind), fresh, [&](std::uint32_t i) { return walls_[i].kind == kind; });
+    if (at == fresh) walls_.push_back({kind, triangle, 0});
+    walls_[at].area += area;
   }
-  walls.resize(count);
-}
+  [[nodiscard]] const std::vector<KindOfWall>& walls() const { return walls_; }
+
+ private:
+  std::vector<KindOfWall> walls_;
+  HashIndex index_{1024};
+};
 
 }  // namespace
 
@@ -63,18 +76,11 @@ CellGraph graph_of_chambers(const Arrangement& arrangement, const CleanSoup& sou
     }
     layers.push_back({link_of[layer.wall], TriangleId(layer.triangle)});
   }
-  std::vector<KindOfWall> others;
+  WallMerger others;
   for (std::size_t i = 0; i < walls.size(); ++i) {
-    if (link_of[i] != kNone) continue;
-    const Kind kind = kind_of(walls[i]);
-    if (!others.empty() && others.back().kind == kind) {
-      others.back().area += walls[i].area;
-    } else {
-      others.push_back({kind, walls[i].triangle, walls[i].area});
-    }
+    if (link_of[i] == kNone) others.add(kind_of(walls[i]), walls[i].triangle, walls[i].area);
   }
-  merge(others);
-  for (const KindOfWall& wall : others) add(wall.kind, wall.triangle, wall.area);
+  for (const KindOfWall& wall : others.walls()) add(wall.kind, wall.triangle, wall.area);
   std::vector<char> unbounded(arrangement.chambers(), 0);
   unbounded[Arrangement::kOutside] = 1;
   CellGraph graph(std::move(links), std::move(layers), arrangement.volumes(), std::move(unbounded));

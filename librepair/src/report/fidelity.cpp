@@ -2,10 +2,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <base/ids.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <mesh/triangle_measures.h>
@@ -49,30 +51,41 @@ Triangle3d triangle_of(const TriangleSoup& mesh, std::size_t t) {
 
 // Rounding moves a corner by less than one spacing, and so the outline of all pieces of a triangle,
 // which changes their area by less than its perimeter times that.
-std::vector<std::array<std::uint32_t, 3>> find_kept(const TriangleSoup& input,
-                                                    const Surface& surface, double spacing) {
+std::vector<std::uint32_t> find_kept(const TriangleSoup& input, const Surface& surface,
+                                     double spacing) {
   std::vector<double> area_out(input.triangles.size(), 0);
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     if (surface.source[t] == Surface::kNoSource) continue;
     area_out[surface.source[t]] += triangle_of(surface.mesh, t).area();
   }
-  std::vector<std::array<std::uint32_t, 3>> kept;
-  for (std::size_t t = 0; t < input.triangles.size(); ++t) {
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t t = 0; t < input.triangles.size(); ++t) {
     if (!(area_out[t] > 0)) continue;
     const Triangle3d triangle = triangle_of(input, t);
     const double area = triangle.area();
     const double allowed = kMissingShare * area + spacing * triangle.perimeter();
-    if (std::abs(area_out[t] - area) <= allowed) kept.push_back(input.triangles[t]);
+    if (std::abs(area_out[t] - area) <= allowed) kept.push_back(t);
   }
   return kept;
 }
 
+// Of each triangle of the input, one of the surface that lies in it; kNone: none does.
+std::vector<std::uint32_t> find_pieces(const TriangleSoup& input, const Surface& surface) {
+  std::vector<std::uint32_t> piece(input.triangles.size(), kNone);
+  for (std::uint32_t t = 0; t < surface.source.size(); ++t) {
+    if (surface.source[t] != Surface::kNoSource) piece[surface.source[t]] = t;
+  }
+  return piece;
+}
+
 OneSidedDistance measure(const TriangleSoup& from, const TriangleSoup& to,
-                         ProgressObserver* progress, double begin) {
+                         std::span<const std::uint32_t> twins, ProgressObserver* progress,
+                         double begin) {
   HalfStage half(progress, begin);
   DistanceOptions options;
   options.samples = fidelity_samples(from.triangles.size());
   options.progress = &half;
+  options.twins = twins;
   return one_sided_distance(from, to, options);
 }
 
@@ -86,15 +99,22 @@ Fidelity measure_fidelity(const TriangleSoup& input, const Surface& surface,
                           const FidelityOptions& options) {
   Fidelity fidelity;
   fidelity.diagonal = bounding_diagonal(input);
-  fidelity.output_to_input = measure(surface.mesh, input, options.progress, 0);
+  static_assert(Surface::kNoSource == kNone);
+  fidelity.output_to_input = measure(surface.mesh, input, surface.source, options.progress, 0);
+  const std::vector<std::uint32_t> list =
+      find_kept(input, surface, internal::number_spacing(surface.mesh, options.precision));
+  fidelity.kept_triangles = list.size();
+  if (list.empty()) return fidelity;
+  const std::vector<std::uint32_t> piece = find_pieces(input, surface);
   TriangleSoup kept;
   kept.points = input.points;
-  kept.triangles =
-      find_kept(input, surface, internal::number_spacing(surface.mesh, options.precision));
-  fidelity.kept_triangles = kept.triangles.size();
-  if (kept.triangles.empty()) return fidelity;
+  std::vector<std::uint32_t> twins;
+  for (const std::uint32_t t : list) {
+    kept.triangles.push_back(input.triangles[t]);
+    twins.push_back(piece[t]);
+  }
   fidelity.kept_area = surface_area(kept);
-  fidelity.kept_to_output = measure(kept, surface.mesh, options.progress, 0.5);
+  fidelity.kept_to_output = measure(kept, surface.mesh, twins, options.progress, 0.5);
   return fidelity;
 }
 

@@ -21,10 +21,6 @@ constexpr SoupFormat kAllFormats[] = {SoupFormat::stl_binary, SoupFormat::stl_as
                                       SoupFormat::obj,        SoupFormat::off,
                                       SoupFormat::ply_binary, SoupFormat::ply_ascii};
 
-bool is_stl(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
-}
-
 class SoupFormats : public ::testing::TestWithParam<SoupFormat> {};
 
 TEST_P(SoupFormats, RandomSoupComesBackBitForBit) {
