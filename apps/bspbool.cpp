@@ -28,6 +28,7 @@ struct BoolOptions {
   std::vector<std::string> inputs;
   SetOperation operation = SetOperation::unite;
   RegionTest test = RegionTest::cells;
+  bool always = false;
   StepOptions step;
 };
 
@@ -189,6 +190,7 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
   const bool to_tree = is_tree_name(options.step.output);
   BooleanOptions boolean_options;
   boolean_options.test = options.test;
+  boolean_options.by_trees = options.always;
   boolean_options.repair = options.step.repair;
   boolean_options.repair.progress = &run.progress;
   WriteOptions format;
@@ -205,11 +207,15 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
   Findings findings(all_names(options.inputs), options.step.output);
   return with_findings(run, findings, [&] {
     BooleanReport report;
-    const Tree tree = boolean_tree(solids, options.operation, boolean_options, report);
+    if (to_tree) {
+      const Tree tree = boolean_tree(solids, options.operation, boolean_options, report);
+      run.report.set_section("boolean", merge_section(report, options.operation));
+      warn_of_common_grid(options, report);
+      return write_tree_result(tree, options, run, findings);
+    }
+    const Surface surface = boolean(solids, options.operation, boolean_options, report);
     run.report.set_section("boolean", merge_section(report, options.operation));
     warn_of_common_grid(options, report);
-    if (to_tree) return write_tree_result(tree, options, run, findings);
-    const Surface surface = boolean_surface(tree, boolean_options, report);
     findings.repair = report.result;
     return write_mesh_result(surface, format, options, run, findings);
   });
@@ -242,6 +248,9 @@ void add_bool_options(CLI::App& app, BoolOptions& options) {
       "  cells     by carrying the cell of the region along\n"
       "  programs  by linear programs\n")
       ->default_str("cells");
+  app.add_flag("--always", options.always,
+               "Merge trees of all solids, also where cutting their triangles alone would do;\n"
+               "the result is the same");
 }
 
 // What is asked of a mesh to write says nothing about a tree.

@@ -1,12 +1,13 @@
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include <base/error.h>
 #include <boolean/boolean.h>
+#include <boolean/boolean_chambers.h>
 #include <boolean/label_beside_triangles.h>
-#include <bsp/common_grid.h>
+
+#include "operands.h"
 
 namespace meshrepair {
 namespace {
@@ -26,31 +27,12 @@ RepairOptions with_winding(const RepairOptions& options) {
   return changed;
 }
 
-[[noreturn]] void throw_too_small(std::size_t operand, const Grid& grid) {
-  std::ostringstream message;
-  message << "solid " << operand + 1
-          << " is nothing beside the others: on the grid of 2^26 steps over all, of " << grid.unit
-          << " each, it has no volume";
-  throw InputError(message.str());
-}
-
-double volume_on_grid(const TriangleSoup& solid, const Grid& grid) {
-  TriangleSoup rounded;
-  rounded.triangles = solid.triangles;
-  rounded.points.reserve(solid.points.size());
-  for (const Vec3d& p : solid.points) rounded.points.push_back(as_vector(grid.to_grid(p)));
-  return signed_volume(rounded) * grid.unit * grid.unit * grid.unit;
-}
-
 // On the grid of all operands.
 Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& grid,
                   const BooleanOptions& options, BooleanReport& report) {
   OperandReport& operand = report.operands[number];
-  operand.volume = signed_volume(solid);
-  if (solid.triangles.empty()) return empty_tree(grid);
-  CleanSoup clean = clean_soup(solid, grid, operand.clean, options.repair.progress);
-  if (clean.triangles.empty()) throw_too_small(number, grid);
-  operand.volume_on_grid = volume_on_grid(solid, grid);
+  CleanSoup clean = internal::clean_operand(solid, number, grid, options, report);
+  if (clean.triangles.empty()) return empty_tree(grid);
   CancelOnly quiet(options.repair.progress);
   const bool is_solid = bounds_a_solid(clean, &quiet);
   BuildTreeOptions tree_options = options.repair.tree;
@@ -65,9 +47,14 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   try {
     label_tree(tree, label_options, labels);
   } catch (const NoSolidError&) {
-    throw_too_small(number, grid);
+    internal::throw_too_small(number, grid);
   }
   return tree;
+}
+
+bool may_spare_trees(const BooleanOptions& options) {
+  return !options.by_trees && options.repair.predicates == Predicates::exact &&
+         !options.repair.check_cells;
 }
 
 bool has_solid(const Tree& tree) {
@@ -79,13 +66,8 @@ bool has_solid(const Tree& tree) {
 
 Tree boolean_tree(std::span<const TriangleSoup> solids, SetOperation operation,
                   const BooleanOptions& options, BooleanReport& report) {
-  if (solids.empty()) throw InputError("there is no solid to begin with");
   report = {};
-  report.operands.resize(solids.size());
-  std::vector<const TriangleSoup*> all;
-  all.reserve(solids.size());
-  for (const TriangleSoup& solid : solids) all.push_back(&solid);
-  const Grid grid = make_grid(all);
+  const Grid grid = internal::grid_of(solids, report);
   StageMeter meter(report.result.stages, options.repair.progress);
   meter.begin("operands");
   Tree result = make_operand(solids[0], 0, grid, options, report);
@@ -112,6 +94,10 @@ Surface boolean_surface(const Tree& tree, const BooleanOptions& options, Boolean
 
 Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
                 const BooleanOptions& options, BooleanReport& report) {
+  if (may_spare_trees(options)) {
+    auto surface = boolean_by_chambers(solids, operation, options, report);
+    if (surface) return std::move(*surface);
+  }
   return boolean_surface(boolean_tree(solids, operation, options, report), options, report);
 }
 

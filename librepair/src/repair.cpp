@@ -27,6 +27,7 @@
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
 
+#include "arrange/chamber_surface.h"
 #include "cells/covered_cells.h"
 #include "prepare/prepare.h"
 #include "solid/find_solid.h"
@@ -148,6 +149,19 @@ Surface extract_mesh(const Tree& tree, const RepairOptions& options, RepairRepor
       internal::make_cells(tree, windings_of(tree.input), options, report, meter);
   const std::vector<char> solid = solid_cells(tree, covered.complex);
   return internal::make_surface(std::move(covered), solid, options, report, meter);
+}
+
+std::optional<Surface> extract_mesh(const CleanSoup& soup, const Arrangement& arrangement,
+                                    const std::vector<char>& solid, const RepairOptions& options,
+                                    RepairReport& report) {
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("extract");
+  std::optional<Surface> surface =
+      internal::boundary_of_chambers(soup, arrangement, solid, options, report);
+  if (!surface) return std::nullopt;
+  surface = internal::finish_surface(soup, std::move(*surface), options, report, meter);
+  if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
+  return surface;
 }
 
 }  // namespace meshrepair

@@ -12,6 +12,8 @@ namespace meshrepair {
 
 struct BooleanOptions {
   RegionTest test = RegionTest::cells;
+  // Only boolean() looks at this: merges trees of all solids also where that can be spared.
+  bool by_trees = false;
   // How the result is extracted and certified; of the rest, the progress.
   RepairOptions repair;
 };
@@ -27,7 +29,7 @@ struct OperandReport {
 // Filled as far as the work came, also when it ended with an exception.
 struct BooleanReport {
   std::vector<OperandReport> operands;
-  std::vector<MergeReport> merges;  // one less
+  std::vector<MergeReport> merges;  // one less; none where there were no trees
   RepairReport result;              // from the extraction on
 };
 

@@ -39,18 +39,13 @@ struct ChamberWall {
   double area = 0;             // in square grid steps, rounded
 };
 
-// The arrangement of a soup that has no edge with one triangle alone.
 class Arrangement {
  public:
-  using Pair = std::array<std::uint32_t, 2>;
-
-  // `pairs` are all pairs of triangles that meet in more than corners and edges that they share.
-  // The soup has to outlive the result. Exact. Nothing if an edge has one triangle alone, or in
-  // rare cases in which it cannot tell how parts lie in each other (see find_chambers()). n log n
-  // in what comes in and goes out, but for triangles that very many others meet. Throws Cancelled.
-  [[nodiscard]] static std::optional<Arrangement> make(const CleanSoup& soup,
-                                                       std::span<const Pair> pairs,
-                                                       ArrangeReport& report,
+  // The soup has to outlive the result. Exact. An edge with one triangle alone has one chamber
+  // around it. Nothing where more than 64 pairs of triangles meet for each triangle, or in rare
+  // cases in which it cannot be told how parts lie in each other. n log n in what comes in and goes
+  // out, but for triangles that very many others meet. Throws Cancelled.
+  [[nodiscard]] static std::optional<Arrangement> make(const CleanSoup& soup, ArrangeReport& report,
                                                        ProgressObserver* progress = nullptr);
   Arrangement(Arrangement&&) noexcept;
   Arrangement& operator=(Arrangement&&) noexcept;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <check/self_intersections.h>
 #include <extract/arrange.h>
 
 #include "arranged_facets.h"
@@ -15,9 +16,34 @@
 #include "stacks.h"
 
 namespace meshrepair {
+namespace {
+
+// For each triangle; of more, nearly all triangles meet nearly all others.
+constexpr std::size_t kPairsEach = 64;
+
+// All that meet in more than corners and edges that they share, unless these are too many.
+std::optional<std::vector<internal::CutSet::Pair>> find_pairs(const CleanSoup& soup,
+                                                              ProgressObserver* progress) {
+  TriangleSoup mesh;
+  mesh.points.reserve(soup.points.size());
+  mesh.triangles.reserve(soup.triangles.size());
+  for (const GridPoint& p : soup.grid_points) mesh.points.push_back(as_vector(p));
+  for (const Triangle& t : soup.triangles) {
+    mesh.triangles.push_back({t.corners[0].value, t.corners[1].value, t.corners[2].value});
+  }
+  SelfIntersectionOptions options;
+  options.weld = false;
+  options.most_pairs = kPairsEach * soup.triangles.size();
+  options.progress = progress;
+  SelfIntersections found = self_intersections(mesh, options);
+  if (found.pairs.size() < found.count) return std::nullopt;
+  return std::move(found.pairs);
+}
+
+}  // namespace
 
 struct Arrangement::Parts {
-  Parts(const CleanSoup& soup_in, std::span<const Pair> pairs)
+  Parts(const CleanSoup& soup_in, std::span<const internal::CutSet::Pair> pairs)
       : soup(soup_in), cut(soup_in, pairs) {}
 
   [[nodiscard]] Vec3d place(std::uint32_t point) const {
@@ -50,16 +76,16 @@ Arrangement::Arrangement(Arrangement&&) noexcept = default;
 Arrangement& Arrangement::operator=(Arrangement&&) noexcept = default;
 Arrangement::~Arrangement() = default;
 
-std::optional<Arrangement> Arrangement::make(const CleanSoup& soup, std::span<const Pair> pairs,
-                                             ArrangeReport& report, ProgressObserver* progress) {
-  auto parts = std::make_unique<Parts>(soup, pairs);
+std::optional<Arrangement> Arrangement::make(const CleanSoup& soup, ArrangeReport& report,
+                                             ProgressObserver* progress) {
+  const auto pairs = find_pairs(soup, progress);
+  if (!pairs) return std::nullopt;
+  auto parts = std::make_unique<Parts>(soup, *pairs);
   report = {};
   report.cut_triangles = parts->cut.size();
   {
-    const auto facets = internal::arrange_facets(parts->cut, pairs, parts->points, progress);
-    if (!facets) {
-      return std::nullopt;
-    }
+    const auto facets = internal::arrange_facets(parts->cut, *pairs, parts->points, progress);
+    if (!facets) return std::nullopt;
     report.facets = facets->corners.size();
     parts->sheets = internal::join_sheets(parts->cut, *facets, *parts->points);
   }
@@ -128,9 +154,7 @@ std::optional<Arrangement::Boundary> Arrangement::boundary(const std::vector<cha
   internal::KeptFacets kept =
       internal::keep_facets(parts_->soup, parts_->sheets, *parts_->edges, *parts_->stacks,
                             parts_->chambers, solid, touching);
-  if (!kept.closed) {
-    return std::nullopt;
-  }
+  if (!kept.closed) return std::nullopt;
   report.singular_edges = kept.singular_edges;
   report.regions = 0;
   std::optional<Surface> surface = internal::make_sheet_surface(

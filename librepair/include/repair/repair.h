@@ -3,8 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <bsp/tree.h>
+#include <extract/arrange.h>
 #include <extract/surface.h>
 #include <mesh/soup.h>
 #include <repair/repair_options.h>
@@ -37,5 +39,14 @@ void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report);
 // is solid.
 [[nodiscard]] Surface extract_mesh(const Tree& tree, const RepairOptions& options,
                                    RepairReport& report);
+
+// The same from the chambers of an arrangement of `soup`, those with a flag in `solid`: extracted,
+// simplified and certified. Nothing where cells are needed for that: where sheets nearly coincide,
+// in rare cases in which solids touch, or where the result is to be certified and is not.
+[[nodiscard]] std::optional<Surface> extract_mesh(const CleanSoup& soup,
+                                                  const Arrangement& arrangement,
+                                                  const std::vector<char>& solid,
+                                                  const RepairOptions& options,
+                                                  RepairReport& report);
 
 }  // namespace meshrepair

@@ -1,13 +1,15 @@
-#include "chamber_graph.h"
-
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include <base/hash_index.h>
+#include <repair/chamber_graph.h>
 
-namespace meshrepair::internal {
+namespace meshrepair {
 namespace {
+
+using internal::hash_mix;
+using internal::HashIndex;
 
 // What of a wall is the same for all that one link stands for.
 struct Kind {
@@ -88,4 +90,4 @@ CellGraph graph_of_chambers(const Arrangement& arrangement, const CleanSoup& sou
   return graph;
 }
 
-}  // namespace meshrepair::internal
+}  // namespace meshrepair

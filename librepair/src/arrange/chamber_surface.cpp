@@ -9,34 +9,48 @@
 #include <check/self_intersections.h>
 #include <extract/arrange.h>
 #include <mesh/edge_table.h>
+#include <mesh/topology.h>
+#include <repair/chamber_graph.h>
 #include <repair/inside_rule.h>
 
-#include "chamber_graph.h"
 #include "sheets/fill_slits.h"
 
 namespace meshrepair::internal {
 namespace {
-
-// For each triangle; of more, nearly all triangles meet nearly all others.
-constexpr std::size_t kPairsEach = 64;
 
 // Of the surface, how much may lie in slits and fins: little slivers are no reason for cells. So
 // many pieces tell.
 constexpr double kSlitShare = 1e-3;
 constexpr std::size_t kMostPieces = 8192;
 
-TriangleSoup put_on_grid(const CleanSoup& soup) {
-  TriangleSoup mesh;
-  mesh.triangles = index_triangles(soup);
-  mesh.points.reserve(soup.points.size());
-  for (const GridPoint& p : soup.grid_points) mesh.points.push_back(as_vector(p));
-  return mesh;
-}
-
 double area_of_triangle(const TriangleSoup& mesh, std::uint32_t t) {
   const auto& c = mesh.triangles[t];
   const Vec3d& a = mesh.points[c[0]];
   return 0.5 * (mesh.points[c[1]] - a).cross(mesh.points[c[2]] - a).norm();
+}
+
+// Whether pieces of triangles lie so near to each other that all cells would fill what is
+// between.
+bool has_slits(const CleanSoup& soup, const Surface& surface, const RepairOptions& options) {
+  if (options.slit_steps <= 0) return false;
+  const std::vector<char> whole = find_whole_triangles(soup, surface);
+  std::vector<std::uint32_t> pieces;
+  for (std::uint32_t t = 0; t < whole.size(); ++t) {
+    if (whole[t] == 0) pieces.push_back(t);
+  }
+  const std::size_t step = pieces.size() / kMostPieces + 1;
+  for (std::size_t i = 0; i * step < pieces.size(); ++i) pieces[i] = pieces[i * step];
+  pieces.resize((pieces.size() + step - 1) / step);
+  CancelOnly quiet(options.progress);
+  SelfIntersectionOptions near;
+  near.nearness = widest_slit(soup, options) * soup.grid.unit;
+  near.most_pairs = surface.mesh.triangles.size();
+  near.progress = &quiet;
+  double area = 0;
+  for (const auto& [a, b] : self_intersections(surface.mesh, pieces, near).pairs) {
+    area += std::min(area_of_triangle(surface.mesh, a), area_of_triangle(surface.mesh, b));
+  }
+  return area * static_cast<double>(step) > kSlitShare * surface_area(surface.mesh);
 }
 
 class ChamberSurface {
@@ -47,19 +61,15 @@ class ChamberSurface {
 
   std::optional<Surface> run() {
     if (has_open_edges()) return std::nullopt;
-    std::optional<Arrangement> arrangement = arrange();
+    meter_.begin("arrange");
+    const std::optional<Arrangement> arrangement =
+        Arrangement::make(soup_, report_.arrange, options_.progress);
     if (!arrangement) return std::nullopt;
     meter_.begin("inside");
     const std::optional<std::vector<char>> solid = label(*arrangement);
     if (!solid) return std::nullopt;
     meter_.begin("extract");
-    std::optional<Arrangement::Boundary> boundary = arrangement->boundary(
-        *solid, options_.extract.touching, report_.arrange, options_.progress);
-    arrangement.reset();
-    if (!boundary || boundary->surface.mesh.triangles.empty()) return std::nullopt;
-    if (has_slits(boundary->surface)) return std::nullopt;
-    describe(boundary->places);
-    return std::move(boundary->surface);
+    return boundary_of_chambers(soup_, *arrangement, *solid, options_, report_);
   }
 
  private:
@@ -73,18 +83,6 @@ class ChamberSurface {
     return any;
   }
 
-  std::optional<Arrangement> arrange() {
-    meter_.begin("tangles");
-    SelfIntersectionOptions meeting;
-    meeting.weld = false;
-    meeting.most_pairs = kPairsEach * soup_.triangles.size();
-    meeting.progress = options_.progress;
-    const SelfIntersections found = self_intersections(put_on_grid(soup_), meeting);
-    if (found.pairs.size() < found.count) return std::nullopt;
-    meter_.begin("arrange");
-    return Arrangement::make(soup_, found.pairs, report_.arrange, options_.progress);
-  }
-
   std::optional<std::vector<char>> label(const Arrangement& arrangement) {
     const CellGraph graph = graph_of_chambers(arrangement, soup_, orientation_);
     report_.links = graph.links().size();
@@ -95,34 +93,6 @@ class ChamberSurface {
     return std::move(labels.solid);
   }
 
-  // Whether pieces of triangles lie so near to each other that all cells would fill what is
-  // between.
-  [[nodiscard]] bool has_slits(const Surface& surface) const {
-    if (options_.slit_steps <= 0) return false;
-    const std::vector<char> whole = find_whole_triangles(soup_, surface);
-    std::vector<std::uint32_t> pieces;
-    for (std::uint32_t t = 0; t < whole.size(); ++t) {
-      if (whole[t] == 0) pieces.push_back(t);
-    }
-    const std::size_t step = pieces.size() / kMostPieces + 1;
-    for (std::size_t i = 0; i * step < pieces.size(); ++i) pieces[i] = pieces[i * step];
-    pieces.resize((pieces.size() + step - 1) / step);
-    CancelOnly quiet(options_.progress);
-    SelfIntersectionOptions near;
-    near.nearness = widest_slit(soup_, options_) * soup_.grid.unit;
-    near.most_pairs = surface.mesh.triangles.size();
-    near.progress = &quiet;
-    double area = 0;
-    for (const auto& [a, b] : self_intersections(surface.mesh, pieces, near).pairs) {
-      area += std::min(area_of_triangle(surface.mesh, a), area_of_triangle(surface.mesh, b));
-    }
-    return area * static_cast<double>(step) > kSlitShare * report_.input_area;
-  }
-
-  void describe(const std::vector<std::uint8_t>& places) {
-    report_.parts = find_part_fates(soup_, places);
-  }
-
   const CleanSoup& soup_;
   const Orientation& orientation_;
   const RepairOptions& options_;
@@ -131,6 +101,17 @@ class ChamberSurface {
 };
 
 }  // namespace
+
+std::optional<Surface> boundary_of_chambers(const CleanSoup& soup, const Arrangement& arrangement,
+                                            const std::vector<char>& solid,
+                                            const RepairOptions& options, RepairReport& report) {
+  std::optional<Arrangement::Boundary> boundary =
+      arrangement.boundary(solid, options.extract.touching, report.arrange, options.progress);
+  if (!boundary || boundary->surface.mesh.triangles.empty()) return std::nullopt;
+  if (has_slits(soup, boundary->surface, options)) return std::nullopt;
+  report.parts = find_part_fates(soup, boundary->places);
+  return std::move(boundary->surface);
+}
 
 std::optional<Surface> surface_of_chambers(const CleanSoup& soup, const Orientation& orientation,
                                            const RepairOptions& options, RepairReport& report,

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <base/stage_meter.h>
 #include <bsp/clean_soup.h>
+#include <extract/arrange.h>
 #include <extract/surface.h>
 #include <repair/orient_parts.h>
 #include <repair/repair_options.h>
@@ -21,5 +23,13 @@ namespace meshrepair::internal {
                                                          const Orientation& orientation,
                                                          const RepairOptions& options,
                                                          RepairReport& report, StageMeter& meter);
+
+// The boundary between chambers that are solid, of each a flag, and the others. Nothing where
+// sheets are so near to each other that cells would fill what is between, or in rare cases.
+[[nodiscard]] std::optional<Surface> boundary_of_chambers(const CleanSoup& soup,
+                                                          const Arrangement& arrangement,
+                                                          const std::vector<char>& solid,
+                                                          const RepairOptions& options,
+                                                          RepairReport& report);
 
 }  // namespace meshrepair::internal

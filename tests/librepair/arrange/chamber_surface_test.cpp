@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <check/check_surface.h>
-#include <check/self_intersections.h>
 #include <extract/arrange.h>
 #include <repair/repair.h>
 
@@ -176,16 +175,6 @@ std::size_t regions_of(const CellGraph& graph) {
   return regions;
 }
 
-std::optional<Arrangement> arrangement_of(const CleanSoup& soup, ArrangeReport& report) {
-  TriangleSoup on_grid;
-  on_grid.triangles = index_triangles(soup);
-  for (const GridPoint& p : soup.grid_points) on_grid.points.push_back(as_vector(p));
-  SelfIntersectionOptions options;
-  options.weld = false;
-  options.most_pairs = ~std::size_t{0};
-  return Arrangement::make(soup, self_intersections(on_grid, options).pairs, report);
-}
-
 class DegenerateSoups : public ::testing::TestWithParam<SoupFamily> {};
 
 // Open, closed, folded, in one place: every soup divides space into regions.
@@ -197,7 +186,7 @@ TEST_P(DegenerateSoups, ChambersAreTheRegionsOfTheCells) {
     const Graph g = graph_of(GetParam().make(seed));
     const CleanSoup& soup = g.cells.complex.soup();
     ArrangeReport report;
-    const std::optional<Arrangement> arrangement = arrangement_of(soup, report);
+    const std::optional<Arrangement> arrangement = Arrangement::make(soup, report);
     if (!arrangement) continue;
     ++made;
     std::set<std::uint32_t> chambers = {Arrangement::kOutside};

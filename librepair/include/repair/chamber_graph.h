@@ -5,10 +5,10 @@
 #include <repair/cell_graph.h>
 #include <repair/orient_parts.h>
 
-namespace meshrepair::internal {
+namespace meshrepair {
 
 // Walls between the same chambers that say the same are one link.
 [[nodiscard]] CellGraph graph_of_chambers(const Arrangement& arrangement, const CleanSoup& soup,
                                           const Orientation& orientation);
 
-}  // namespace meshrepair::internal
+}  // namespace meshrepair
