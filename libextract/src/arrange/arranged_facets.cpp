@@ -243,6 +243,8 @@ class FacetArranger {
   }
 
   bool triangulate(std::uint32_t t, CutTriangle& result) const;
+  // From corner k to the next one.
+  [[nodiscard]] std::vector<std::uint32_t> points_on_side(std::uint32_t t, std::size_t k) const;
 
   const CutSet& cut_;
   std::optional<ArrangedPoints>& points_;
@@ -274,8 +276,18 @@ class TriangleFiller {
     for (std::uint32_t k = 0; k < 3; ++k) mesh_.mark(k, kFixed);
   }
 
+  // In order from corner k to the next one.
+  void add_on_side(std::uint32_t k, std::span<const std::uint32_t> points) {
+    std::uint32_t vertex = k;
+    for (const std::uint32_t p : points) {
+      at_.push_back(points_.at(p));
+      vertex = mesh_.split_outline(mesh_.outline_from(vertex), at_.back());
+      point_.push_back(p);
+    }
+  }
+
   // All must be there that are, before the edges.
-  bool add_vertices(std::span<const std::uint32_t> points) {
+  bool add_inside(std::span<const std::uint32_t> points) {
     for (const std::uint32_t p : points) {
       std::uint32_t vertex = 0;
       at_.push_back(points_.at(p));
@@ -285,8 +297,12 @@ class TriangleFiller {
     return true;
   }
 
-  bool add_edge(std::uint32_t from, std::uint32_t to) {
-    return mesh_.insert_edge(vertex_of(from), vertex_of(to), kFixed);
+  bool add_edges(std::span<const std::array<std::uint32_t, 2>> edges) {
+    for (std::uint32_t v = 0; v < point_.size(); ++v) vertex_of_.push_back({point_[v], v});
+    std::sort(vertex_of_.begin(), vertex_of_.end());
+    return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+      return mesh_.insert_edge(vertex_of(edge[0]), vertex_of(edge[1]), kFixed);
+    });
   }
 
   void fill(CutTriangle& result) const {
@@ -301,8 +317,7 @@ class TriangleFiller {
   static constexpr std::uint32_t kFixed = 0;
 
   [[nodiscard]] std::uint32_t vertex_of(std::uint32_t point) const {
-    return static_cast<std::uint32_t>(std::find(point_.begin(), point_.end(), point) -
-                                      point_.begin());
+    return std::lower_bound(vertex_of_.begin(), vertex_of_.end(), std::array{point, 0u})->back();
   }
 
   const CutSet& cut_;
@@ -310,16 +325,43 @@ class TriangleFiller {
   const std::uint32_t triangle_;
   PlanarMesh mesh_;
   std::vector<Point> at_;
-  std::vector<std::uint32_t> point_;  // of each vertex
+  std::vector<std::uint32_t> point_;                     // of each vertex
+  std::vector<std::array<std::uint32_t, 2>> vertex_of_;  // points and their vertices, sorted
 };
 
+// Each once, in the order in which they come first.
+void make_unique(std::vector<std::uint32_t>& list) {
+  std::vector<std::array<std::uint32_t, 2>> sorted;
+  for (std::uint32_t i = 0; i < list.size(); ++i) sorted.push_back({list[i], i});
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<char> comes_first(list.size(), 0);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || sorted[i][0] != sorted[i - 1][0]) comes_first[sorted[i][1]] = 1;
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (comes_first[i] != 0) list[count++] = list[i];
+  }
+  list.resize(count);
+}
+
+std::vector<std::uint32_t> FacetArranger::points_on_side(std::uint32_t t, std::size_t k) const {
+  std::vector<std::uint32_t> list;
+  const std::uint32_t edge = cut_.edge(t, k);
+  for (const std::uint32_t p : edge_points_[edge]) list.push_back(points_->settled(p));
+  make_unique(list);
+  if (cut_.corners(t)[k] != cut_.ends(edge)[0]) std::reverse(list.begin(), list.end());
+  return list;
+}
+
 bool FacetArranger::triangulate(std::uint32_t t, CutTriangle& result) const {
-  std::vector<std::uint32_t> on_sides, inside;
+  // Next to each other in the lists is mostly near each other in the triangle.
+  std::array<std::vector<std::uint32_t>, 3> on_sides;
+  std::vector<std::uint32_t> inside, outline(cut_.corners(t).begin(), cut_.corners(t).end());
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (std::size_t k = 0; k < 3; ++k) {
-    for (const std::uint32_t p : edge_points_[cut_.edge(t, k)]) {
-      on_sides.push_back(points_->settled(p));
-    }
+    on_sides[k] = points_on_side(t, k);
+    outline.insert(outline.end(), on_sides[k].begin(), on_sides[k].end());
   }
   for (const std::uint32_t p : contacts_.of(t)) inside.push_back(points_->settled(p));
   for (const auto& list : line_points_[t]) {
@@ -331,24 +373,17 @@ bool FacetArranger::triangulate(std::uint32_t t, CutTriangle& result) const {
       if (p != q) edges.push_back({std::min(p, q), std::max(p, q)});
     }
   }
-  const auto make_unique = [](auto& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
-  make_unique(on_sides);
   make_unique(inside);
-  make_unique(edges);
-  const auto& corners = cut_.corners(t);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::sort(outline.begin(), outline.end());
   std::erase_if(inside, [&](std::uint32_t p) {
-    return std::binary_search(on_sides.begin(), on_sides.end(), p) ||
-           std::find(corners.begin(), corners.end(), p) != corners.end();
+    return std::binary_search(outline.begin(), outline.end(), p);
   });
   TriangleFiller filler(cut_, *points_, t);
-  filler.add_corners(on_sides.size() + inside.size());
-  if (!filler.add_vertices(on_sides) || !filler.add_vertices(inside)) return false;
-  for (const auto& [p, q] : edges) {
-    if (!filler.add_edge(p, q)) return false;
-  }
+  filler.add_corners(outline.size() + inside.size());
+  for (std::uint32_t k = 0; k < 3; ++k) filler.add_on_side(k, on_sides[k]);
+  if (!filler.add_inside(inside) || !filler.add_edges(edges)) return false;
   filler.fill(result);
   return true;
 }

@@ -162,26 +162,26 @@ class ChamberFinder {
   }
 
   // The facet of a triangle right above a point; kNone if that is at an edge of it.
-  [[nodiscard]] std::uint32_t facet_above(std::uint32_t t, const CornerRay& ray) const {
+  [[nodiscard]] std::uint32_t facet_above(std::uint32_t t, const CornerRay& ray) {
     const std::uint32_t first = sheets_.first[t], last = sheets_.first[t + 1];
     if (last - first == 1) return first;
     const GridPoint& at = start_of(ray);
-    PlaneTable planes = cut_.planes();
+    if (planes_.size() == 0) planes_ = cut_.planes();
     const auto plane_at = [&](std::size_t axis) {
       std::array<std::int64_t, 3> normal{};
       normal[axis] = 1;
-      return planes.append(make_plane(normal, -Int128{coordinate(at, axis)}));
+      return planes_.append(make_plane(normal, -Int128{coordinate(at, axis)}));
     };
     const PlaneId own = cut_.plane(cut_.number_of(t));
     const PlaneId x = plane_at((axis_ + 1) % 3), y = plane_at((axis_ + 2) % 3);
-    const Point place = meet(planes, own, x, y, {});
+    const Point place = meet(planes_, own, x, y, {});
     const int left = corner_side(soup_, t);
     for (std::uint32_t f = first; f < last; ++f) {
       const auto& c = sheets_.corners[f];
       bool inside = true;
       for (std::size_t k = 0; k < 3 && inside; ++k) {
         const Point a = points_.at(c[k]), b = points_.at(c[(k + 1) % 3]);
-        inside = turn(a, b, place, own, planes) == left;
+        inside = turn(a, b, place, own, planes_) == left;
       }
       if (inside) return f;
     }
@@ -310,6 +310,7 @@ class ChamberFinder {
   DisjointSets parts_;            // facets that are connected
   std::vector<char> is_reached_;  // of the first facet of each part: a ray told where it lies
   std::size_t axis_ = 2;          // along which rays run
+  PlaneTable planes_;             // those of cut triangles, and of rays; empty until needed
 };
 
 }  // namespace

@@ -46,6 +46,10 @@ class PlanarMesh {
   // where there is one already, or no region. Flips edges without a mark so that few long ones
   // stay.
   [[nodiscard]] bool insert_vertex(const Point& point, std::uint32_t& vertex);
+  // The same on a slot of the outline, without looking where the point is.
+  [[nodiscard]] std::uint32_t split_outline(std::uint32_t slot, const Point& point);
+  // The slot of the outline that starts at a vertex; kNone if there is none.
+  [[nodiscard]] std::uint32_t outline_from(std::uint32_t vertex) const;
   // Flips edges until the two are connected by one, and marks its slots. False where a vertex, the
   // outline or an edge with a mark is in between.
   [[nodiscard]] bool insert_edge(std::uint32_t from, std::uint32_t to, std::uint32_t mark);

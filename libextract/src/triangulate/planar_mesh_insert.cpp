@@ -10,6 +10,23 @@
 #include "planar_mesh.h"
 
 namespace meshrepair::internal {
+// Visits the slots that start at a vertex until one is wanted no more.
+template <class Visit>
+void PlanarMesh::for_each_slot_at(std::uint32_t vertex, Visit visit) const {
+  const std::uint32_t start = slot_at_[vertex];
+  std::uint32_t slot = start;
+  while (true) {  // counter-clockwise
+    if (!visit(slot)) return;
+    slot = across_[previous_slot(slot)];
+    if (slot == start) return;
+    if (slot == kNone) break;
+  }
+  for (slot = across_[start]; slot != kNone; slot = across_[slot]) {  // clockwise
+    slot = next_slot(slot);
+    if (!visit(slot)) return;
+  }
+}
+
 bool PlanarMesh::insert_vertex(const Point& point, std::uint32_t& vertex) {
   std::uint32_t t = kNone;
   std::array<int, 3> turns{};
@@ -26,6 +43,22 @@ bool PlanarMesh::insert_vertex(const Point& point, std::uint32_t& vertex) {
   }
   flip_while_better();
   return true;
+}
+
+std::uint32_t PlanarMesh::split_outline(std::uint32_t slot, const Point& point) {
+  const std::uint32_t vertex = add_vertex(point);
+  split_side(slot, vertex);
+  flip_while_better();
+  return vertex;
+}
+
+std::uint32_t PlanarMesh::outline_from(std::uint32_t vertex) const {
+  std::uint32_t found = kNone;
+  for_each_slot_at(vertex, [&](std::uint32_t slot) {
+    if (across_[slot] == kNone) found = slot;
+    return found == kNone;
+  });
+  return found;
 }
 
 // The turns from each side to the point; false if it is outside.
@@ -110,23 +143,6 @@ void PlanarMesh::split_side(std::uint32_t slot, std::uint32_t vertex) {
   set_triangle(near_b, {b, vertex, d}, {Beyond{3 * far, mark}, Beyond{3 * o + 2, kNone}, db});
   queue_.push_back(3 * o + 1);
   queue_.push_back(3 * near_b + 2);
-}
-
-// Visits the slots that start at a vertex until one is wanted no more.
-template <class Visit>
-void PlanarMesh::for_each_slot_at(std::uint32_t vertex, Visit visit) const {
-  const std::uint32_t start = slot_at_[vertex];
-  std::uint32_t slot = start;
-  while (true) {  // counter-clockwise
-    if (!visit(slot)) return;
-    slot = across_[previous_slot(slot)];
-    if (slot == start) return;
-    if (slot == kNone) break;
-  }
-  for (slot = across_[start]; slot != kNone; slot = across_[slot]) {  // clockwise
-    slot = next_slot(slot);
-    if (!visit(slot)) return;
-  }
 }
 
 // kNone if there is none; of an edge of the outline the slot may start at either end.

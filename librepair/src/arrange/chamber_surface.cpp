@@ -1,6 +1,7 @@
 #include "chamber_surface.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace {
 // Of the surface, how much may lie in slits and fins: little slivers are no reason for cells. So
 // many pieces tell.
 constexpr double kSlitShare = 1e-3;
-constexpr std::size_t kMostPieces = 8192;
+constexpr std::size_t kMostPieces = 1024;
 
 double area_of_triangle(const TriangleSoup& mesh, std::uint32_t t) {
   const auto& c = mesh.triangles[t];
@@ -29,28 +30,42 @@ double area_of_triangle(const TriangleSoup& mesh, std::uint32_t t) {
   return 0.5 * (mesh.points[c[1]] - a).cross(mesh.points[c[2]] - a).norm();
 }
 
-// Whether pieces of triangles lie so near to each other that all cells would fill what is
-// between.
+double area_of_triangles(const TriangleSoup& mesh, std::span<const std::uint32_t> list) {
+  double sum = 0;
+  for (const std::uint32_t t : list) sum += area_of_triangle(mesh, t);
+  return sum;
+}
+
+// Evenly chosen ones.
+std::vector<std::uint32_t> some_of(std::span<const std::uint32_t> list, std::size_t most) {
+  std::vector<std::uint32_t> some;
+  const std::size_t step = list.size() / most + 1;
+  for (std::size_t i = 0; i < list.size(); i += step) some.push_back(list[i]);
+  return some;
+}
+
+// Whether pieces of triangles lie so near to each other that all cells would fill what is between,
+// as far as some of them tell.
 bool has_slits(const CleanSoup& soup, const Surface& surface, const RepairOptions& options) {
   if (options.slit_steps <= 0) return false;
+  const TriangleSoup& mesh = surface.mesh;
   const std::vector<char> whole = find_whole_triangles(soup, surface);
   std::vector<std::uint32_t> pieces;
   for (std::uint32_t t = 0; t < whole.size(); ++t) {
     if (whole[t] == 0) pieces.push_back(t);
   }
-  const std::size_t step = pieces.size() / kMostPieces + 1;
-  for (std::size_t i = 0; i * step < pieces.size(); ++i) pieces[i] = pieces[i * step];
-  pieces.resize((pieces.size() + step - 1) / step);
+  const std::vector<std::uint32_t> some = some_of(pieces, kMostPieces);
   CancelOnly quiet(options.progress);
   SelfIntersectionOptions near;
   near.nearness = widest_slit(soup, options) * soup.grid.unit;
-  near.most_pairs = surface.mesh.triangles.size();
+  near.most_pairs = mesh.triangles.size();
   near.progress = &quiet;
   double area = 0;
-  for (const auto& [a, b] : self_intersections(surface.mesh, pieces, near).pairs) {
-    area += std::min(area_of_triangle(surface.mesh, a), area_of_triangle(surface.mesh, b));
+  for (const auto& [a, b] : self_intersections(mesh, some, near).pairs) {
+    area += std::min(area_of_triangle(mesh, a), area_of_triangle(mesh, b));
   }
-  return area * static_cast<double>(step) > kSlitShare * surface_area(surface.mesh);
+  const double share_of_pieces = area_of_triangles(mesh, pieces) / surface_area(mesh);
+  return area * share_of_pieces > kSlitShare * area_of_triangles(mesh, some);
 }
 
 class ChamberSurface {
