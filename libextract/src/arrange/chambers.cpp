@@ -67,7 +67,7 @@ class ChamberFinder {
   // are farthest out: along z, or x and y where that does not tell.
   bool place_parts() {
     std::vector<char> is_placed(sheets_.size(), 0);  // of the first facet of each part
-    for (const std::size_t axis : {2, 0, 1}) {
+    for (const std::size_t axis : {std::size_t{2}, std::size_t{0}, std::size_t{1}}) {
       axis_ = axis;
       std::vector<std::vector<CornerRay>> rays = list_rays(is_placed);
       if (rays.empty()) return true;

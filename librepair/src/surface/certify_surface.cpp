@@ -49,11 +49,10 @@ Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
   return surface_by_cells(std::move(clean), orientation, again, report, meter);
 }
 
-// With its input points where everything was decided: simplified anew, if it was before.
-void settle(const Surface& surface, bool was_simplified, Simplifier& simplifier,
-            Certification& certification) {
-  if (!was_simplified) return certification.settle();
-  Surface settled = certification.settled(surface);
+// With its input points where everything was decided, and simplified anew.
+void settle_and_simplify(const Surface& original, Simplifier& simplifier,
+                         Certification& certification) {
+  Surface settled = certification.settled(original);
   std::optional<Surface> again = simplifier.simplified(settled);
   certification.start_again(again ? std::move(*again) : std::move(settled));
 }
@@ -63,10 +62,16 @@ void settle(const Surface& surface, bool was_simplified, Simplifier& simplifier,
 Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplifier& simplifier,
                         const Grid& grid, const RepairOptions& options, CertifyReport& report) {
   const CertifyOptions certify = certify_options(options);
-  const bool was_simplified = simpler.has_value();
-  Certification certification(was_simplified ? std::move(*simpler) : std::move(surface), grid,
-                              certify, options.progress, report);
-  if (certification.may_settle()) settle(surface, was_simplified, simplifier, certification);
+  std::optional<Surface> original = std::move(simpler);
+  if (original) std::swap(surface, *original);
+  Certification certification(std::move(surface), grid, certify, options.progress, report);
+  if (certification.may_settle()) {
+    if (original) {
+      settle_and_simplify(*original, simplifier, certification);
+    } else {
+      certification.settle();
+    }
+  }
   certification.mend_in_place();
   while (certification.may_go_on()) {
     const TriangleSoup& coarser = certification.begin_round();

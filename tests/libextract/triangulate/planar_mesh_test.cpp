@@ -42,6 +42,15 @@ class Filled {
     return inserted;
   }
 
+  // The side of the outline that starts at a vertex; the new one follows it.
+  std::uint32_t split(std::uint32_t from, std::int32_t x, std::int32_t y) {
+    add(x, y);
+    note(vertices_, x, y);
+    const std::uint32_t vertex = mesh_.split_outline(mesh_.outline_from(from), at_.back());
+    EXPECT_EQ(vertex, vertices_++);
+    return vertex;
+  }
+
   // Twice the area of all triangles, each of which is to turn left.
   std::int64_t area() {
     std::int64_t sum = 0;
@@ -123,6 +132,21 @@ TEST(PlanarMesh, PointsAreInsertedOnce) {
     EXPECT_EQ(filled.area(), std::int64_t{kSize} * kSize);
     filled.expect_joined();
   }
+}
+
+TEST(PlanarMesh, SidesOfTheOutlineAreSplitInOrder) {
+  Filled filled;
+  filled.note(0, 0, 0);
+  filled.note(1, kSize, 0);
+  filled.note(2, 0, kSize);
+  std::uint32_t on_first = 0, on_second = 1, on_third = 2;
+  for (std::int32_t i = 1; i < kSize; ++i) {
+    on_first = filled.split(on_first, i, 0);
+    on_second = filled.split(on_second, kSize - i, i);
+    on_third = filled.split(on_third, 0, kSize - i);
+  }
+  EXPECT_EQ(filled.area(), std::int64_t{kSize} * kSize);
+  filled.expect_joined();
 }
 
 // From each point to the next but one on a convex curve, where these do not cross.
