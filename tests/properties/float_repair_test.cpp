@@ -13,6 +13,7 @@
 
 #include "complexes.h"
 #include "degenerate_soups.h"
+#include "share_of_cases.h"
 
 namespace meshrepair {
 namespace {
@@ -62,7 +63,7 @@ class EverySoupInFloatingPoint : public ::testing::TestWithParam<SoupFamily> {};
 TEST_P(EverySoupInFloatingPoint, BecomesAClosedManifoldByEveryRule) {
   std::size_t solids = 0;
   for (const double epsilon : kEpsilons) {
-    for (std::uint64_t seed = 500; seed < 502; ++seed) {
+    for (std::uint64_t seed = 500; seed < 500 + share_of_cases(2u); ++seed) {
       for (const InsideRule rule :
            {InsideRule::automatic, InsideRule::solidity, InsideRule::parity, InsideRule::winding}) {
         SCOPED_TRACE(std::to_string(seed) + " " + std::string(rule_name(rule)) + ", eps " +
@@ -83,7 +84,7 @@ TEST_P(EverySoupInFloatingPoint, BecomesAClosedManifoldByEveryRule) {
 TEST_P(EverySoupInFloatingPoint, GivesTheSameMeshInStepsAndWithAnyThreads) {
   for (const double epsilon : {kDefaultEpsilon, 1e-4}) {
     const RepairOptions options = in_floating_point(epsilon);
-    for (std::uint64_t seed = 600; seed < 604; ++seed) {
+    for (std::uint64_t seed = 600; seed < 600 + share_of_cases(4u); ++seed) {
       SCOPED_TRACE(seed);
       const TriangleSoup soup = GetParam().make(seed);
       const auto whole = repaired(soup, options);
