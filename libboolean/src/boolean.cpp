@@ -53,8 +53,8 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
 }
 
 bool may_spare_trees(const BooleanOptions& options) {
-  return !options.by_trees && options.repair.predicates == Predicates::exact &&
-         !options.repair.check_cells;
+  return !options.by_trees && options.test == RegionTest::cells &&
+         options.repair.predicates == Predicates::exact && !options.repair.check_cells;
 }
 
 bool has_solid(const Tree& tree) {

@@ -75,6 +75,18 @@ TEST(BooleanChambers, FacesInCommonAreTakenFromEachSolid) {
   }
 }
 
+TEST(BooleanChambers, WhoAsksForARegionTestGetsTrees) {
+  BooleanOptions options;
+  BooleanReport report;
+  (void)boolean(std::vector{cube(), moved(cube(), {0.5, 0.5, 0.5})}, SetOperation::unite, options,
+                report);
+  EXPECT_EQ(report.merges.size(), 0u);
+  options.test = RegionTest::linear_programs;
+  (void)boolean(std::vector{cube(), moved(cube(), {0.5, 0.5, 0.5})}, SetOperation::unite, options,
+                report);
+  EXPECT_EQ(report.merges.size(), 1u);
+}
+
 TEST(BooleanChambers, AnEmptySolidTakesPart) {
   for (const SetOperation operation : kAll) {
     SCOPED_TRACE(operation_name(operation));

@@ -43,9 +43,6 @@ struct Grouped {
   [[nodiscard]] std::span<const Item> of(std::size_t key) const {
     return {items.data() + first[key], first[key + 1] - first[key]};
   }
-  [[nodiscard]] std::span<Item> of(std::size_t key) {
-    return {items.data() + first[key], first[key + 1] - first[key]};
-  }
 };
 
 using SamePoints = std::vector<std::array<std::uint32_t, 2>>;
@@ -235,7 +232,6 @@ class FacetArranger {
         facets.across.push_back(s == kNone ? kNone : s + 3 * first);
       }
       facets.corners.insert(facets.corners.end(), all[t].corners.begin(), all[t].corners.end());
-      facets.cut.resize(facets.corners.size(), t);
       all[t] = {};
     }
     facets.first.push_back(static_cast<std::uint32_t>(facets.corners.size()));

@@ -18,7 +18,6 @@ namespace meshrepair::internal {
 // other, turned as it is, in the order of the cut ones.
 struct ArrangedFacets {
   std::vector<IndexTriangle> corners;
-  std::vector<std::uint32_t> cut;  // of each, the triangle that it is part of
   // Of each side 3 f + k: the side of the neighbour in the same triangle, where nothing else
   // meets it; kNone where something may.
   std::vector<std::uint32_t> across;

@@ -1,7 +1,6 @@
 #include "sheet_edges.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include <tbb/parallel_for.h>
 

@@ -117,7 +117,7 @@ class SheetSurfaceMaker {
     corner_.clear();
     slot_in_mesh_.clear();
     for (const std::uint32_t f : facets) add_facet(f);
-    join_facets(facets);
+    join_facets();
     bool done = true;
     for (std::uint32_t v = 0; v < corner_.size() && done; ++v) {
       if (regions_.needed[start(corner_[v])] == 0) done = mesh_.remove_vertex(v);
@@ -159,7 +159,7 @@ class SheetSurfaceMaker {
   }
 
   // The slots of facets are in ascending order.
-  void join_facets(std::span<const std::uint32_t>) {
+  void join_facets() {
     for (const auto& [s, slot] : slot_in_mesh_) {
       if (regions_.dissolved[s] == 0) {
         mesh_.mark(slot, s);

@@ -5,12 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <check/self_intersections.h>
 #include <extract/arrange.h>
 #include <mesh/edge_table.h>
 #include <mesh/topology.h>
+#include <mesh/triangle_measures.h>
 #include <repair/chamber_graph.h>
 #include <repair/inside_rule.h>
 
@@ -26,8 +25,7 @@ constexpr std::size_t kMostPieces = 1024;
 
 double area_of_triangle(const TriangleSoup& mesh, std::uint32_t t) {
   const auto& c = mesh.triangles[t];
-  const Vec3d& a = mesh.points[c[0]];
-  return 0.5 * (mesh.points[c[1]] - a).cross(mesh.points[c[2]] - a).norm();
+  return triangle_area(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]);
 }
 
 double area_of_triangles(const TriangleSoup& mesh, std::span<const std::uint32_t> list) {

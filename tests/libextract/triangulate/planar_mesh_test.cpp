@@ -30,6 +30,9 @@ class Filled {
       (void)mesh_.add_vertex(at_.back());
     }
     (void)mesh_.add_triangle({0, 1, 2});
+    note(0, 0, 0);
+    note(1, kSize, 0);
+    note(2, 0, kSize);
   }
 
   bool insert(std::int32_t x, std::int32_t y) {
@@ -117,9 +120,6 @@ TEST(PlanarMesh, PointsAreInsertedOnce) {
     SCOPED_TRACE(seed);
     Random random(seed);
     Filled filled;
-    filled.note(0, 0, 0);
-    filled.note(1, kSize, 0);
-    filled.note(2, 0, kSize);
     std::set<std::pair<std::int32_t, std::int32_t>> taken = {{0, 0}, {kSize, 0}, {0, kSize}};
     for (int i = 0; i < 60; ++i) {
       const std::int32_t x = random.integer(-2, kSize), y = random.integer(-2, kSize);
@@ -136,9 +136,6 @@ TEST(PlanarMesh, PointsAreInsertedOnce) {
 
 TEST(PlanarMesh, SidesOfTheOutlineAreSplitInOrder) {
   Filled filled;
-  filled.note(0, 0, 0);
-  filled.note(1, kSize, 0);
-  filled.note(2, 0, kSize);
   std::uint32_t on_first = 0, on_second = 1, on_third = 2;
   for (std::int32_t i = 1; i < kSize; ++i) {
     on_first = filled.split(on_first, i, 0);
@@ -155,9 +152,6 @@ TEST(PlanarMesh, EdgesAreInsertedWhereNothingIsInBetween) {
     SCOPED_TRACE(seed);
     Random random(seed);
     Filled filled;
-    filled.note(0, 0, 0);
-    filled.note(1, kSize, 0);
-    filled.note(2, 0, kSize);
     std::vector<std::pair<std::int32_t, std::int32_t>> places = {{0, 0}, {kSize, 0}, {0, kSize}};
     for (int i = 0; i < 30; ++i) {
       const std::int32_t x = random.integer(0, kSize), y = random.integer(0, kSize - x);
