@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <check/box_tree.h>
@@ -20,17 +21,23 @@ enum class Fetched { usable, degenerate, not_finite };
 class SoupCorners {
  public:
   SoupCorners(const TriangleSoup& soup, bool weld);
+  // `corners` has that of each point, all of them below `end`.
+  SoupCorners(const TriangleSoup& soup, std::vector<std::uint32_t> corners, std::size_t end)
+      : soup_(soup), welded_(std::move(corners)), end_(end) {}
 
   [[nodiscard]] const TriangleSoup& soup() const { return soup_; }
   [[nodiscard]] std::uint32_t corner(std::uint32_t point) const {
     return welded_.empty() ? point : welded_[point];
   }
+  // Behind the highest one that there may be.
+  [[nodiscard]] std::size_t end() const { return end_; }
   // Only if it is usable, `fetched` is one.
   [[nodiscard]] Fetched fetch(std::uint32_t triangle, CornerTriangle& fetched) const;
 
  private:
   const TriangleSoup& soup_;
   std::vector<std::uint32_t> welded_;  // empty: by index
+  std::size_t end_;
 };
 
 class TriangleList {

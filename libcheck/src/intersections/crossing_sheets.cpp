@@ -37,7 +37,7 @@ std::vector<Span> open_brackets(std::span<const Wing> wings) {
 
 std::vector<std::array<std::uint32_t, 2>> find_crossing_sheets(const SoupCorners& corners) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  visit_shared_edges(corners, [&](const std::vector<Wing>& wings) {
+  SharedEdges(corners).visit([&](const std::vector<Wing>& wings) {
     const std::vector<Span> sheets = open_brackets(wings);
     for (std::size_t a = 0; a < sheets.size(); ++a) {
       for (std::size_t b = a + 1; b < sheets.size(); ++b) {

@@ -11,7 +11,7 @@ namespace meshrepair {
 EdgeContacts examine_edge_contacts(const TriangleSoup& mesh) {
   EdgeContacts contacts;
   const internal::SoupCorners corners(mesh, true);
-  internal::visit_shared_edges(corners, [&](const std::vector<internal::Wing>& wings) {
+  internal::SharedEdges(corners).visit([&](const std::vector<internal::Wing>& wings) {
     for (std::size_t i = 0; i < wings.size(); ++i) {
       const internal::Wing& next = wings[i + 1 == wings.size() ? 0 : i + 1];
       if (wings[i].edge == next.edge) continue;

@@ -6,6 +6,8 @@
 #include <check/nearby_intersections.h>
 #include <check/self_intersections.h>
 
+#include "nearby_part.h"
+
 namespace meshrepair::internal {
 namespace {
 
@@ -37,14 +39,7 @@ void NearbyIntersections::find_around(std::span<const std::uint32_t> moving, dou
   std::vector<Box> boxes;
   boxes.reserve(moving.size());
   for (const std::uint32_t t : moving) boxes.push_back(box_around(t, reach));
-  const BoxTree tree(boxes);
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const Box box = box_around(t, reach);
-    bool is_near = false;
-    tree.visit([&](const Box& other) { return !is_near && other.meets(box); },
-               [&](std::uint32_t i) { is_near = is_near || boxes[i].meets(box); });
-    if (is_near) around_.push_back(t);
-  }
+  around_ = triangles_near(mesh_, boxes, reach);
 }
 
 void NearbyIntersections::add(std::uint32_t triangle) {

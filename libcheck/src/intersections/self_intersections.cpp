@@ -1,179 +1,22 @@
-// The triangles' boxes are put into a tree, and the tree is compared with itself. With a list of
-// triangles the tree holds these alone, and all the others are looked up in it. Where boxes tell
-// little, spatial_comparison.h takes over. Boxes around a common corner always meet, so triangles
-// that share one are compared by their directions from it.
-#include <algorithm>
-#include <optional>
-
-#include <tbb/parallel_for.h>
-
-#include <base/shared_progress.h>
-#include <check/box_tree.h>
 #include <check/self_intersections.h>
 #include <check/triangle_list.h>
-#include <check/triangle_pair.h>
 
-#include "crossing_sheets.h"
-#include "findings.h"
-#include "spatial_comparison.h"
-#include "tree_comparison.h"
-#include "triangle_hubs.h"
+#include "compare_triangles.h"
+#include "nearby_part.h"
 
 namespace meshrepair {
 namespace {
 
-using internal::compare;
-using internal::CornerTriangle;
-using internal::Findings;
-using internal::gather;
-using internal::LookUp;
-using internal::Meeting;
-using internal::Pair;
-using internal::SortedTriangles;
-using internal::TriangleList;
-
-// Enough that looking up takes longer than handing out the task.
-constexpr std::size_t kLookUpsPerTask = 4096;
-
-// The triangles of one group, to be compared with each other.
-struct Group {
-  std::vector<CornerTriangle> triangles;
-  std::vector<std::uint32_t> ids;
-};
-
-// Calls visit(hub, group) for those with the same hub, in the order of the hubs.
-template <class Visit>
-void visit_groups(std::span<const CornerTriangle> triangles, std::span<const std::uint32_t> ids,
-                  const std::vector<std::uint32_t>& hubs, Visit visit) {
-  std::vector<std::uint32_t> items;
-  for (std::uint32_t i = 0; i < hubs.size(); ++i) {
-    if (hubs[i] != internal::kNoHub) items.push_back(i);
-  }
-  std::stable_sort(items.begin(), items.end(),
-                   [&](std::uint32_t i, std::uint32_t j) { return hubs[i] < hubs[j]; });
-  Group group;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::uint32_t hub = hubs[items[i]];
-    group.triangles.push_back(triangles[items[i]]);
-    group.ids.push_back(ids[items[i]]);
-    if (i + 1 < items.size() && hubs[items[i + 1]] == hub) continue;
-    visit(hub, group);
-    group = {};
-  }
-}
-
-// Two triangles with a common edge that meet elsewhere leave it in one direction.
-void compare_around_edge(const Group& group, std::array<std::uint32_t, 2> edge,
-                         const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
-  std::vector<Box> boxes;
-  boxes.reserve(group.triangles.size());
-  for (const CornerTriangle& triangle : group.triangles) {
-    boxes.push_back(internal::direction_across(edge, triangle));
-  }
-  const BoxTree tree(boxes);
-  compare(SortedTriangles(group.triangles, boxes, group.ids, tree), options, findings);
-}
-
-// All boxes around a hub meet there; but two triangles with a common corner that meet elsewhere do
-// so in some direction from it.
-void compare_around_hub(const Group& group, std::uint32_t hub,
-                        const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
-  std::vector<Box> boxes;
-  boxes.reserve(group.triangles.size());
-  for (const CornerTriangle& triangle : group.triangles) {
-    boxes.push_back(internal::directions_from(hub, triangle));
-  }
-  const std::vector<std::uint32_t> second = internal::find_second_hubs(hub, group.triangles);
-  const BoxTree tree(boxes);
-  SortedTriangles sorted(group.triangles, boxes, group.ids, tree);
-  sorted.leave_out_hubs(second);
-  compare(sorted, options, findings);
-  visit_groups(group.triangles, group.ids, second, [&](std::uint32_t end, const Group& around) {
-    compare_around_edge(around, {hub, end}, options, findings);
-  });
-}
-
-SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOptions& options) {
-  const BoxTree tree(list.boxes());
-  const std::vector<std::uint32_t> hubs = internal::find_hubs(list.triangles());
-  std::vector<Findings> findings;
-  std::optional<std::vector<internal::MeetingPair>> in_space;
-  if (internal::boxes_tell_little(list.triangles(), list.boxes(), hubs, tree)) {
-    in_space = internal::compare_in_space(list.triangles(), hubs, options.progress);
-  }
-  if (in_space) {
-    findings.emplace_back(options.most_pairs);
-    for (const auto& [a, b, meeting] : *in_space) {
-      findings.back().add(list.ids()[a], list.ids()[b], meeting);
-    }
-  } else {
-    SortedTriangles sorted(list, tree);
-    sorted.leave_out_hubs(hubs);
-    compare(sorted, options, findings);
-  }
-  const bool any =
-      std::any_of(findings.begin(), findings.end(), [](const Findings& f) { return f.any(); });
-  if (options.only_whether && any) return gather(findings, options.most_pairs);
-  CancelOnly quiet(options.progress);
-  SelfIntersectionOptions around_hubs = options;
-  around_hubs.progress = &quiet;
-  visit_groups(list.triangles(), list.ids(), hubs, [&](std::uint32_t hub, const Group& group) {
-    compare_around_hub(group, hub, around_hubs, findings);
-  });
-  return gather(findings, options.most_pairs);
-}
-
-SelfIntersections compare_with(const TriangleSoup& soup, const internal::SoupCorners& corners,
-                               const TriangleList& list, const SelfIntersectionOptions& options) {
-  const BoxTree tree(list.boxes());
-  if (tree.nodes().empty()) return {};
-  const SortedTriangles sorted(list, tree);
-  std::vector<char> is_listed(soup.triangles.size(), 0);
-  for (const std::uint32_t id : list.ids()) is_listed[id] = 1;
-  const std::size_t count = soup.triangles.size();
-  const std::size_t tasks = (count + kLookUpsPerTask - 1) / kLookUpsPerTask;
-  std::vector<Findings> findings(tasks, Findings(options.most_pairs));
-  SharedProgress progress(options.progress, tasks);
-  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-    LookUp look_up(sorted, options.nearness, progress, findings[task]);
-    const std::size_t end = std::min(count, (task + 1) * kLookUpsPerTask);
-    for (std::size_t t = task * kLookUpsPerTask; t < end; ++t) {
-      const auto id = static_cast<std::uint32_t>(t);
-      Box box = internal::box_of(soup, id);
-      box.widen(options.nearness);
-      if (!look_up.may_meet_any(box)) continue;
-      CornerTriangle triangle;
-      if (corners.fetch(id, triangle) != internal::Fetched::usable) continue;
-      look_up.run(id, triangle, box, is_listed[t] != 0);
-    }
-    progress.done();
-  });
-  return gather(findings, options.most_pairs);
-}
-
-// Of those in which one of `among` is, unless that is empty. Pairs that meet elsewhere, too, are
-// there already.
-void add_crossing_sheets(const internal::SoupCorners& corners, std::span<const std::uint32_t> among,
-                         const SelfIntersectionOptions& options, SelfIntersections& result) {
-  std::vector<Pair> pairs = internal::find_crossing_sheets(corners);
-  if (!among.empty()) {
-    std::vector<char> is_listed(corners.soup().triangles.size(), 0);
-    for (const std::uint32_t id : among) is_listed[id] = 1;
-    std::erase_if(pairs, [&](const Pair& pair) {
-      return is_listed[pair[0]] == 0 && is_listed[pair[1]] == 0;
-    });
-  }
-  std::erase_if(pairs, [&](const Pair& pair) {
-    return std::binary_search(result.pairs.begin(), result.pairs.end(), pair);
-  });
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  if (pairs.empty()) return;
-  result.count += pairs.size();
-  result.crossing += pairs.size();
-  const auto middle = static_cast<std::ptrdiff_t>(result.pairs.size());
-  result.pairs.insert(result.pairs.end(), pairs.begin(), pairs.end());
-  std::inplace_merge(result.pairs.begin(), result.pairs.begin() + middle, result.pairs.end());
-  result.pairs.resize(std::min(result.pairs.size(), options.most_pairs));
+SelfIntersections with_those(const TriangleSoup& soup, std::span<const std::uint32_t> among,
+                             const SelfIntersectionOptions& options) {
+  const internal::SoupCorners corners(soup, options.weld);
+  const internal::TriangleList list(corners, among);
+  SelfIntersections result = internal::compare_with(corners, list, options);
+  if (options.weld && list.size() > 0)
+    internal::add_crossing_sheets(corners, list.ids(), options, result);
+  result.degenerate = list.degenerate();
+  result.not_finite = list.not_finite();
+  return result;
 }
 
 }  // namespace
@@ -181,10 +24,10 @@ void add_crossing_sheets(const internal::SoupCorners& corners, std::span<const s
 SelfIntersections self_intersections(const TriangleSoup& soup,
                                      const SelfIntersectionOptions& options) {
   const internal::SoupCorners corners(soup, options.weld);
-  const TriangleList list(corners);
-  SelfIntersections result = compare_all(list, options);
+  const internal::TriangleList list(corners);
+  SelfIntersections result = internal::compare_all(list, options);
   const bool is_enough = options.only_whether && result.count > 0;
-  if (options.weld && !is_enough) add_crossing_sheets(corners, {}, options, result);
+  if (options.weld && !is_enough) internal::add_crossing_sheets(corners, {}, options, result);
   result.degenerate = list.degenerate();
   result.not_finite = list.not_finite();
   return result;
@@ -192,12 +35,11 @@ SelfIntersections self_intersections(const TriangleSoup& soup,
 
 SelfIntersections self_intersections(const TriangleSoup& soup, std::span<const std::uint32_t> among,
                                      const SelfIntersectionOptions& options) {
-  const internal::SoupCorners corners(soup, options.weld);
-  const TriangleList list(corners, among);
-  SelfIntersections result = compare_with(soup, corners, list, options);
-  if (options.weld && list.size() > 0) add_crossing_sheets(corners, list.ids(), options, result);
-  result.degenerate = list.degenerate();
-  result.not_finite = list.not_finite();
+  if (among.size() > soup.triangles.size() / internal::kFew)
+    return with_those(soup, among, options);
+  const internal::NearbyPart part = internal::nearby_part(soup, among, options.nearness);
+  SelfIntersections result = with_those(part.soup, part.among, options);
+  for (auto& pair : result.pairs) pair = {part.triangles[pair[0]], part.triangles[pair[1]]};
   return result;
 }
 

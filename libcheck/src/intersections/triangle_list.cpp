@@ -10,7 +10,8 @@ Box box_of(const TriangleSoup& soup, std::uint32_t triangle) {
   return box;
 }
 
-SoupCorners::SoupCorners(const TriangleSoup& soup, bool weld) : soup_(soup) {
+SoupCorners::SoupCorners(const TriangleSoup& soup, bool weld)
+    : soup_(soup), end_(soup.points.size()) {
   if (!weld) return;
   std::vector<Vec3d> distinct;
   PointWelder welder(distinct, soup.points.size());

@@ -12,8 +12,8 @@ namespace {
 // Of each corner whether points of several indices are there.
 std::vector<char> find_shared(const SoupCorners& corners) {
   const TriangleSoup& soup = corners.soup();
-  std::vector<std::uint32_t> first(soup.points.size(), kNone);
-  std::vector<char> shared(soup.points.size(), 0);
+  std::vector<std::uint32_t> first(corners.end(), kNone);
+  std::vector<char> shared(corners.end(), 0);
   for (const auto& triangle : soup.triangles) {
     for (const std::uint32_t p : triangle) {
       std::uint32_t& known = first[corners.corner(p)];
@@ -22,6 +22,18 @@ std::vector<char> find_shared(const SoupCorners& corners) {
     }
   }
   return shared;
+}
+
+Wing wing_of(const TriangleSoup& soup, std::uint32_t t, std::size_t k,
+             const CornerTriangle& triangle) {
+  const std::size_t l = (k + 1) % 3;
+  const bool turn = triangle.corner[k] > triangle.corner[l];
+  const std::size_t from = turn ? l : k, to = turn ? k : l;
+  const auto& ids = soup.triangles[t];
+  return {{std::min(ids[k], ids[l]), std::max(ids[k], ids[l])},
+          t,
+          !turn,
+          {triangle.at[from], triangle.at[to], triangle.at[(k + 2) % 3]}};
 }
 
 int quarter_of(const Wing& wing, const Wing& first) {
@@ -39,30 +51,34 @@ bool comes_first(const Wing& a, const Wing& b) {
 
 }  // namespace
 
-std::vector<Wing> find_wings(const SoupCorners& corners) {
+SharedEdges::SharedEdges(const SoupCorners& corners) : corners_(corners) {
   const std::vector<char> shared = find_shared(corners);
   const TriangleSoup& soup = corners.soup();
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    IndexTriangle places{};
+    bool any = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      places[k] = corners.corner(soup.triangles[t][k]);
+      any |= shared[places[k]] != 0;
+    }
+    if (!any) continue;
+    places_.push_back(places);
+    triangles_.push_back(t);
+  }
+}
+
+std::vector<Wing> SharedEdges::wings_at(std::span<const std::uint32_t> sides) const {
   std::vector<Wing> wings;
   CornerTriangle triangle;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-    const auto& ids = soup.triangles[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t l = (k + 1) % 3;
-      if (shared[corners.corner(ids[k])] == 0 && shared[corners.corner(ids[l])] == 0) continue;
-      if (corners.fetch(t, triangle) != Fetched::usable) break;
-      const bool turn = triangle.corner[k] > triangle.corner[l];
-      const std::size_t from = turn ? l : k, to = turn ? k : l;
-      wings.push_back({{triangle.corner[from], triangle.corner[to]},
-                       {std::min(ids[k], ids[l]), std::max(ids[k], ids[l])},
-                       t,
-                       !turn,
-                       {triangle.at[from], triangle.at[to], triangle.at[(k + 2) % 3]}});
-    }
+  for (const std::uint32_t side : sides) {
+    const std::uint32_t t = triangles_[side / 3];
+    if (corners_.fetch(t, triangle) != Fetched::usable) continue;
+    wings.push_back(wing_of(corners_.soup(), t, side % 3, triangle));
   }
   std::sort(wings.begin(), wings.end(), [](const Wing& a, const Wing& b) {
-    return std::tie(a.place, a.edge, a.triangle) < std::tie(b.place, b.edge, b.triangle);
+    return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
   });
-  return wings;
+  return order_around_edge(wings);
 }
 
 std::vector<Wing> order_around_edge(std::span<const Wing> group) {

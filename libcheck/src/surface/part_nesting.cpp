@@ -16,54 +16,31 @@
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::size_t kPartsPerTask = 64;
+constexpr std::size_t kTrianglesPerTask = 16384;
 
-class RayCaster {
- public:
-  RayCaster(const TriangleSoup& soup, std::span<const std::uint32_t> part_of)
-      : soup_(soup), part_of_(part_of) {
-    std::vector<Box> boxes;
-    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-      if (part_of[t] == kNoPart) continue;
-      triangles_.push_back(t);
-      boxes.push_back(box_of(soup, t));
-    }
-    tree_.emplace_back(boxes);
-  }
+// After so many, what cancels out is dropped.
+constexpr std::size_t kTasksAtOnce = 64;
 
-  // The number of parts around a triangle, but for its own.
-  std::uint32_t parts_around(std::uint32_t inner, std::vector<std::uint32_t>& passed,
-                             SharedProgress& progress) const {
-    const auto& corners = soup_.triangles[inner];
-    const RayStart start = RayStart::in(soup_, corners);
-    const std::uint32_t own = part_of_[inner];
-    passed.clear();
-    std::size_t steps = 0;
-    visit_column(tree_.front(), start.corner, [&](std::uint32_t item) {
-      const std::uint32_t triangle = triangles_[item];
-      if (++steps % 4096 == 0) progress.poll();
-      const auto& t = soup_.triangles[triangle];
-      if (part_of_[triangle] == own) return;
-      if (passed_upward(soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]], start) != 0) {
-        passed.push_back(part_of_[triangle]);
-      }
-    });
-    std::sort(passed.begin(), passed.end());
-    std::uint32_t around = 0;
-    for (std::size_t i = 0; i < passed.size();) {
-      const auto end = std::upper_bound(passed.begin(), passed.end(), passed[i]) - passed.begin();
-      around += (static_cast<std::size_t>(end) - i) % 2 == 1;
-      i = static_cast<std::size_t>(end);
-    }
-    return around;
-  }
+// That a ray from inside one part passes another one.
+struct Passing {
+  std::uint32_t inner;
+  std::uint32_t outer;
 
- private:
-  const TriangleSoup& soup_;
-  std::span<const std::uint32_t> part_of_;
-  std::vector<std::uint32_t> triangles_;
-  std::vector<BoxTree> tree_;  // one, made once its boxes are known
+  auto operator<=>(const Passing&) const = default;
 };
+
+// Sorts them, and leaves one of those that are there an odd number of times.
+void keep_odd(std::vector<Passing>& passings) {
+  std::sort(passings.begin(), passings.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < passings.size();) {
+    std::size_t end = i;
+    while (end < passings.size() && passings[end] == passings[i]) ++end;
+    if ((end - i) % 2 == 1) passings[kept++] = passings[i];
+    i = end;
+  }
+  passings.resize(kept);
+}
 
 std::vector<std::uint32_t> first_triangles(std::span<const std::uint32_t> part_of,
                                            std::size_t parts) {
@@ -74,6 +51,59 @@ std::vector<std::uint32_t> first_triangles(std::span<const std::uint32_t> part_o
   return first;
 }
 
+// One ray for each part. There are far fewer of them than triangles, so they are in the tree.
+class RayCaster {
+ public:
+  RayCaster(const TriangleSoup& soup, std::span<const std::uint32_t> part_of, std::size_t parts)
+      : soup_(soup), part_of_(part_of), tree_({}) {
+    std::vector<Box> boxes;
+    for (const std::uint32_t t : first_triangles(part_of, parts)) {
+      starts_.push_back(RayStart::in(soup, soup.triangles[t]));
+      boxes.emplace_back().add(starts_.back().corner);
+    }
+    tree_ = BoxTree(boxes);
+  }
+
+  // Of these triangles.
+  [[nodiscard]] std::vector<Passing> find_passings(std::size_t first, std::size_t end) const {
+    std::vector<Passing> passings;
+    for (std::size_t t = first; t < end; ++t) {
+      const std::uint32_t outer = part_of_[t];
+      if (outer == kNoPart) continue;
+      const auto& corners = soup_.triangles[t];
+      const Box box = box_of(soup_, static_cast<std::uint32_t>(t));
+      tree_.visit([&](const Box& starts) { return may_pass(starts, box); },
+                  [&](std::uint32_t inner) {
+                    if (inner == outer || !may_start_below(starts_[inner].corner, box)) return;
+                    if (passed_upward(soup_.points[corners[0]], soup_.points[corners[1]],
+                                      soup_.points[corners[2]], starts_[inner]) != 0) {
+                      passings.push_back({inner, outer});
+                    }
+                  });
+    }
+    keep_odd(passings);
+    return passings;
+  }
+
+ private:
+  // Whether a ray that starts in the box may pass a triangle's.
+  static bool may_pass(const Box& starts, const Box& triangle) {
+    return starts.low[0] <= triangle.high[0] && triangle.low[0] <= starts.high[0] &&
+           starts.low[1] <= triangle.high[1] && triangle.low[1] <= starts.high[1] &&
+           starts.low[2] <= triangle.high[2];
+  }
+  static bool may_start_below(const Vec3d& start, const Box& triangle) {
+    return triangle.low[0] <= start.x() && start.x() <= triangle.high[0] &&
+           triangle.low[1] <= start.y() && start.y() <= triangle.high[1] &&
+           start.z() <= triangle.high[2];
+  }
+
+  const TriangleSoup& soup_;
+  std::span<const std::uint32_t> part_of_;
+  std::vector<RayStart> starts_;  // of each part
+  BoxTree tree_;
+};
+
 }  // namespace
 
 std::vector<std::uint32_t> nesting_depths(const TriangleSoup& soup,
@@ -81,18 +111,22 @@ std::vector<std::uint32_t> nesting_depths(const TriangleSoup& soup,
                                           ProgressObserver* progress) {
   std::vector<std::uint32_t> depths(parts, 0);
   if (parts < 2) return depths;
-  const RayCaster caster(soup, part_of);
-  const std::vector<std::uint32_t> first = first_triangles(part_of, parts);
-  const std::size_t tasks = (parts + kPartsPerTask - 1) / kPartsPerTask;
+  const RayCaster caster(soup, part_of, parts);
+  const std::size_t count = soup.triangles.size();
+  const std::size_t tasks = (count + kTrianglesPerTask - 1) / kTrianglesPerTask;
   SharedProgress shared(progress, tasks);
-  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-    std::vector<std::uint32_t> passed;
-    const std::size_t end = std::min(parts, (task + 1) * kPartsPerTask);
-    for (std::size_t part = task * kPartsPerTask; part < end; ++part) {
-      depths[part] = caster.parts_around(first[part], passed, shared);
-    }
-    shared.done();
-  });
+  std::vector<Passing> all;
+  for (std::size_t first = 0; first < tasks; first += kTasksAtOnce) {
+    std::vector<std::vector<Passing>> passings(std::min(kTasksAtOnce, tasks - first));
+    tbb::parallel_for(std::size_t{0}, passings.size(), [&](std::size_t i) {
+      const std::size_t begin = (first + i) * kTrianglesPerTask;
+      passings[i] = caster.find_passings(begin, std::min(count, begin + kTrianglesPerTask));
+      shared.done();
+    });
+    for (const auto& some : passings) all.insert(all.end(), some.begin(), some.end());
+    keep_odd(all);
+  }
+  for (const Passing& passing : all) ++depths[passing.inner];
   return depths;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -51,12 +52,16 @@ CutSimplifier::CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& 
       waits_(mesh.points.size(), 0),
       distance_(mesh.triangles.size(), 0),
       moved_onto_(mesh.points.size(), kNone),
-      last_moved_(mesh.triangles.size(), kNone) {}
+      last_moved_(mesh.triangles.size(), kNone),
+      to_consider_(mesh.points.size()) {
+  std::iota(to_consider_.begin(), to_consider_.end(), 0u);
+}
 
 void CutSimplifier::run() {
-  for (std::uint32_t p = 0; p < points_.size(); ++p) {
-    if (stays_[p] == 0) consider(p);
+  for (const std::uint32_t p : to_consider_) {
+    if (stays_[p] == 0 && !has_moved(p)) consider(p);
   }
+  to_consider_.clear();
   while (!queue_.empty()) {
     const Move move = queue_.top();
     queue_.pop();
@@ -74,10 +79,18 @@ void CutSimplifier::run() {
 std::vector<std::uint32_t> CutSimplifier::places() const {
   std::vector<std::uint32_t> places(moved_onto_.size());
   std::iota(places.begin(), places.end(), 0u);
-  for (auto point = moves_.rbegin(); point != moves_.rend(); ++point) {
-    places[*point] = places[moved_onto_[*point]];
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) {
+    places[made->point] = places[moved_onto_[made->point]];
   }
   return places;
+}
+
+double CutSimplifier::distance() const {
+  double farthest = 0;
+  for (std::uint32_t t = 0; t < distance_.size(); ++t) {
+    if (mesh_.is_left(t)) farthest = std::max(farthest, distance_[t]);
+  }
+  return farthest;
 }
 
 void CutSimplifier::consider(std::uint32_t point) {
@@ -145,10 +158,9 @@ void CutSimplifier::make(const Move& move) {
     ++version_[move.point];
     return consider(move.point);
   }
+  remember(move, to);
   mesh_.collapse(star_, to);
   moved_onto_[move.point] = move.target;
-  moves_.push_back(move.point);
-  farthest_ = std::max(farthest_, move.distance);
   for (const std::uint32_t t : star_.triangles) {
     distance_[t] = move.distance;
     last_moved_[t] = move.point;
@@ -163,6 +175,88 @@ void CutSimplifier::make(const Move& move) {
       consider(p);
     }
   }
+}
+
+// It builds on what changed any triangle that was looked at to allow it: those of the point, the
+// target, and the two that lose a triangle.
+void CutSimplifier::remember(const Move& move, std::size_t to) {
+  made_.push_back({move.point, changes_.size(), bases_.size()});
+  for (const std::uint32_t t : star_.triangles) {
+    changes_.push_back({distance_[t], last_moved_[t], t});
+    if (last_moved_[t] != kNone) bases_.push_back(last_moved_[t]);
+  }
+  for (const std::size_t i : {star_.before(to), to, star_.after(to)}) {
+    mesh_.visit_corners(star_.link[i], [&](std::uint32_t t, std::uint32_t, std::uint32_t) {
+      if (last_moved_[t] != kNone) bases_.push_back(last_moved_[t]);
+    });
+  }
+  const auto first = bases_.begin() + static_cast<std::ptrdiff_t>(made_.back().first_base);
+  std::sort(first, bases_.end());
+  bases_.erase(std::unique(first, bases_.end()), bases_.end());
+}
+
+void CutSimplifier::take_back() {
+  const std::vector<char> is_taken_back = find_moves_to_take_back();
+  std::size_t end_of_changes = changes_.size();
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) {
+    if (is_taken_back[made->point] != 0) take_back(*made, end_of_changes);
+    end_of_changes = made->first_change;
+  }
+  forget_taken_back(is_taken_back);
+  std::sort(to_consider_.begin(), to_consider_.end());
+  to_consider_.erase(std::unique(to_consider_.begin(), to_consider_.end()), to_consider_.end());
+}
+
+// Of each point.
+std::vector<char> CutSimplifier::find_moves_to_take_back() const {
+  std::vector<char> taken_back(points_.size(), 0);
+  for (std::size_t m = 0; m < made_.size(); ++m) {
+    const std::size_t end = m + 1 < made_.size() ? made_[m + 1].first_base : bases_.size();
+    bool goes = stays_[made_[m].point] != 0;
+    for (std::size_t i = made_[m].first_base; i < end; ++i) goes |= taken_back[bases_[i]] != 0;
+    taken_back[made_[m].point] = goes ? 1 : 0;
+  }
+  return taken_back;
+}
+
+void CutSimplifier::take_back(const Made& made, std::size_t end_of_changes) {
+  around_.clear();
+  for (std::size_t i = made.first_change; i < end_of_changes; ++i) {
+    const Change& change = changes_[i];
+    distance_[change.triangle] = change.distance;
+    last_moved_[change.triangle] = change.last_moved;
+    around_.push_back(change.triangle);
+  }
+  mesh_.restore(made.point, moved_onto_[made.point], around_);
+  moved_onto_[made.point] = kNone;
+  for (const std::uint32_t t : around_) {
+    for (const std::uint32_t p : mesh_.triangles()[t]) look_again(p);
+  }
+}
+
+void CutSimplifier::look_again(std::uint32_t point) {
+  ++version_[point];
+  to_consider_.push_back(point);
+}
+
+void CutSimplifier::forget_taken_back(const std::vector<char>& is_taken_back) {
+  std::vector<Made> made;
+  std::vector<Change> changes;
+  std::vector<std::uint32_t> bases;
+  for (std::size_t m = 0; m < made_.size(); ++m) {
+    if (is_taken_back[made_[m].point] != 0) continue;
+    const bool is_last = m + 1 == made_.size();
+    const std::size_t end_of_changes = is_last ? changes_.size() : made_[m + 1].first_change;
+    const std::size_t end_of_bases = is_last ? bases_.size() : made_[m + 1].first_base;
+    made.push_back({made_[m].point, changes.size(), bases.size()});
+    for (std::size_t i = made_[m].first_change; i < end_of_changes; ++i) {
+      changes.push_back(changes_[i]);
+    }
+    for (std::size_t i = made_[m].first_base; i < end_of_bases; ++i) bases.push_back(bases_[i]);
+  }
+  made_ = std::move(made);
+  changes_ = std::move(changes);
+  bases_ = std::move(bases);
 }
 
 }  // namespace meshrepair::internal

@@ -27,6 +27,11 @@ class CutSimplifier {
   // Until nothing can be moved any more. Throws Cancelled.
   void run();
 
+  // Takes back the moves of points that are to stay by now, and those that were made on what these
+  // had changed, the last first. What is left is as if they had never been made. After that run()
+  // looks again at what is around them.
+  void take_back();
+
   [[nodiscard]] const CollapsibleMesh& mesh() const { return mesh_; }
   [[nodiscard]] bool has_moved(std::uint32_t point) const { return moved_onto_[point] != kNone; }
   // Where each point is now: where it was, if it has not moved.
@@ -36,7 +41,7 @@ class CutSimplifier {
     return last_moved_[triangle];
   }
   // No point of the mesh is farther from the one at first.
-  [[nodiscard]] double distance() const { return farthest_; }
+  [[nodiscard]] double distance() const;
 
  private:
   static constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -51,6 +56,20 @@ class CutSimplifier {
     bool operator<(const Move& other) const;
   };
 
+  // A triangle that a move changed, and what was known of it before.
+  struct Change {
+    double distance;
+    std::uint32_t last_moved;
+    std::uint32_t triangle;
+  };
+
+  // A move that was made: its changes, and the points whose moves it builds on, are those from here
+  // to the next one's.
+  struct Made {
+    std::uint32_t point;
+    std::size_t first_change, first_base;
+  };
+
   // Puts the best move of the point into the queue, if it has one.
   void consider(std::uint32_t point);
   // Until all moves that are known have been made.
@@ -58,6 +77,11 @@ class CutSimplifier {
   [[nodiscard]] bool may_move(std::size_t to, double least_height);
   [[nodiscard]] double height_to_keep(double within) const;
   void make(const Move& move);
+  void remember(const Move& move, std::size_t to);
+  void look_again(std::uint32_t point);
+  [[nodiscard]] std::vector<char> find_moves_to_take_back() const;
+  void take_back(const Made& made, std::size_t end_of_changes);
+  void forget_taken_back(const std::vector<char>& is_taken_back);
 
   const std::vector<Vec3d>& points_;
   const std::vector<char>& stays_;
@@ -68,10 +92,12 @@ class CutSimplifier {
   std::vector<char> waits_;                // of each point, whether it is postponed
   std::vector<double> distance_;           // of each triangle from the mesh at first, at most
   std::vector<std::uint32_t> moved_onto_;  // of each point, the neighbour, or kNone
-  std::vector<std::uint32_t> moves_;       // the points that moved, in their order
+  std::vector<Made> made_;                 // in their order
+  std::vector<Change> changes_;
+  std::vector<std::uint32_t> bases_;
   std::vector<std::uint32_t> last_moved_;  // of each triangle, the point that changed it last
-  double farthest_ = 0;
   std::priority_queue<Move> queue_;
+  std::vector<std::uint32_t> to_consider_;  // when running starts
   PointStar star_;
   std::vector<Vec3d> link_;
   std::vector<std::uint32_t> around_;

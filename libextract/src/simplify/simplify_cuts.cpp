@@ -9,6 +9,7 @@
 #include <check/part_orientation.h>
 #include <check/self_intersections.h>
 #include <extract/simplify_cuts.h>
+#include <mesh/edge_table.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/weld_points.h>
 
@@ -69,7 +70,7 @@ struct Original {
 
 // The surface after one run.
 struct Candidate {
-  Surface surface;
+  TriangleSoup mesh;                   // all points, and the triangles that are left
   std::vector<std::uint32_t> was;      // of each triangle, its number in the original
   std::vector<std::uint32_t> changed;  // triangles that are not as they were
 };
@@ -95,23 +96,31 @@ void keep_contacts(const TriangleSoup& mesh, std::vector<char>& stays) {
   }
 }
 
-Candidate make_candidate(const Surface& original, const CutSimplifier& simplifier) {
-  Candidate candidate;
-  std::vector<char> is_left;
-  is_left.reserve(original.mesh.triangles.size());
-  for (std::uint32_t t = 0; t < original.mesh.triangles.size(); ++t) {
-    is_left.push_back(simplifier.mesh().is_left(t) ? 1 : 0);
-    if (is_left.back() == 0) continue;
+void take(const CutSimplifier& simplifier, Candidate& candidate) {
+  candidate.mesh.triangles.clear();
+  candidate.was.clear();
+  candidate.changed.clear();
+  const std::vector<IndexTriangle>& triangles = simplifier.mesh().triangles();
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (!simplifier.mesh().is_left(t)) continue;
     if (simplifier.last_moved(t) != CutSimplifier::kNone) {
       candidate.changed.push_back(static_cast<std::uint32_t>(candidate.was.size()));
     }
     candidate.was.push_back(t);
+    candidate.mesh.triangles.push_back(triangles[t]);
   }
-  if (candidate.changed.empty()) return candidate;
-  candidate.surface = original;
-  candidate.surface.mesh.triangles = simplifier.mesh().triangles();
-  keep_triangles(candidate.surface, is_left);
-  return candidate;
+}
+
+Surface surface_of(const Surface& original, const CutSimplifier& simplifier) {
+  Surface surface = original;
+  surface.mesh.triangles = simplifier.mesh().triangles();
+  std::vector<char> is_left;
+  is_left.reserve(surface.mesh.triangles.size());
+  for (std::uint32_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    is_left.push_back(simplifier.mesh().is_left(t) ? 1 : 0);
+  }
+  keep_triangles(surface, is_left);
+  return surface;
 }
 
 // Where moves have brought triangles to meet others. Rounds differ in few places, so each looks
@@ -133,7 +142,7 @@ class MeetingTest {
       const std::uint32_t was = candidate.was[t];
       if (known_[was] != triangles[was]) to_test.push_back(t);
     }
-    const SelfIntersections found = self_intersections(candidate.surface.mesh, to_test, options_);
+    const SelfIntersections found = self_intersections(candidate.mesh, to_test, options_);
     known_.assign(known_.size(), kUnknown);
     for (const std::uint32_t was : candidate.was) known_[was] = triangles[was];
     if (found.count > found.pairs.size()) forget(candidate, to_test);
@@ -163,7 +172,7 @@ class MeetingTest {
 // The changed triangles of parts that are not as large as they were.
 std::vector<std::uint32_t> resizing_triangles(const Original& original,
                                               const Candidate& candidate) {
-  const TriangleSoup& mesh = candidate.surface.mesh;
+  const TriangleSoup& mesh = candidate.mesh;
   std::vector<std::uint32_t> part_of;
   part_of.reserve(candidate.was.size());
   for (const std::uint32_t t : candidate.was) part_of.push_back(original.parts.of_triangle[t]);
@@ -182,7 +191,7 @@ std::vector<std::uint32_t> resizing_triangles(const Original& original,
 // around it.
 std::vector<std::uint32_t> turning_triangles(const Candidate& candidate, double within,
                                              ProgressObserver* progress) {
-  const TriangleSoup& mesh = candidate.surface.mesh;
+  const TriangleSoup& mesh = candidate.mesh;
   const PartOrientation parts = examine_part_orientation(mesh, progress);
   std::vector<Box> boxes(parts.inside_out.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -249,19 +258,25 @@ std::optional<Surface> simplify_cuts(const Surface& surface, std::vector<char>& 
   keep_contacts(surface.mesh, stays);
   const std::size_t to_stay = count_of(stays);
   MeetingTest meeting(surface.mesh, options);
+  CutSimplifier simplifier(surface.mesh, stays, within, options.progress);
+  Candidate candidate;
+  candidate.mesh.points = surface.mesh.points;
   while (report.rounds < kMostRounds) {
     ++report.rounds;
-    CutSimplifier simplifier(surface.mesh, stays, within, options.progress);
     simplifier.run();
-    Candidate candidate = make_candidate(surface, simplifier);
+    take(simplifier, candidate);
     if (candidate.changed.empty()) return std::nullopt;
     const bool patient = report.rounds <= kPatientRounds;
-    if (!passes(original, simplifier, candidate, options, patient, meeting, stays)) continue;
-    report.removed_points = surface.mesh.points.size() - candidate.surface.mesh.points.size();
+    if (!passes(original, simplifier, candidate, options, patient, meeting, stays)) {
+      simplifier.take_back();
+      continue;
+    }
+    Surface simpler = surface_of(surface, simplifier);
+    report.removed_points = surface.mesh.points.size() - simpler.mesh.points.size();
     report.removed_triangles = surface.mesh.triangles.size() - candidate.was.size();
     report.distance = simplifier.distance();
     report.points_to_stay = count_of(stays) - to_stay;
-    return std::move(candidate.surface);
+    return simpler;
   }
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace meshrepair::internal {
@@ -46,12 +47,31 @@ class CollapsibleMesh {
   // The star has to be as find_star() gives it now. Its triangles before `to` and at `to` go.
   void collapse(const PointStar& star, std::size_t to);
 
+  // The inverse: `triangles` are those of the star, and all of them, and of the target's, have to
+  // be as collapse() left them.
+  void restore(std::uint32_t point, std::uint32_t target, std::span<const std::uint32_t> triangles);
+
+  // Calls visit(triangle, next corner, the one after) for each triangle of the point.
+  template <class Visit>
+  void visit_corners(std::uint32_t point, const Visit& visit) {
+    std::uint32_t before = kNone;
+    for (std::uint32_t corner = first_[point]; corner != kNone; corner = next_[corner]) {
+      const std::uint32_t t = corner / 3, k = corner % 3;
+      // Corners of triangles that are gone leave the list on the way.
+      if (left_[t] == 0) continue;
+      (before == kNone ? first_[point] : next_[before]) = corner;
+      before = corner;
+      visit(t, triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]);
+    }
+    (before == kNone ? first_[point] : next_[before]) = kNone;
+    last_[point] = before;
+  }
+
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   void append(std::uint32_t point, std::uint32_t corner);
-  template <class Visit>
-  void visit_corners(std::uint32_t point, const Visit& visit);
+  void drop_gone(std::uint32_t point);
 
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<char> left_;

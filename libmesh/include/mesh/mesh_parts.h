@@ -24,11 +24,11 @@ class UnitScale {
  public:
   explicit UnitScale(std::span<const Vec3d> points);
 
-  [[nodiscard]] double operator()(double length) const;
-  [[nodiscard]] Vec3d operator()(const Vec3d& point) const;
+  [[nodiscard]] double operator()(double length) const { return length * first_ * second_; }
+  [[nodiscard]] Vec3d operator()(const Vec3d& point) const { return point * first_ * second_; }
 
  private:
-  int exponent_ = 0;
+  double first_ = 1, second_ = 1;  // powers of two
 };
 
 // Scaled. A slab that is thin beside its extent is 2 volume / area thick.

@@ -28,19 +28,8 @@ void CollapsibleMesh::append(std::uint32_t point, std::uint32_t corner) {
   last_[point] = corner;
 }
 
-// Corners of triangles that are gone leave the list on the way.
-template <class Visit>
-void CollapsibleMesh::visit_corners(std::uint32_t point, const Visit& visit) {
-  std::uint32_t before = kNone;
-  for (std::uint32_t corner = first_[point]; corner != kNone; corner = next_[corner]) {
-    const std::uint32_t t = corner / 3, k = corner % 3;
-    if (left_[t] == 0) continue;
-    (before == kNone ? first_[point] : next_[before]) = corner;
-    before = corner;
-    visit(t, triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]);
-  }
-  (before == kNone ? first_[point] : next_[before]) = kNone;
-  last_[point] = before;
+void CollapsibleMesh::drop_gone(std::uint32_t point) {
+  visit_corners(point, [](std::uint32_t, std::uint32_t, std::uint32_t) {});
 }
 
 bool CollapsibleMesh::find_star(std::uint32_t point, PointStar& star) {
@@ -101,6 +90,37 @@ void CollapsibleMesh::collapse(const PointStar& star, std::size_t to) {
   degree_[target] -= 4;
   degree_[star.point] = 0;
   first_[star.point] = last_[star.point] = kNone;
+}
+
+void CollapsibleMesh::restore(std::uint32_t point, std::uint32_t target,
+                              std::span<const std::uint32_t> triangles) {
+  // Two went with the move; each has a corner at both points, and a third one.
+  std::array<std::uint32_t, 2> gone{};
+  std::size_t count = 0;
+  for (const std::uint32_t t : triangles) {
+    if (left_[t] == 0) gone[count++] = t;
+  }
+  for (const std::uint32_t t : gone) {
+    for (const std::uint32_t p : triangles_[t]) {
+      if (p == point || p == target) continue;
+      drop_gone(p);
+      ++degree_[p];
+    }
+  }
+  // The others leave the list of the target.
+  for (const std::uint32_t t : triangles) left_[t] = 0;
+  drop_gone(target);
+  for (const std::uint32_t t : triangles) {
+    left_[t] = 1;
+    const bool goes_back = t != gone[0] && t != gone[1];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      std::uint32_t& corner = triangles_[t][k];
+      if (goes_back && corner == target) corner = point;
+      if (corner == point || !goes_back) append(corner, 3 * t + k);
+    }
+  }
+  degree_[target] -= static_cast<std::uint32_t>(triangles.size()) - 4;
+  degree_[point] = static_cast<std::uint32_t>(triangles.size());
 }
 
 }  // namespace meshrepair::internal

@@ -29,13 +29,12 @@ MeshParts find_parts(const TriangleSoup& mesh) {
 UnitScale::UnitScale(std::span<const Vec3d> points) {
   double largest = 0;
   for (const Vec3d& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  (void)std::frexp(largest, &exponent_);
-}
-
-double UnitScale::operator()(double length) const { return std::ldexp(length, -exponent_); }
-
-Vec3d UnitScale::operator()(const Vec3d& point) const {
-  return {(*this)(point.x()), (*this)(point.y()), (*this)(point.z())};
+  int exponent = 0;
+  (void)std::frexp(largest, &exponent);
+  // Half each, as the inverse of a number may be beyond the largest one.
+  const int half = -exponent / 2;
+  first_ = std::ldexp(1.0, half);
+  second_ = std::ldexp(1.0, -exponent - half);
 }
 
 std::vector<PartSize> part_sizes(std::span<const Vec3d> points,

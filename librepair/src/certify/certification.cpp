@@ -104,7 +104,11 @@ std::size_t snap_concerned(TriangleSoup& mesh, const SelfIntersections& found, d
 
 Certification::Certification(Surface surface, const Grid& grid, const CertifyOptions& options,
                              ProgressObserver* progress, CertifyReport& report)
-    : grid_(grid), options_(options), progress_(progress), report_(report) {
+    : grid_(grid),
+      options_(options),
+      progress_(progress),
+      report_(report),
+      known_(kPairsToMend, progress) {
   report_ = {};
   spacing_ = number_spacing(surface.mesh, options.precision);
   step_ = options.precision == Precision::float32 ? std::max(grid.unit, spacing_) : grid.unit;
@@ -127,13 +131,13 @@ bool Certification::may_settle() const {
   return may_move_points() && best_.misplaced() > 0 && options_.precision == Precision::float64;
 }
 
-Surface Certification::settled(Surface surface) const {
-  settle_input_points(surface, grid_, progress_);
+Surface Certification::settled(Surface surface) {
+  settle_input_points(surface, grid_, known_);
   return surface;
 }
 
 void Certification::settle() {
-  settle_input_points(current_.surface, grid_, progress_);
+  settle_input_points(current_.surface, grid_, known_);
   test(current_);
   keep_if_better(current_);
 }
@@ -194,18 +198,15 @@ Surface Certification::result() {
 }
 
 // `before`: where the points were before they were moved, if not just before rounding.
-void Certification::test(Attempt& attempt, std::vector<Vec3d> before) const {
+void Certification::test(Attempt& attempt, std::vector<Vec3d> before) {
   if (before.empty()) before = attempt.surface.mesh.points;
   round_points(attempt.surface.mesh, options_.precision);
   attempt.dropped_parts += meshrepair::internal::drop_turned_parts(attempt.surface, before);
   join_ends(attempt.surface);
-  SelfIntersectionOptions options;
-  options.most_pairs = kPairsToMend;
-  options.progress = progress_;
-  attempt.found = self_intersections(attempt.surface.mesh, options);
+  attempt.found = known_.find(attempt.surface.mesh);
   if (const std::size_t dropped = drop_thin_at_fault(attempt); dropped > 0) {
     attempt.dropped_parts += dropped;
-    attempt.found = self_intersections(attempt.surface.mesh, options);
+    attempt.found = known_.find(attempt.surface.mesh);
   }
   attempt.inside_out_parts = 0;
   if (attempt.found.count + attempt.found.degenerate == 0) {
@@ -247,7 +248,7 @@ void Certification::improve() {
   } while (mend_places(moved));
 }
 
-void Certification::move_points(Attempt& attempt) const {
+void Certification::move_points(Attempt& attempt) {
   if (attempt.joined > 0) separate(attempt);
   if (attempt.found.count + attempt.found.degenerate == 0) return;
   nudge_points(attempt.surface, attempt.found, options_.precision, progress_);
@@ -271,7 +272,7 @@ bool Certification::mend_places(Attempt& attempt) {
   return true;
 }
 
-void Certification::separate(Attempt& attempt) const {
+void Certification::separate(Attempt& attempt) {
   Attempt apart = attempt;
   separate_copies(apart.surface.mesh, spacing_, options_.precision, options_.touching, progress_);
   forget_moved_points(apart.surface, attempt.surface.mesh.points);

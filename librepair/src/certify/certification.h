@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <check/known_intersections.h>
 #include <check/self_intersections.h>
 #include <exact/grid.h>
 #include <extract/surface.h>
@@ -32,7 +33,7 @@ class Certification {
   // Whether input points may be what is at fault, as they are written with their own coordinates.
   [[nodiscard]] bool may_settle() const;
   // The surface, its input points on the working grid as far as triangles would intersect.
-  [[nodiscard]] Surface settled(Surface surface) const;
+  [[nodiscard]] Surface settled(Surface surface);
   void settle();
   // With a surface that was made again from one that is settled(): needed where the surface was
   // changed since it was decided on.
@@ -64,14 +65,14 @@ class Certification {
   };
 
   // `before`: where the points were before they were moved, if not just before rounding.
-  void test(Attempt& attempt, std::vector<Vec3d> before = {}) const;
+  void test(Attempt& attempt, std::vector<Vec3d> before = {});
   std::size_t drop_thin_at_fault(Attempt& attempt) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
   void improve();
-  void move_points(Attempt& attempt) const;
+  void move_points(Attempt& attempt);
   bool mend_places(Attempt& attempt);
-  void separate(Attempt& attempt) const;
+  void separate(Attempt& attempt);
   void keep_if_better(const Attempt& attempt);
   [[nodiscard]] bool is_whole(const Attempt& attempt) const;
   void snap_cut_triangles();
@@ -80,6 +81,7 @@ class Certification {
   const CertifyOptions& options_;
   ProgressObserver* progress_;
   CertifyReport& report_;
+  KnownIntersections known_;
   double spacing_ = 0;  // of the numbers that can be written
   double step_ = 0;     // of the finest grid
   double volume_ = 0;   // as given

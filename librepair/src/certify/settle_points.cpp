@@ -4,33 +4,23 @@
 #include <cstdint>
 #include <vector>
 
-#include <check/self_intersections.h>
 #include <mesh/weld_points.h>
 
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::size_t kPairsToSettle = 1'000'000;
-
 class Settler {
  public:
-  Settler(Surface& surface, const Grid& grid, ProgressObserver* progress)
-      : surface_(surface), grid_(grid) {
-    options_.most_pairs = kPairsToSettle;
-    options_.progress = progress;
-  }
+  Settler(Surface& surface, const Grid& grid, KnownIntersections& known)
+      : surface_(surface), grid_(grid), known_(known) {}
 
   std::size_t run() {
     const TriangleSoup& mesh = surface_.mesh;
-    SelfIntersections found = self_intersections(mesh, options_);
+    SelfIntersections found = known_.find(mesh);
     if (found.pairs.empty()) return 0;
     places_ = find_places(mesh.points);
     moves_.assign(places_.place.size(), 0);
-    while (settle(found)) {
-      const bool all_known = found.count == found.pairs.size();
-      found = all_known ? self_intersections(mesh, to_test(found), options_)
-                        : self_intersections(mesh, options_);
-    }
+    while (settle(found)) found = known_.find(mesh);
     return moved_;
   }
 
@@ -60,25 +50,9 @@ class Settler {
     ++moved_;
   }
 
-  // What was found, and all triangles of the points that have moved just now.
-  [[nodiscard]] std::vector<std::uint32_t> to_test(const SelfIntersections& found) const {
-    std::vector<std::uint32_t> triangles;
-    for (const auto& pair : found.pairs) {
-      triangles.insert(triangles.end(), pair.begin(), pair.end());
-    }
-    for (std::uint32_t t = 0; t < surface_.mesh.triangles.size(); ++t) {
-      for (const std::uint32_t p : surface_.mesh.triangles[t]) {
-        if (moves_[places_.place[p]] == 0) continue;
-        triangles.push_back(t);
-        break;
-      }
-    }
-    return triangles;
-  }
-
   Surface& surface_;
   const Grid& grid_;
-  SelfIntersectionOptions options_;
+  KnownIntersections& known_;
   PointPlaces places_;
   std::vector<char> moves_;  // of each place
   std::size_t moved_ = 0;
@@ -86,8 +60,8 @@ class Settler {
 
 }  // namespace
 
-std::size_t settle_input_points(Surface& surface, const Grid& grid, ProgressObserver* progress) {
-  return Settler(surface, grid, progress).run();
+std::size_t settle_input_points(Surface& surface, const Grid& grid, KnownIntersections& known) {
+  return Settler(surface, grid, known).run();
 }
 
 }  // namespace meshrepair::internal

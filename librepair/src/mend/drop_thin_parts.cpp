@@ -85,7 +85,8 @@ std::size_t drop_turned_parts(Surface& surface, const std::vector<Vec3d>& before
   const auto sizes_by = [&](const std::vector<Vec3d>& points) {
     return part_sizes(points, mesh.triangles, parts.of_triangle, parts.count, scale);
   };
-  const std::vector<PartSize> was = sizes_by(before), is = sizes_by(mesh.points);
+  const std::vector<PartSize> was = sizes_by(before);
+  const std::vector<PartSize> is = before == mesh.points ? was : sizes_by(mesh.points);
   std::vector<char> drop(parts.count, 1);
   for (std::uint32_t part = 0; part < parts.count; ++part) {
     const double first = was[part].volume, now = is[part].volume;

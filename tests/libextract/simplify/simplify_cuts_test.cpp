@@ -19,6 +19,7 @@
 #include "random_geometry.h"
 #include "shapes.h"
 #include "share_of_cases.h"
+#include "simplify/cut_simplifier.h"
 #include "surfaces.h"
 
 namespace meshrepair {
@@ -26,6 +27,7 @@ namespace {
 
 using namespace testing;
 using internal::CollapsibleMesh;
+using internal::CutSimplifier;
 using internal::PointStar;
 using internal::StarDistance;
 
@@ -327,6 +329,93 @@ TEST(CollapsibleMesh, StaysClosedAndManifold) {
     EXPECT_EQ(after.parts, before.parts) << seed;
     // No point can go any more: a tetrahedron, or the least torus that there is and what is near.
     EXPECT_LE(left.size(), seed % 2 == 0 ? 40u : 4u) << seed;
+  }
+}
+
+// Each point, with its neighbours in order from the lowest; nothing for one without triangles.
+std::vector<std::vector<std::uint32_t>> links_of(CollapsibleMesh& mesh, std::size_t points) {
+  std::vector<std::vector<std::uint32_t>> links(points);
+  PointStar star;
+  for (std::uint32_t p = 0; p < points; ++p) {
+    if (!mesh.find_star(p, star)) continue;
+    std::rotate(star.link.begin(), std::min_element(star.link.begin(), star.link.end()),
+                star.link.end());
+    links[p] = star.link;
+  }
+  return links;
+}
+
+TEST(CollapsibleMesh, IsAsItWasWhenCollapsesAreTakenBack) {
+  struct Collapse {
+    PointStar star;
+    std::uint32_t target;
+  };
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    const TriangleSoup soup = seed % 2 == 0 ? torus(9, 7) : sphere(150);
+    const std::size_t points = soup.points.size();
+    CollapsibleMesh mesh(soup.triangles, points);
+    std::vector<Collapse> collapses;
+    std::vector<std::vector<std::vector<std::uint32_t>>> before;
+    PointStar star;
+    for (int turn = 0; turn < 60; ++turn) {
+      const auto point =
+          static_cast<std::uint32_t>(random.integer(0, static_cast<std::int32_t>(points) - 1));
+      if (!mesh.find_star(point, star)) continue;
+      const auto to = static_cast<std::size_t>(
+          random.integer(0, static_cast<std::int32_t>(star.link.size()) - 1));
+      if (!mesh.may_collapse(star, to)) continue;
+      before.push_back(links_of(mesh, points));
+      collapses.push_back({star, star.link[to]});
+      mesh.collapse(star, to);
+    }
+    ASSERT_GT(collapses.size(), 10u);
+    while (!collapses.empty()) {
+      const Collapse& last = collapses.back();
+      mesh.restore(last.star.point, last.target, last.star.triangles);
+      EXPECT_EQ(links_of(mesh, points), before.back()) << seed;
+      collapses.pop_back();
+      before.pop_back();
+    }
+    EXPECT_EQ(mesh.triangles(), soup.triangles) << seed;
+  }
+}
+
+// Points that are told to stay go back to where they were, and others may go instead.
+TEST(CutSimplifier, TakesBackMovesAndWhatBuildsOnThem) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    const TriangleSoup soup = seed % 2 == 0 ? squared_cube(8) : sphere(400);
+    std::vector<char> stays(soup.points.size(), 0);
+    const std::vector<double> within(soup.points.size(), 0.2);
+    CutSimplifier simplifier(soup, stays, within, nullptr);
+    for (int turn = 0; turn < 4; ++turn) {
+      simplifier.run();
+      std::vector<std::array<std::uint32_t, 3>> left;
+      for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        if (!simplifier.mesh().is_left(t)) continue;
+        left.push_back(simplifier.mesh().triangles()[t]);
+        const bool is_as_it_was = left.back() == soup.triangles[t];
+        EXPECT_EQ(is_as_it_was, simplifier.last_moved(t) == CutSimplifier::kNone) << seed;
+      }
+      const Topology topology = examine_topology(left, soup.points.size());
+      EXPECT_TRUE(topology.closed() && topology.manifold() && topology.oriented()) << seed;
+      EXPECT_LT(left.size(), soup.triangles.size()) << seed;
+      EXPECT_LE(simplifier.distance(), 0.2) << seed;
+      const std::vector<std::uint32_t> places = simplifier.places();
+      for (std::uint32_t p = 0; p < places.size(); ++p) {
+        EXPECT_EQ(simplifier.has_moved(p), places[p] != p) << seed;
+        EXPECT_FALSE(simplifier.has_moved(places[p])) << seed;
+        EXPECT_TRUE(stays[p] == 0 || places[p] == p) << seed;
+        if (simplifier.has_moved(p) && random.integer(0, 9) == 0) stays[p] = 1;
+      }
+      simplifier.take_back();
+    }
+    std::fill(stays.begin(), stays.end(), 1);
+    simplifier.take_back();
+    simplifier.run();
+    EXPECT_EQ(simplifier.mesh().triangles(), soup.triangles) << seed;
+    EXPECT_EQ(simplifier.distance(), 0) << seed;
   }
 }
 

@@ -44,7 +44,8 @@ TEST(SettlePoints, EndsWithWhatWasDecidedOnTheGrid) {
     Surface surface = without_certification(soup);
     const Surface before = surface;
     faults += self_intersections(surface.mesh).count;
-    const std::size_t moved = settle_input_points(surface, grid, nullptr);
+    internal::KnownIntersections known(1000, nullptr);
+    const std::size_t moved = settle_input_points(surface, grid, known);
     EXPECT_EQ(self_intersections(surface.mesh).crossing, 0u) << seed;
     EXPECT_EQ(surface.mesh.triangles, before.mesh.triangles);
     std::size_t differ = 0;
@@ -63,7 +64,8 @@ TEST(SettlePoints, EndsWithWhatWasDecidedOnTheGrid) {
 TEST(SettlePoints, MovesNothingWhereNothingIntersects) {
   Surface surface = as_surface(sphere(500));
   const Surface before = surface;
-  EXPECT_EQ(settle_input_points(surface, Grid{Vec3d::Zero(), 0x1p-10}, nullptr), 0u);
+  internal::KnownIntersections known(1000, nullptr);
+  EXPECT_EQ(settle_input_points(surface, Grid{Vec3d::Zero(), 0x1p-10}, known), 0u);
   EXPECT_EQ(surface.mesh.points, before.mesh.points);
 }
 

@@ -1,0 +1,44 @@
+// Which triangles meet in meshes that differ little from each other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <check/self_intersections.h>
+#include <mesh/edge_table.h>
+#include <mesh/soup.h>
+#include <mesh/weld_points.h>
+
+namespace meshrepair::internal {
+
+// Remembers the triangles of the last mesh that met nothing, by where their corners are. What is
+// found is what self_intersections() finds, welded; the work is for triangles that the last mesh
+// did not have, and for those that met others in it, besides passes that are linear in the mesh.
+class KnownIntersections {
+ public:
+  KnownIntersections(std::size_t most_pairs, ProgressObserver* progress);
+  KnownIntersections(const KnownIntersections&) = delete;
+  KnownIntersections& operator=(const KnownIntersections&) = delete;
+
+  // Throws Cancelled.
+  [[nodiscard]] SelfIntersections find(const TriangleSoup& mesh);
+
+ private:
+  [[nodiscard]] std::vector<std::uint32_t> place_points(const TriangleSoup& mesh);
+  [[nodiscard]] std::vector<std::uint32_t> find_fresh(
+      const std::vector<IndexTriangle>& triangles) const;
+  [[nodiscard]] std::size_t find_known(const IndexTriangle& places) const;
+  void remember(const std::vector<IndexTriangle>& triangles, const std::vector<char>& doubtful);
+
+  SelfIntersectionOptions options_;
+  std::vector<Vec3d> places_;  // all that any mesh had a point in
+  PointWelder welder_;
+  // Of the triangles that met nothing, by their lowest place: where those of each begin, and the
+  // two others. One that is there twice met its copy.
+  std::vector<std::uint32_t> first_;
+  std::vector<std::array<std::uint32_t, 2>> others_;
+};
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,29 @@
+// Comparisons of the triangles of a soup: all with all, or some with all.
+//
+// The triangles' boxes are put into a tree, and the tree is compared with itself. With a list of
+// triangles the tree holds these alone, and all the others are looked up in it. Where boxes tell
+// little, spatial_comparison.h takes over.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <check/self_intersections.h>
+#include <check/triangle_list.h>
+
+namespace meshrepair::internal {
+
+// The list has all triangles of the soup.
+[[nodiscard]] SelfIntersections compare_all(const TriangleList& list,
+                                            const SelfIntersectionOptions& options);
+
+// Those on the list with all of the soup.
+[[nodiscard]] SelfIntersections compare_with(const SoupCorners& corners, const TriangleList& list,
+                                             const SelfIntersectionOptions& options);
+
+// Sheets that cross along an edge: those in which one of `among` is, unless that is empty. Pairs
+// that meet elsewhere, too, are there already.
+void add_crossing_sheets(const SoupCorners& corners, std::span<const std::uint32_t> among,
+                         const SelfIntersectionOptions& options, SelfIntersections& result);
+
+}  // namespace meshrepair::internal
