@@ -29,7 +29,7 @@ class Row:
     size: int
     digest: str  # of the input
     cpu_s: float  # the least of the rounds
-    peak_mb: float
+    peak_mb: float  # 0: not known, and small
     calibration_s: float  # the least of the rounds
     rounds: int
     differ: float  # by how much the slowest round was above the fastest
@@ -49,8 +49,8 @@ def parsed(cells):
     if len(cells) != len(COLUMNS):
         raise ValueError(f"{len(cells)} columns, not {len(COLUMNS)}")
     row = Row(*(field.type(cell) for field, cell in zip(dataclasses.fields(Row), cells)))
-    if not all(0 < figure < math.inf for figure in (row.cpu_s, row.peak_mb, row.calibration_s)):
-        raise ValueError("a time or a size is not above 0")
+    if not (0 < row.cpu_s < math.inf and 0 < row.calibration_s < math.inf and 0 <= row.peak_mb < math.inf):
+        raise ValueError("a time or a size is below 0, or no number")
     return row
 
 
@@ -75,9 +75,10 @@ def read_rows(path):
 
 
 def row_of(measured, calibration, commit):
+    peak = 0.0 if measured.peak_hidden() else round(measured.least("peak"), 1)
     return Row(commit, time.strftime("%Y-%m-%d", time.gmtime()), machine(), measured.item.kind, measured.item.size,
-               measured.item.digest, round(measured.least("cpu"), 4), round(measured.least("peak"), 1), round(calibration, 4),
-               len(measured.runs), round(measured.differ(), 3))
+               measured.item.digest, round(measured.least("cpu"), 6), peak, round(calibration, 6), len(measured.runs),
+               round(measured.differ(), 3))
 
 
 def check_appendable(path):
@@ -124,7 +125,7 @@ def compare_cpu(row, other, what):
 
 
 def compare_peak(row, other, what):
-    growth = row.peak_mb / other.peak_mb - 1
+    growth = row.peak_mb / other.peak_mb - 1 if other.peak_mb > 0 else 0.0
     if growth <= LARGEST_GROWTH:
         return None
     return (f"{row.kind} {short_size(row.size)}: memory {percent(growth)} above {what} {other.commit}: {row.peak_mb:.0f} MB, "
@@ -135,7 +136,7 @@ def compare_row(row, before):
     """With the last before, and with the best: many small steps are a large one."""
     last = before[-1]
     found = []
-    for compare, figure in ((compare_cpu, Row.cost), (compare_peak, lambda r: r.peak_mb)):
+    for compare, figure in ((compare_cpu, Row.cost), (compare_peak, lambda r: r.peak_mb or math.inf)):
         best = min(before, key=figure)
         lines = [compare(row, last, "the row before,")]
         if best is not last:
@@ -151,6 +152,15 @@ def since_commit(rows, since):
     raise Stop(USAGE, f"no row of the history is of {since}")
 
 
+def latest_by_commit(rows):
+    """In the order of the rows that count."""
+    found = {}
+    for row in rows:
+        found.pop(row.commit, None)
+        found[row.commit] = row
+    return list(found.values())
+
+
 def check(rows, since=None):
     """Lines to print, and whether something grew beyond doubt. The latest commit is that of the last row."""
     rows = since_commit(rows, since) if since else rows
@@ -160,7 +170,7 @@ def check(rows, since=None):
     latest = {row.key(): row for row in rows if (row.commit, row.machine) == (newest.commit, newest.machine)}
     lines, compared, sure = [], 0, 0
     for key, row in latest.items():
-        before = list({other.commit: other for other in rows if other.key() == key and other.commit != row.commit}.values())
+        before = latest_by_commit(other for other in rows if other.key() == key and other.commit != row.commit)
         if before:
             compared += 1
             found = compare_row(row, before)

@@ -3,7 +3,7 @@
 import json
 import os
 
-from .basics import say
+from .basics import USAGE, Stop, say
 from .inputs import count_faces, digest_of
 from .judge import NO, NO_RESULT, UNJUDGED, YES
 from .measure import run
@@ -73,6 +73,12 @@ class Rounds:
         verdict = measured.verdicts.get(digest) or self.judge.verdict(item, self.out)
         measured.add(done, verdict, digest, count_faces(self.out))
 
+    def run_calibration(self, program):
+        done = run([program], self.work, self.options.timeout)
+        if done.code != 0:
+            raise Stop(USAGE, f"{program}: exit code {done.code}")
+        return done.cpu
+
     def measure(self, item, calibration=None):
         """A Measured for each program that does this kind; and the least CPU time of the calibration, if one is given.
         What failed once is not tried again."""
@@ -82,7 +88,7 @@ class Rounds:
             if not self.options.quiet:
                 say(f"{item.name()}: round {number + 1} of {self.options.rounds}")
             if calibration:
-                fixed.append(run([calibration], self.work, self.options.timeout).cpu)
+                fixed.append(self.run_calibration(calibration))
             for measured in all_measured if number % 2 == 0 else reversed(all_measured):
                 if not measured.runs or not measured.failed():
                     self.run_once(measured)

@@ -164,6 +164,13 @@ class CommandLine(WithFalsePrograms):
         (self.ours / "calibration").unlink()
         self.assert_refused(["--ours", self.ours, "--record"], "calibration: is no program")
 
+    def test_a_calibration_that_fails_is_told(self):
+        write_script(self.ours / "calibration", "exit 3")
+        code, _, errors = self.compare("--record")
+        self.assertEqual(code, 2)
+        self.assertIn("calibration: exit code 3", errors)
+        self.assertFalse(self.history.exists())
+
     def test_inputs_that_cannot_be_made_are_told(self):
         self.script("maker", "echo 'maker: no input is called clean:1000' >&2; exit 2")
         code, _, errors = self.compare("--make-models", self.folder / "maker")
@@ -429,6 +436,11 @@ class HistoryCheck(unittest.TestCase):
     def test_memory_is_seen(self):
         self.assert_grew([ROW, row("bbbbbbb", peak_mb=111.0)], "memory 11 % above the row before, aaaaaaa: 111 MB, 100 MB")
 
+    def test_memory_that_is_not_known_is_not_compared(self):
+        self.assert_grew([row("aaaaaaa", peak_mb=0.0), row("bbbbbbb", peak_mb=30.0), row("ccccccc", peak_mb=31.0)], sure=False)
+        self.assert_grew([ROW, row("bbbbbbb", peak_mb=0.0)], sure=False)
+        self.assert_grew([ROW, row("bbbbbbb", peak_mb=0.0), row("ccccccc", peak_mb=120.0)], "20 % above the best, aaaaaaa")
+
     def test_small_steps_add_up(self):
         self.assert_grew([ROW, row("bbbbbbb", cpu_s=1.06), row("ccccccc", cpu_s=1.12)], "CPU 12 % above the best, aaaaaaa")
 
@@ -491,7 +503,7 @@ class History(WithFalsePrograms):
         head = ",".join(history.COLUMNS)
         for text, reason in (("", "the first line is not"), ("a,b\n", "the first line is not"), (head + "\n1,2\n", ":2: 2 columns"),
                              (head + "\na,b,c,d,e,f,g,h,i,j,k\n", ":2: invalid literal"),
-                             (head + "\na,b,c,d,1,f,0,1,1,1,0\n", ":2: a time or a size is not above 0")):
+                             (head + "\na,b,c,d,1,f,0,1,1,1,0\n", ":2: a time or a size is below 0")):
             self.history.write_text(text)
             for option in ("--history-check", "--record"):
                 code, out, errors = self.compare(option)
