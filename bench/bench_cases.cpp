@@ -1,35 +1,14 @@
 #include "bench_cases.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 
-#include <base/error.h>
 #include <base/stage_meter.h>
 #include <mesh/soup_io.h>
 
-#include "shapes.h"
+#include "generated_inputs.h"
 
 namespace meshrepair::bench {
-namespace {
-
-Case generated(const std::string& argument) {
-  const std::size_t colon = argument.find(':');
-  const std::string kind = argument.substr(0, colon);
-  const std::size_t count = std::strtoul(argument.c_str() + colon + 1, nullptr, 10);
-  if (kind == "spheres") return {argument, testing::two_overlapping_spheres(count)};
-  if (kind == "cubes") return {argument, testing::random_cubes(count, 1)};
-  if (kind == "noisy") return {argument, testing::noisy_sphere(count, 0.02, 1)};
-  throw UsageError("no input is called " + argument);
-}
-
-bool is_generated(const std::string& argument) {
-  return argument.starts_with("spheres:") || argument.starts_with("cubes:") ||
-         argument.starts_with("noisy:");
-}
-
-}  // namespace
-
 std::vector<Case> cases_of(int argc, char** argv) {
   std::vector<std::string> names(argv + 1, argv + argc);
   if (names.empty()) {
@@ -39,7 +18,7 @@ std::vector<Case> cases_of(int argc, char** argv) {
   std::vector<Case> cases;
   cases.reserve(names.size());
   for (const std::string& name : names) {
-    cases.push_back(is_generated(name) ? generated(name) : Case{name, read_soup(name).soup});
+    cases.push_back({name, is_generated_mesh(name) ? generated_mesh(name) : read_soup(name).soup});
   }
   return cases;
 }

@@ -16,8 +16,7 @@ struct Case {
 };
 
 // The inputs that a command line asks for: each argument is a mesh file or the name of a generated
-// input, "spheres:N" (two that overlap, N triangles), "cubes:N" (N turned cubes), "noisy:N" (a
-// sphere that crosses itself). Without arguments a small set of each.
+// mesh, as "spheres:N" (generated_inputs.h). Without arguments a small set of these.
 [[nodiscard]] std::vector<Case> cases_of(int argc, char** argv);
 
 struct Measurement {

@@ -27,21 +27,6 @@ TriangleSoup ellipsoid(const Vec3d& centre, const Vec3d& radii, std::size_t tria
   return moved(transformed(sphere(triangles), radii.asDiagonal().toDenseMatrix()), centre);
 }
 
-// Waves of several lengths on a star-shaped body: nothing crosses.
-TriangleSoup bumpy(TriangleSoup soup, double height, std::uint64_t seed) {
-  Random random(seed);
-  std::array<Vec3d, 12> waves;
-  for (Vec3d& wave : waves) {
-    wave = {random.real(-9, 9), random.real(-9, 9), random.real(-9, 9)};
-  }
-  for (Vec3d& p : soup.points) {
-    double sum = 0;
-    for (const Vec3d& wave : waves) sum += std::sin(wave.dot(p) + wave.x());
-    p *= 1 + height * sum / static_cast<double>(waves.size());
-  }
-  return soup;
-}
-
 // From a point inside one part to a point inside another, sagging a little.
 Strand rope(const Vec3d& from, const Vec3d& to, double radius, double sag, std::size_t pieces) {
   Strand strand{{}, radius};
@@ -69,6 +54,20 @@ TriangleSoup leg(const Vec3d& hip, const Vec3d& knee, const Vec3d& foot, double 
 }
 
 }  // namespace
+
+TriangleSoup bumpy(TriangleSoup soup, double height, std::uint64_t seed) {
+  Random random(seed);
+  std::array<Vec3d, 12> waves;
+  for (Vec3d& wave : waves) {
+    wave = {random.real(-9, 9), random.real(-9, 9), random.real(-9, 9)};
+  }
+  for (Vec3d& p : soup.points) {
+    double sum = 0;
+    for (const Vec3d& wave : waves) sum += std::sin(wave.dot(p) + wave.x());
+    p *= 1 + height * sum / static_cast<double>(waves.size());
+  }
+  return soup;
+}
 
 Model spider() {
   Model model{"spider", "Spider", ellipsoid({0, 0, 1}, {1.3, 0.9, 0.8}, 1000), {}};

@@ -2,6 +2,7 @@
 // scans and drawings, these are as much like them as a few lines allow.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Model {
   TriangleSoup soup;
   std::vector<Strand> strands;
 };
+
+// Waves of several lengths on a star-shaped body around the origin: nothing crosses.
+[[nodiscard]] TriangleSoup bumpy(TriangleSoup soup, double height, std::uint64_t seed);
 
 // Parts that cross one another, each closed.
 [[nodiscard]] Model spider();

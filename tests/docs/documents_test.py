@@ -37,6 +37,7 @@ NOT_RUN = {
     "scripts/test.sh": "installs packages, builds and runs this test",
     "scripts/setup.sh": "installs packages",
     "scripts/fuzz.sh": "builds with clang, and runs for minutes",
+    "bench/compare.py": "takes minutes",
     "cmake": "builds and installs",
     "ctest": "runs this test",
 }
@@ -104,7 +105,7 @@ class Commands(unittest.TestCase):
         for document in DOCUMENTS:
             for command in documents.commands(document):
                 words = shlex.split(command.text, comments=True)
-                if words[0].startswith("scripts/"):
+                if words[0].startswith(("scripts/", "bench/")):
                     self.assertTrue(os.access(ROOT / words[0], os.X_OK), f"{name_of(document)}: {words[0]}")
                 if "--preset" in words:
                     self.assertIn(words[words.index("--preset") + 1], names)
