@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include <tbb/parallel_for.h>
-
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/self_intersections.h>
@@ -131,13 +130,12 @@ SelfIntersections compare_with(const TriangleSoup& soup, const internal::SoupCor
   std::vector<char> is_listed(soup.triangles.size(), 0);
   for (const std::uint32_t id : list.ids()) is_listed[id] = 1;
   const std::size_t count = soup.triangles.size();
-  const std::size_t tasks = (count + kLookUpsPerTask - 1) / kLookUpsPerTask;
+  const std::size_t tasks = tasks_of(count, kLookUpsPerTask);
   std::vector<Findings> findings(tasks, Findings(options.most_pairs));
   SharedProgress progress(options.progress, tasks);
-  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+  const auto look_up_all = [&](std::size_t task, std::size_t first, std::size_t last) {
     LookUp look_up(sorted, options.nearness, progress, findings[task]);
-    const std::size_t end = std::min(count, (task + 1) * kLookUpsPerTask);
-    for (std::size_t t = task * kLookUpsPerTask; t < end; ++t) {
+    for (std::size_t t = first; t < last; ++t) {
       const auto id = static_cast<std::uint32_t>(t);
       Box box = internal::box_of(soup, id);
       box.widen(options.nearness);
@@ -147,7 +145,8 @@ SelfIntersections compare_with(const TriangleSoup& soup, const internal::SoupCor
       look_up.run(id, triangle, box, is_listed[t] != 0);
     }
     progress.done();
-  });
+  };
+  parallel_tasks(count, kLookUpsPerTask, look_up_all);
   return gather(findings, options.most_pairs);
 }
 

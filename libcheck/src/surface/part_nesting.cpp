@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
-
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/triangle_list.h>
@@ -83,12 +82,10 @@ std::vector<std::uint32_t> nesting_depths(const TriangleSoup& soup,
   if (parts < 2) return depths;
   const RayCaster caster(soup, part_of);
   const std::vector<std::uint32_t> first = first_triangles(part_of, parts);
-  const std::size_t tasks = (parts + kPartsPerTask - 1) / kPartsPerTask;
-  SharedProgress shared(progress, tasks);
-  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+  SharedProgress shared(progress, tasks_of(parts, kPartsPerTask));
+  parallel_tasks(parts, kPartsPerTask, [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> passed;
-    const std::size_t end = std::min(parts, (task + 1) * kPartsPerTask);
-    for (std::size_t part = task * kPartsPerTask; part < end; ++part) {
+    for (std::size_t part = begin; part < end; ++part) {
       depths[part] = caster.parts_around(first[part], passed, shared);
     }
     shared.done();
