@@ -80,7 +80,7 @@ check_sanitize() {
 # The same random numbers each time: whether a commit passes should not be chance.
 check_fuzz() { scripts/fuzz.sh all 0 -seed=1 -runs=1000; }
 
-# TBB is not built for it: what happens inside, and between its threads, it cannot judge.
+# oneTBB is not built for it: libbase/src/parallel.cpp tells what that does, so what is found is ours.
 check_threads() {
   cmake --preset tsan &&
     cmake --build build/tsan --parallel "$jobs" &&

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -26,7 +25,7 @@ void run_both(const std::function<void()>& one, const std::function<void()>& oth
 
 }  // namespace internal
 
-// Calls body(i) for each i below `count`. It is to take a microsecond at least.
+// Calls body(i) for each i below `count`.
 template <class Body>
 void parallel_for(std::size_t count, const Body& body) {
   // One call through a pointer for a range, not for each item.
@@ -66,6 +65,7 @@ auto parallel_reduce(std::size_t count, std::size_t per_task, const PartOf& part
   return all;
 }
 
+// Calls both.
 template <class One, class Other>
 void parallel_invoke(const One& one, const Other& other) {
   internal::run_both(std::ref(one), std::ref(other));
