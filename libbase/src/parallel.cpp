@@ -1,3 +1,5 @@
+// One thread works without oneTBB. That would try to start a second one all the same when the
+// limit ends, and would end the process where the system gives none.
 #include <stdexcept>
 #include <string_view>
 
@@ -69,6 +71,8 @@ void run(const Work& work) {
 namespace internal {
 
 void run_ranges(std::size_t count, const std::function<void(std::size_t, std::size_t)>& range) {
+  if (count == 0) return;
+  if (most_threads() == 1) return range(0, count);
   using Range = tbb::blocked_range<std::size_t>;
   CallOrder order;
   const auto body = [&](const Range& part) {
@@ -79,6 +83,11 @@ void run_ranges(std::size_t count, const std::function<void(std::size_t, std::si
 }
 
 void run_both(const std::function<void()>& one, const std::function<void()>& other) {
+  if (most_threads() == 1) {
+    one();
+    other();
+    return;
+  }
   CallOrder order;
   const auto body_of = [&order](const std::function<void()>& work) {
     return [&order, &work] {
