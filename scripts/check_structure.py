@@ -9,6 +9,7 @@ directly in src is the library's own room, which may use all others. Fails where
 - a room has more than one private header that other rooms include: its door (a room named `common`
   is a box of tools, all of which are for others);
 - a folder holds more than 15 sources;
+- a file other than the door to oneTBB, libbase/src/parallel.cpp, includes or names what is oneTBB's;
 - a source or a header is not where its name says, or its test stands in another room.
 """
 
@@ -24,6 +25,8 @@ MOST_SOURCES = 15
 TOOLS = "common"
 ROOT = Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]', re.MULTILINE)
+TBB_DOOR = ROOT / "libbase/src/parallel.cpp"
+TBB_NAME = re.compile(r"\b(tbb|oneapi)(/|::)")
 LIBRARY_CALL = re.compile(r"meshrepair_library\((.*?)\)\n", re.DOTALL)
 
 
@@ -163,6 +166,15 @@ def check_tests(library: Library, faults: list[str]) -> None:
             faults.append(f"{test.relative_to(ROOT)}: its source is in the room '{rooms[stem]}'")
 
 
+def check_tbb(faults: list[str]) -> None:
+    """Without oneTBB the door alone is to be replaced."""
+    folders = [*ROOT.glob("lib*"), *(ROOT / name for name in ("apps", "bench", "samples", "tests"))]
+    for path in sorted(p for folder in folders for p in folder.rglob("*") if p.suffix in (".h", ".cpp")):
+        found = TBB_NAME.search(path.read_text())
+        if found is not None and path != TBB_DOOR:
+            faults.append(f"{path.relative_to(ROOT)}: names {found.group()}, which is for {TBB_DOOR.relative_to(ROOT)}")
+
+
 def lines_of(paths: list[Path]) -> int:
     return sum(path.read_text().count("\n") for path in paths)
 
@@ -191,6 +203,7 @@ def main() -> int:
     for library in libraries.values():
         check_sizes(library, faults)
         check_tests(library, faults)
+    check_tbb(faults)
     if not options.quiet:
         for name in sorted(libraries, key=lambda n: (len(closure(arrows)[n]), n)):
             uses = ", ".join(sorted(arrows[name]))

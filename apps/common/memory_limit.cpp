@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kStackBytes = std::uint64_t{4} << 20;  // of a thread of TBB
+constexpr std::uint64_t kStackBytes = std::uint64_t{4} << 20;  // of a thread
 constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;       // beyond what the program has taken
 
 [[noreturn]] void fail(const std::string& text) {
@@ -140,7 +140,7 @@ std::uint64_t resident_memory() {
   return std::uint64_t{resident} * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit_memory(const MemoryLimit& limit_wanted, unsigned threads) {
+void limit_memory(const MemoryLimit& limit_wanted, std::size_t threads) {
   const std::uint64_t bytes = limit_wanted.bytes;
   if (bytes == 0) return;
   const std::uint64_t used = of_self("RssAnon:");

@@ -27,7 +27,7 @@ struct MemoryLimit {
 // of the system's killer. `threads` are those to be started from now on: what their stacks reserve
 // does not count. Throws UsageError if the program needs more than this for itself, LimitError if
 // it is a share of too little.
-void limit_memory(const MemoryLimit& limit, unsigned threads);
+void limit_memory(const MemoryLimit& limit, std::size_t threads);
 
 // "200 MB", for messages.
 [[nodiscard]] std::string memory_text(std::uint64_t bytes);

@@ -1,18 +1,14 @@
 #include "common/program.h"
 
-#include <algorithm>
 #include <exception>
 #include <new>
 #include <optional>
-#include <stdexcept>
-#include <string_view>
-#include <thread>
 
 #include <spdlog/spdlog.h>
-#include <tbb/global_control.h>
 
 #include <base/atomic_file.h>
 #include <base/error.h>
+#include <base/parallel.h>
 
 #include "common/logging.h"
 #include "common/memory_limit.h"
@@ -21,22 +17,6 @@
 
 namespace meshrepair {
 namespace {
-
-// As many as there will be: 0 stands for all that the machine has.
-unsigned thread_count(unsigned threads) {
-  return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-}
-
-std::optional<tbb::global_control> limit_threads(unsigned threads) {
-  if (threads == 0) return std::nullopt;
-  return std::optional<tbb::global_control>(std::in_place,
-                                            tbb::global_control::max_allowed_parallelism, threads);
-}
-
-// What TBB throws where the system gives it no thread, for want of memory or by a limit of its own.
-bool is_lack_of_threads(const std::runtime_error& error) {
-  return std::string_view(error.what()).find("pthread_create") != std::string_view::npos;
-}
 
 ProgressBar::Options bar_options(const CommonOptions& options, const MemoryLimit& memory) {
   ProgressBar::Options bar;
@@ -82,16 +62,16 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
     const MemoryLimit memory = parse_memory_limit(options_.max_memory);
     progress.emplace(bar_options(options_, memory));
     watchdog.emplace(command_line_.get_name(), *progress);
-    limit_memory(memory, thread_count(options_.threads));
-    const auto thread_limit = limit_threads(options_.threads);
+    const ThreadLimit thread_limit(options_.threads);
+    limit_memory(memory, most_threads());
+    spdlog::debug("threads: {}", most_threads());
     Run run{report, *progress, options_};
     code = body(run);
     flush_standard_output();
   } catch (const std::bad_alloc&) {
     error = std::make_exception_ptr(LimitError(progress->out_of_memory()));
-  } catch (const std::runtime_error& e) {
-    error = std::current_exception();
-    if (is_lack_of_threads(e)) error = std::make_exception_ptr(progress->out_of_threads());
+  } catch (const OutOfThreads&) {
+    error = std::make_exception_ptr(progress->out_of_threads());
   } catch (...) {
     error = std::current_exception();
   }

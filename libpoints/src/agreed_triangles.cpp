@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include <Eigen/Geometry>
-#include <tbb/parallel_sort.h>
 
 #include <base/ids.h>
+#include <base/parallel.h>
 
 namespace meshrepair {
 namespace {
@@ -96,7 +96,7 @@ std::vector<VotedTriangle> agreed_triangles(const std::vector<Vec3d>& points,
                                             ProgressObserver* progress) {
   std::vector<std::uint32_t> order(wanted.size());
   std::iota(order.begin(), order.end(), 0U);
-  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return std::tuple(-wanted[a].votes, wanted[a].size, a) <
            std::tuple(-wanted[b].votes, wanted[b].size, b);
   });

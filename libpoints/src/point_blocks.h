@@ -1,11 +1,9 @@
 // Work on the points of a cloud, block by block in parallel.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
-#include <tbb/parallel_for.h>
-
+#include <base/parallel.h>
 #include <base/progress.h>
 #include <base/shared_progress.h>
 
@@ -15,7 +13,7 @@ namespace meshrepair {
 constexpr std::size_t kPointsInBlock = 512;
 
 [[nodiscard]] inline std::size_t blocks_of(std::size_t points) {
-  return (points + kPointsInBlock - 1) / kPointsInBlock;
+  return tasks_of(points, kPointsInBlock);
 }
 
 // Calls work(block, first, last) for each block. What it does must not depend on which thread it
@@ -23,11 +21,11 @@ constexpr std::size_t kPointsInBlock = 512;
 template <class Work>
 void for_blocks(std::size_t points, ProgressObserver* progress, const Work& work) {
   SharedProgress shared(progress, blocks_of(points));
-  tbb::parallel_for(std::size_t{0}, blocks_of(points), [&](std::size_t block) {
-    const std::size_t first = block * kPointsInBlock;
-    work(block, first, std::min(first + kPointsInBlock, points));
+  const auto do_block = [&](std::size_t block, std::size_t first, std::size_t last) {
+    work(block, first, last);
     shared.done();
-  });
+  };
+  parallel_tasks(points, kPointsInBlock, do_block);
 }
 
 }  // namespace meshrepair

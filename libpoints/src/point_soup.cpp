@@ -7,9 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include <tbb/parallel_sort.h>
-
 #include <base/error.h>
+#include <base/parallel.h>
 #include <points/point_soup.h>
 
 #include "agreed_triangles.h"
@@ -61,9 +60,8 @@ void require_points(const PointSoupReport& report) {
 // Counts the votes; keeps what has enough of them, as the corners turn.
 std::vector<VotedTriangle> count_votes(std::vector<StarTriangle> wanted, const SiftedCloud& cloud,
                                        const PointSoupOptions& options, PointSoupReport& report) {
-  tbb::parallel_sort(
-      wanted.begin(), wanted.end(),
-      [](const StarTriangle& a, const StarTriangle& b) { return a.corners < b.corners; });
+  parallel_sort(wanted.begin(), wanted.end(),
+                [](const StarTriangle& a, const StarTriangle& b) { return a.corners < b.corners; });
   std::vector<VotedTriangle> voted;
   for (std::size_t first = 0, last = 0; first < wanted.size(); first = last) {
     int turn = 0;

@@ -9,10 +9,9 @@
 #include <unistd.h>
 #include <vector>
 
-#include <tbb/global_control.h>
-
 #include <base/assert.h>
 #include <base/error.h>
+#include <base/parallel.h>
 
 #include "common/program.h"
 
@@ -29,9 +28,7 @@ ExitCode fail(const std::string& how) {
   if (how == "cancelled") throw Cancelled();
   if (how == "assert") MESHREPAIR_ASSERT(how.empty());
   if (how == "exception") throw std::runtime_error("first line\nsecond line");
-  if (how == "threads_gone") {
-    throw std::runtime_error("pthread_create has failed: Resource temporarily unavailable");
-  }
+  if (how == "threads_gone") throw OutOfThreads();
   if (how == "unknown") throw 1;
   return how == "not_certified" ? ExitCode::not_certified : ExitCode::done;
 }
@@ -89,11 +86,7 @@ ExitCode probe(const std::string& what, Run& run) {
     if (read(STDIN_FILENO, &byte, 1) < 0) throw InputError("standard input: interrupted");
     return ExitCode::done;
   }
-  if (what == "threads") {
-    const auto threads =
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    run.report.set_section("probe", {{"threads", threads}});
-  }
+  if (what == "threads") run.report.set_section("probe", {{"threads", most_threads()}});
   if (what == "print") std::puts("data");
   return fail(what);
 }

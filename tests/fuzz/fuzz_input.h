@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include <tbb/global_control.h>
+#include <base/parallel.h>
 
 namespace meshrepair::testing {
 
@@ -46,9 +46,6 @@ inline void require(bool holds, const std::string& what) {
 }
 
 // One thread: runs repeat themselves exactly, and many can share a machine. One in each target.
-struct OneThread {
-  tbb::global_control control{tbb::global_control::max_allowed_parallelism, 1};
-};
-inline const OneThread kOneThread;
+inline const ThreadLimit kOneThread(1);
 
 }  // namespace meshrepair::testing

@@ -2,9 +2,9 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <base/error.h>
+#include <base/parallel.h>
 #include <check/mesh_distance.h>
 #include <mesh/topology.h>
 #include <points/point_soup.h>
@@ -147,7 +147,7 @@ TEST(PointSoup, IsTheSameForAnyNumberOfThreads) {
   options.project = 1;
   std::vector<PointSoup> results;
   for (const std::size_t threads : {std::size_t{1}, std::size_t{4}}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     results.push_back(soup_of(cloud, options));
   }
   EXPECT_EQ(results[0].soup.points, results[1].soup.points);

@@ -4,9 +4,9 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <base/error.h>
+#include <base/parallel.h>
 #include <bsp/tree_io.h>
 #include <check/self_intersections.h>
 #include <repair/repair.h>
@@ -88,7 +88,7 @@ TEST_P(EverySoupInFloatingPoint, GivesTheSameMeshInStepsAndWithAnyThreads) {
       SCOPED_TRACE(seed);
       const TriangleSoup soup = GetParam().make(seed);
       const auto whole = repaired(soup, options);
-      const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+      const ThreadLimit one_thread(1);
       const auto again = repaired(soup, options);
       ASSERT_EQ(whole.has_value(), again.has_value());
       if (!whole) continue;

@@ -31,6 +31,13 @@ class LimitError : public Error {
   using Error::Error;
 };
 
+// Work on several threads needs one that the system does not give: for want of memory, or by a
+// limit of its own.
+class OutOfThreads : public LimitError {
+ public:
+  OutOfThreads() : LimitError("the system gives no further thread") {}
+};
+
 // The input was read, but no part of space is enclosed by it. Final.
 class NoSolidError : public Error {
  public:

@@ -16,8 +16,8 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <tbb/parallel_for.h>
 
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 
 namespace meshrepair::internal {
@@ -177,18 +177,20 @@ class Bounder {
 
  private:
   void examine_all(std::vector<Piece>& pieces) {
-    const std::size_t tasks = (pieces.size() + kPiecesPerTask - 1) / kPiecesPerTask;
-    std::vector<double> found(tasks, 0);
-    SharedProgress shared(&quiet_, tasks);
+    SharedProgress shared(&quiet_, tasks_of(pieces.size(), kPiecesPerTask));
     quiet_.observer = options_.progress;
-    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-      const std::size_t end = std::min(pieces.size(), (task + 1) * kPiecesPerTask);
-      for (std::size_t i = task * kPiecesPerTask; i < end; ++i) {
-        found[task] = std::max(found[task], examine(pieces[i], to_));
+    const auto largest_of = [&](std::size_t first, std::size_t last) {
+      double largest = 0;
+      for (std::size_t i = first; i < last; ++i) {
+        largest = std::max(largest, examine(pieces[i], to_));
       }
       shared.done();
-    });
-    for (const double distance : found) known_ = std::max(known_, distance);
+      return largest;
+    };
+    const double found =
+        parallel_reduce(pieces.size(), kPiecesPerTask, largest_of,
+                        [](double& all, double part) { all = std::max(all, part); });
+    known_ = std::max(known_, found);
     examined_ += pieces.size();
     if (options_.progress != nullptr && options_.most_pieces > 0) {
       options_.progress->advance(std::min(

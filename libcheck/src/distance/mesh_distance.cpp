@@ -11,11 +11,11 @@
 #include <string>
 
 #include <Eigen/Geometry>
-#include <tbb/parallel_for.h>
 
 #include <base/error.h>
 #include <base/hash_index.h>
 #include <base/ids.h>
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/mesh_distance.h>
 
@@ -194,16 +194,14 @@ class OneWay {
     OneSidedDistance distance;
     distance.samples = from_.area_up_to.back() > 0 ? options_.samples : 0;
     const std::size_t points = distance.samples + from_.corners.size();
-    const std::size_t tasks = (points + kPointsPerTask - 1) / kPointsPerTask;
-    std::vector<Sums> sums(tasks);
-    SharedProgress progress(options_.progress, tasks);
-    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-      const std::size_t end = std::min(points, (task + 1) * kPointsPerTask);
-      sums[task] = measure(task * kPointsPerTask, end, distance.samples);
+    SharedProgress progress(options_.progress, tasks_of(points, kPointsPerTask));
+    const auto sums_of = [&](std::size_t first, std::size_t last) {
+      const Sums sums = measure(first, last, distance.samples);
       progress.done();
-    });
-    Sums all;
-    for (const Sums& part : sums) all.add(part);
+      return sums;
+    };
+    const Sums all = parallel_reduce(points, kPointsPerTask, sums_of,
+                                     [](Sums& sums, const Sums& part) { sums.add(part); });
     if (distance.samples > 0) {
       distance.mean = all.sum / static_cast<double>(distance.samples);
       distance.rms = std::sqrt(all.squares / static_cast<double>(distance.samples));

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include <tbb/parallel_for.h>
-
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/triangle_pair.h>
@@ -122,23 +121,23 @@ SelfIntersections compare_with(const SoupCorners& corners, const TriangleList& l
   std::vector<char> is_listed(soup.triangles.size(), 0);
   for (const std::uint32_t id : list.ids()) is_listed[id] = 1;
   const std::size_t count = soup.triangles.size();
-  const std::size_t tasks = (count + kLookUpsPerTask - 1) / kLookUpsPerTask;
+  const std::size_t tasks = tasks_of(count, kLookUpsPerTask);
   std::vector<Findings> findings(tasks, Findings(options.most_pairs));
   SharedProgress progress(options.progress, tasks);
-  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-    LookUp look_up(sorted, options.nearness, progress, findings[task]);
-    const std::size_t end = std::min(count, (task + 1) * kLookUpsPerTask);
-    for (std::size_t t = task * kLookUpsPerTask; t < end; ++t) {
-      const auto id = static_cast<std::uint32_t>(t);
-      Box box = box_of(soup, id);
-      box.widen(options.nearness);
-      if (!look_up.may_meet_any(box)) continue;
-      CornerTriangle triangle;
-      if (corners.fetch(id, triangle) != Fetched::usable) continue;
-      look_up.run(id, triangle, box, is_listed[t] != 0);
-    }
-    progress.done();
-  });
+  parallel_tasks(count, kLookUpsPerTask,
+                 [&](std::size_t task, std::size_t first, std::size_t last) {
+                   LookUp look_up(sorted, options.nearness, progress, findings[task]);
+                   for (std::size_t t = first; t < last; ++t) {
+                     const auto id = static_cast<std::uint32_t>(t);
+                     Box box = box_of(soup, id);
+                     box.widen(options.nearness);
+                     if (!look_up.may_meet_any(box)) continue;
+                     CornerTriangle triangle;
+                     if (corners.fetch(id, triangle) != Fetched::usable) continue;
+                     look_up.run(id, triangle, box, is_listed[t] != 0);
+                   }
+                   progress.done();
+                 });
   return gather(findings, options.most_pairs);
 }
 

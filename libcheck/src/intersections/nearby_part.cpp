@@ -4,9 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include <tbb/parallel_for.h>
-
 #include <base/ids.h>
+#include <base/parallel.h>
 #include <check/triangle_list.h>
 
 namespace meshrepair::internal {
@@ -38,23 +37,23 @@ TriangleSoup part_of(const TriangleSoup& soup, std::span<const std::uint32_t> tr
 std::vector<std::uint32_t> triangles_near(const TriangleSoup& soup, std::span<const Box> boxes,
                                           double reach) {
   const BoxTree tree(boxes);
-  const std::size_t count = soup.triangles.size();
-  std::vector<std::vector<std::uint32_t>> found((count + kBoxesPerTask - 1) / kBoxesPerTask);
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t task) {
-    const std::size_t end = std::min(count, (task + 1) * kBoxesPerTask);
-    for (std::size_t t = task * kBoxesPerTask; t < end; ++t) {
+  const auto find = [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> near;
+    for (std::size_t t = first; t < last; ++t) {
       const auto id = static_cast<std::uint32_t>(t);
       Box box = box_of(soup, id);
       box.widen(reach);
       bool is_near = false;
       tree.visit([&](const Box& other) { return !is_near && other.meets(box); },
                  [&](std::uint32_t i) { is_near = is_near || boxes[i].meets(box); });
-      if (is_near) found[task].push_back(id);
+      if (is_near) near.push_back(id);
     }
-  });
-  std::vector<std::uint32_t> near;
-  for (const auto& ids : found) near.insert(near.end(), ids.begin(), ids.end());
-  return near;
+    return near;
+  };
+  return parallel_reduce(soup.triangles.size(), kBoxesPerTask, find,
+                         [](std::vector<std::uint32_t>& all, std::vector<std::uint32_t> part) {
+                           all.insert(all.end(), part.begin(), part.end());
+                         });
 }
 
 NearbyPart nearby_part(const TriangleSoup& soup, std::span<const std::uint32_t> among,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include <tbb/parallel_for.h>
+#include <base/parallel.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -142,7 +142,7 @@ void compare(const SortedTriangles& sorted, const SelfIntersectionOptions& optio
   findings.resize(before + tasks.size(), Findings(options.most_pairs));
   SharedProgress progress(options.progress, tasks.size());
   std::atomic<bool> enough = false;
-  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+  parallel_for(tasks.size(), [&](std::size_t i) {
     if (!enough) TreeComparison(sorted, progress, findings[before + i]).run(tasks[i]);
     if (options.only_whether && findings[before + i].any()) enough = true;
     progress.done();

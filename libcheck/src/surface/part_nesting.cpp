@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
-
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/triangle_list.h>
@@ -113,12 +112,12 @@ std::vector<std::uint32_t> nesting_depths(const TriangleSoup& soup,
   if (parts < 2) return depths;
   const RayCaster caster(soup, part_of, parts);
   const std::size_t count = soup.triangles.size();
-  const std::size_t tasks = (count + kTrianglesPerTask - 1) / kTrianglesPerTask;
+  const std::size_t tasks = tasks_of(count, kTrianglesPerTask);
   SharedProgress shared(progress, tasks);
   std::vector<Passing> all;
   for (std::size_t first = 0; first < tasks; first += kTasksAtOnce) {
     std::vector<std::vector<Passing>> passings(std::min(kTasksAtOnce, tasks - first));
-    tbb::parallel_for(std::size_t{0}, passings.size(), [&](std::size_t i) {
+    parallel_for(passings.size(), [&](std::size_t i) {
       const std::size_t begin = (first + i) * kTrianglesPerTask;
       passings[i] = caster.find_passings(begin, std::min(count, begin + kTrianglesPerTask));
       shared.done();

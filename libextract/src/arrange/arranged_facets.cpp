@@ -12,8 +12,7 @@
 #include <atomic>
 #include <numeric>
 
-#include <tbb/parallel_for.h>
-
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 
 #include "cut_lines.h"
@@ -124,25 +123,18 @@ class FacetArranger {
   // Calls do_one(number, task) for all numbers below `count`, those of a task in order.
   template <class DoOne>
   void for_all(std::size_t count, DoOne do_one) {
-    const std::size_t tasks = tasks_of(count);
-    SharedProgress shared(&quiet_, tasks);
-    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-      const std::size_t end = std::min(count, (task + 1) * kTrianglesPerTask);
-      for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) {
-        do_one(static_cast<std::uint32_t>(i), task);
-      }
+    SharedProgress shared(&quiet_, tasks_of(count, kTrianglesPerTask));
+    const auto do_task = [&](std::size_t task, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) do_one(static_cast<std::uint32_t>(i), task);
       shared.done();
-    });
-  }
-
-  static std::size_t tasks_of(std::size_t count) {
-    return (count + kTrianglesPerTask - 1) / kTrianglesPerTask;
+    };
+    parallel_tasks(count, kTrianglesPerTask, do_task);
   }
 
   // Its ends are not among them.
   void sort_edges() {
     edge_points_.resize(cut_.edges());
-    same_.resize(tasks_of(cut_.edges()));
+    same_.resize(tasks_of(cut_.edges(), kTrianglesPerTask));
     for_all(cut_.edges(), [&](std::uint32_t e, std::size_t task) {
       const auto points = on_edges_.of(e);
       if (points.empty()) return;
@@ -189,7 +181,7 @@ class FacetArranger {
   // From their ends on.
   void sort_lines() {
     line_points_.resize(cut_.size());
-    same_.assign(tasks_of(cut_.size()), {});
+    same_.assign(tasks_of(cut_.size(), kTrianglesPerTask), {});
     for_all(cut_.size(), [&](std::uint32_t t, std::size_t task) {
       sort_lines_of(t, same_[task]);
       lines_[t].points = {};

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
 #include <base/assert.h>
 #include <base/ids.h>
+#include <base/parallel.h>
 #include <exact/predicates.h>
 
 namespace meshrepair::internal {
@@ -70,8 +69,7 @@ ArrangedPoints::ArrangedPoints(const CutSet& cut, std::vector<PointName> names)
   std::sort(names_.begin(), names_.end());
   names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
   points_.resize(names_.size());
-  tbb::parallel_for(std::size_t{0}, names_.size(),
-                    [&](std::size_t i) { points_[i] = meet_of(names_[i]); });
+  parallel_for(names_.size(), [&](std::size_t i) { points_[i] = meet_of(names_[i]); });
 }
 
 void ArrangedPoints::add_triples(std::vector<TripleName> names) {
@@ -79,7 +77,7 @@ void ArrangedPoints::add_triples(std::vector<TripleName> names) {
   std::sort(triples_.begin(), triples_.end());
   triples_.erase(std::unique(triples_.begin(), triples_.end()), triples_.end());
   points_.resize(names_.size() + triples_.size());
-  tbb::parallel_for(std::size_t{0}, triples_.size(), [&](std::size_t i) {
+  parallel_for(triples_.size(), [&](std::size_t i) {
     const auto& [a, b, c] = triples_[i];
     points_[names_.size() + i] =
         meet(cut_.planes(), cut_.plane(a), cut_.plane(b), cut_.plane(c), {});

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
-
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 
 #include "meeting_places.h"
@@ -102,26 +101,23 @@ void append(std::vector<Item>& to, const std::vector<Item>& from) {
 
 MeetingRecords record_meetings(const CutSet& cut, std::span<const CutSet::Pair> pairs,
                                ProgressObserver* progress) {
-  const std::size_t tasks = (pairs.size() + kPairsPerTask - 1) / kPairsPerTask;
-  std::vector<MeetingRecords> parts(tasks);
   CancelOnly quiet(progress);
-  SharedProgress shared(&quiet, tasks);
-  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-    MeetingRecorder recorder(cut, parts[task]);
-    const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsPerTask);
-    for (std::size_t i = task * kPairsPerTask; i < end; ++i) {
+  SharedProgress shared(&quiet, tasks_of(pairs.size(), kPairsPerTask));
+  const auto records_of = [&](std::size_t first, std::size_t last) {
+    MeetingRecords records;
+    MeetingRecorder recorder(cut, records);
+    for (std::size_t i = first; i < last; ++i) {
       recorder.add(cut.number_of(pairs[i][0]), cut.number_of(pairs[i][1]));
     }
     shared.done();
-  });
-  MeetingRecords all;
-  for (MeetingRecords& part : parts) {
-    append(all.segments, part.segments);
-    append(all.on_edges, part.on_edges);
-    append(all.contacts, part.contacts);
-    part = {};
-  }
-  return all;
+    return records;
+  };
+  return parallel_reduce(pairs.size(), kPairsPerTask, records_of,
+                         [](MeetingRecords& all, const MeetingRecords& part) {
+                           append(all.segments, part.segments);
+                           append(all.on_edges, part.on_edges);
+                           append(all.contacts, part.contacts);
+                         });
 }
 
 }  // namespace meshrepair::internal

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
-
 #include <base/ids.h>
+#include <base/parallel.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -108,8 +107,7 @@ SheetEdges::SheetEdges(const CutSet& cut, const ArrangedPoints& points, const Sh
     }
   }
   on_previous_.assign(slots_.size(), 0);
-  tbb::parallel_for(std::size_t{0}, crowded.size(),
-                    [&](std::size_t i) { sort_around(crowded[i]); });
+  parallel_for(crowded.size(), [&](std::size_t i) { sort_around(crowded[i]); });
 }
 
 void SheetEdges::sort_around(std::size_t edge) {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <tbb/parallel_for.h>
 
 #include <base/disjoint_sets.h>
 #include <base/error.h>
+#include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <mesh/edge_table.h>
 #include <repair/hole_patches.h>
@@ -156,7 +156,7 @@ class HolePatcher {
     too_large_.assign(rims_.size(), 0);
     closed_.assign(rims_.size(), 0);
     SharedProgress shared(progress_, rims_.size());
-    tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
+    parallel_for(rims_.size(), [&](std::size_t l) {
       LoopTriangulationOptions options;
       options.most_edges = options_.most_edges;
       options.poll = [&shared] { shared.poll(); };
@@ -281,7 +281,7 @@ class HolePatcher {
     const std::vector<char> too_large = find_large(kLargestCurved, kLargestCurved);
     const std::vector<internal::Collar> collars = internal::find_collars(soup_, triangles_, loops_);
     SharedProgress shared(progress_, rims_.size());
-    tbb::parallel_for(std::size_t{0}, rims_.size(), [&](std::size_t l) {
+    parallel_for(rims_.size(), [&](std::size_t l) {
       if (closed_[l] == 0 && is_patched(l) && too_large[l] == 0) {
         curved_[l] =
             internal::curve_patch(rims_[l], patches_[l], collars[l], [&] { shared.poll(); });

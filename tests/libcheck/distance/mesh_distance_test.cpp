@@ -2,9 +2,9 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <base/error.h>
+#include <base/parallel.h>
 #include <check/mesh_distance.h>
 
 #include "distance/nearest_triangle.h"
@@ -133,7 +133,7 @@ TEST(MeshDistance, SeedAndThreadsDecideEverything) {
   DistanceOptions options = with_bound(30000);
   const MeshDistance parallel = mesh_distance(a, b, options);
   {
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const ThreadLimit one(1);
     const MeshDistance serial = mesh_distance(a, b, options);
     EXPECT_EQ(parallel.forth.mean, serial.forth.mean);
     EXPECT_EQ(parallel.back.rms, serial.back.rms);

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <base/error.h>
+#include <base/parallel.h>
 #include <check/self_intersections.h>
 
 #include "shapes.h"
@@ -324,7 +324,7 @@ TEST(SelfIntersections, AmongAListAreThoseThatInvolveIt) {
 TEST(SelfIntersections, ThreadsDoNotMatter) {
   const TriangleSoup soup = testing::noisy_sphere(20000, 0.02, 1);
   const SelfIntersections parallel = self_intersections(soup);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const ThreadLimit one(1);
   const SelfIntersections serial = self_intersections(soup);
   EXPECT_EQ(parallel.pairs, serial.pairs);
   EXPECT_EQ(parallel.count, serial.count);

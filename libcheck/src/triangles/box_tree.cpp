@@ -1,7 +1,6 @@
 #include <algorithm>
 
-#include <tbb/parallel_invoke.h>
-
+#include <base/parallel.h>
 #include <check/box_tree.h>
 
 namespace meshrepair {
@@ -44,7 +43,7 @@ class TreeBuilder {
     const auto build_left = [&] { build(node + 1, first, left_count); };
     const auto build_right = [&] { build(right, first + left_count, count - left_count); };
     if (count >= kParallelItems) {
-      tbb::parallel_invoke(build_left, build_right);
+      parallel_invoke(build_left, build_right);
     } else {
       build_left();
       build_right();
