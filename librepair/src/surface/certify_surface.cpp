@@ -66,10 +66,11 @@ Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplif
   if (original) std::swap(surface, *original);
   Certification certification(std::move(surface), grid, certify, options.progress, report);
   if (certification.may_settle()) {
-    if (original) {
-      settle_and_simplify(*original, simplifier, certification);
-    } else {
-      certification.settle();
+    certification.settle();
+    // Points that are gone by then may be what the others were decided with.
+    if (original && certification.may_settle()) {
+      certification.mend_in_place();
+      if (certification.may_settle()) settle_and_simplify(*original, simplifier, certification);
     }
   }
   certification.mend_in_place();
