@@ -50,6 +50,10 @@ class TriangleList {
   [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
   // Their numbers in the soup.
   [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
+  // Afterwards the list has none.
+  [[nodiscard]] std::vector<CornerTriangle> take_triangles() { return std::move(triangles_); }
+  [[nodiscard]] std::vector<Box> take_boxes() { return std::move(boxes_); }
+  [[nodiscard]] std::vector<std::uint32_t> take_ids() { return std::move(ids_); }
   [[nodiscard]] std::size_t degenerate() const { return degenerate_; }
   [[nodiscard]] std::size_t not_finite() const { return not_finite_; }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <base/parallel.h>
 #include <base/shared_progress.h>
@@ -80,9 +81,26 @@ void compare_around_hub(const Group& group, std::uint32_t hub,
   });
 }
 
+// Unless enough has been found.
+void compare_around_hubs(std::span<const CornerTriangle> triangles,
+                         std::span<const std::uint32_t> ids, const std::vector<std::uint32_t>& hubs,
+                         const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
+  const bool any =
+      std::any_of(findings.begin(), findings.end(), [](const Findings& f) { return f.any(); });
+  if (options.only_whether && any) return;
+  CancelOnly quiet(options.progress);
+  SelfIntersectionOptions around_hubs = options;
+  around_hubs.progress = &quiet;
+  visit_groups(triangles, ids, hubs, [&](std::uint32_t hub, const Group& group) {
+    compare_around_hub(group, hub, around_hubs, findings);
+  });
+}
+
 }  // namespace
 
-SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOptions& options) {
+SelfIntersections compare_all(const SoupCorners& corners, const SelfIntersectionOptions& options) {
+  TriangleList list(corners);
+  const std::size_t degenerate = list.degenerate(), not_finite = list.not_finite();
   const BoxTree tree(list.boxes());
   const std::vector<std::uint32_t> hubs = find_hubs(list.triangles());
   std::vector<Findings> findings;
@@ -95,21 +113,17 @@ SelfIntersections compare_all(const TriangleList& list, const SelfIntersectionOp
     for (const auto& [a, b, meeting] : *in_space) {
       findings.back().add(list.ids()[a], list.ids()[b], meeting);
     }
+    compare_around_hubs(list.triangles(), list.ids(), hubs, options, findings);
   } else {
-    SortedTriangles sorted(list, tree);
+    SortedTriangles sorted(std::move(list), tree);
     sorted.leave_out_hubs(hubs);
     compare(sorted, options, findings);
+    compare_around_hubs(sorted.triangles, sorted.ids, sorted.hub, options, findings);
   }
-  const bool any =
-      std::any_of(findings.begin(), findings.end(), [](const Findings& f) { return f.any(); });
-  if (options.only_whether && any) return gather(findings, options.most_pairs);
-  CancelOnly quiet(options.progress);
-  SelfIntersectionOptions around_hubs = options;
-  around_hubs.progress = &quiet;
-  visit_groups(list.triangles(), list.ids(), hubs, [&](std::uint32_t hub, const Group& group) {
-    compare_around_hub(group, hub, around_hubs, findings);
-  });
-  return gather(findings, options.most_pairs);
+  SelfIntersections result = gather(findings, options.most_pairs);
+  result.degenerate = degenerate;
+  result.not_finite = not_finite;
+  return result;
 }
 
 SelfIntersections compare_with(const SoupCorners& corners, const TriangleList& list,

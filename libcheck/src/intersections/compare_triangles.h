@@ -13,8 +13,8 @@
 
 namespace meshrepair::internal {
 
-// The list has all triangles of the soup.
-[[nodiscard]] SelfIntersections compare_all(const TriangleList& list,
+// All triangles; counts those that were left out, too.
+[[nodiscard]] SelfIntersections compare_all(const SoupCorners& corners,
                                             const SelfIntersectionOptions& options);
 
 // Those on the list with all of the soup.

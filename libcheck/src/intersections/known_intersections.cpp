@@ -38,15 +38,6 @@ std::vector<IndexTriangle> places_of(const SoupCorners& corners) {
   return triangles;
 }
 
-SelfIntersections compare_whole(const SoupCorners& corners,
-                                const SelfIntersectionOptions& options) {
-  const TriangleList list(corners);
-  SelfIntersections result = compare_all(list, options);
-  result.degenerate = list.degenerate();
-  result.not_finite = list.not_finite();
-  return result;
-}
-
 // Of each triangle whether it is to be compared again, even if it stays. If not all pairs are
 // listed, every one is.
 std::vector<char> find_doubtful(const SoupCorners& corners, const SelfIntersections& found) {
@@ -77,7 +68,7 @@ SelfIntersections KnownIntersections::find(const TriangleSoup& mesh) {
   const std::vector<std::uint32_t> fresh = find_fresh(triangles);
   const bool few = fresh.size() <= triangles.size() / kFew;
   SelfIntersections found =
-      few ? compare_nearby(mesh, fresh, options_) : compare_whole(corners, options_);
+      few ? compare_nearby(mesh, fresh, options_) : compare_all(corners, options_);
   add_crossing_sheets(corners, {}, options_, found);
   remember(triangles, find_doubtful(corners, found));
   return found;

@@ -24,12 +24,9 @@ SelfIntersections with_those(const TriangleSoup& soup, std::span<const std::uint
 SelfIntersections self_intersections(const TriangleSoup& soup,
                                      const SelfIntersectionOptions& options) {
   const internal::SoupCorners corners(soup, options.weld);
-  const internal::TriangleList list(corners);
-  SelfIntersections result = internal::compare_all(list, options);
+  SelfIntersections result = internal::compare_all(corners, options);
   const bool is_enough = options.only_whether && result.count > 0;
   if (options.weld && !is_enough) internal::add_crossing_sheets(corners, {}, options, result);
-  result.degenerate = list.degenerate();
-  result.not_finite = list.not_finite();
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include <base/parallel.h>
 
@@ -104,6 +105,18 @@ class TreeComparison {
   std::size_t steps_ = 0;
 };
 
+// Brings item order[i] to place i, by swap(place, other place) along each cycle.
+template <class Swap>
+void sort_in_place(std::span<const std::uint32_t> order, const Swap& swap) {
+  std::vector<char> is_done(order.size(), 0);
+  for (std::uint32_t start = 0; start < order.size(); ++start) {
+    for (std::uint32_t i = start; is_done[i] == 0; i = order[i]) {
+      is_done[i] = 1;
+      if (order[i] != start) swap(i, order[i]);
+    }
+  }
+}
+
 }  // namespace
 
 SortedTriangles::SortedTriangles(std::span<const CornerTriangle> given,
@@ -119,6 +132,19 @@ SortedTriangles::SortedTriangles(std::span<const CornerTriangle> given,
     ids.push_back(given_ids[item]);
   }
 }
+
+SortedTriangles::SortedTriangles(TriangleList&& list, const BoxTree& box_tree)
+    : tree(box_tree),
+      triangles(list.take_triangles()),
+      boxes(list.take_boxes()),
+      ids(list.take_ids()) {
+  sort_in_place(tree.order(), [&](std::uint32_t to, std::uint32_t from) {
+    std::swap(triangles[to], triangles[from]);
+    std::swap(boxes[to], boxes[from]);
+    std::swap(ids[to], ids[from]);
+  });
+}
+
 void SortedTriangles::leave_out_hubs(const std::vector<std::uint32_t>& hubs) {
   for (const std::uint32_t item : tree.order()) hub.push_back(hubs[item]);
   node_hub.assign(tree.nodes().size(), internal::kNoHub);

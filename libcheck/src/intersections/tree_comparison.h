@@ -29,6 +29,8 @@ struct SortedTriangles {
                   std::span<const std::uint32_t> given_ids, const BoxTree& box_tree);
   SortedTriangles(const TriangleList& list, const BoxTree& box_tree)
       : SortedTriangles(list.triangles(), list.boxes(), list.ids(), box_tree) {}
+  // Takes them out of the list, so that they are never there twice.
+  SortedTriangles(TriangleList&& list, const BoxTree& box_tree);
 
   // Leaves out pairs of triangles with the same hub. `hubs` are those of the triangles as given.
   void leave_out_hubs(const std::vector<std::uint32_t>& hubs);
