@@ -23,7 +23,8 @@ struct Neighbourhoods {
   }
 };
 
-// At most this many, or as many others as there are. Parallel. Throws Cancelled.
+// At most this many, or as many others as there are; `index` is that of the points. Parallel.
+// Throws Cancelled.
 [[nodiscard]] Neighbourhoods find_neighbourhoods(const PointIndex& index,
                                                  const std::vector<Vec3d>& points,
                                                  std::size_t count, ProgressObserver* progress);

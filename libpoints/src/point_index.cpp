@@ -3,12 +3,66 @@
 #include <limits>
 #include <nanoflann.hpp>
 
+#include <Eigen/Geometry>
+
+#include <base/parallel.h>
+
 namespace meshrepair {
 namespace {
 
-// The points as nanoflann wants to see them.
+// 21 bits of each coordinate in its share of the box, taken by turns: the points along a Z-shaped
+// curve (G. M. Morton, 1966).
+std::uint64_t place_on_curve(const Vec3d& share) {
+  constexpr double kSteps = 0x1p21 - 1;
+  std::uint64_t place = 0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    auto bits = static_cast<std::uint64_t>(share[k] * kSteps);
+    bits = (bits | bits << 32) & 0x1F00000000FFFFu;
+    bits = (bits | bits << 16) & 0x1F0000FF0000FFu;
+    bits = (bits | bits << 8) & 0x100F00F00F00F00Fu;
+    bits = (bits | bits << 4) & 0x10C30C30C30C30C3u;
+    bits = (bits | bits << 2) & 0x1249249249249249u;
+    place |= bits << k;
+  }
+  return place;
+}
+
+Eigen::AlignedBox3d box_of(const std::vector<Vec3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3d& p : points) box.extend(p);
+  return box;
+}
+
+std::vector<std::uint32_t> order_along_curve(const std::vector<Vec3d>& points) {
+  struct Entry {
+    std::uint64_t place;
+    std::uint32_t point;
+  };
+  const Eigen::AlignedBox3d box = box_of(points);
+  // A box without extent has one place for all.
+  const Vec3d extent = box.sizes().cwiseMax(std::numeric_limits<double>::min());
+  std::vector<Entry> entries(points.size());
+  parallel_for(points.size(), [&](std::size_t p) {
+    const Vec3d share = (points[p] - box.min()).cwiseQuotient(extent);
+    entries[p] = {place_on_curve(share), static_cast<std::uint32_t>(p)};
+  });
+  parallel_sort(entries.begin(), entries.end(),
+                [](const Entry& a, const Entry& b) { return a.place < b.place; });
+  std::vector<std::uint32_t> order;
+  order.reserve(entries.size());
+  for (const Entry& entry : entries) order.push_back(entry.point);
+  return order;
+}
+
+// The points as nanoflann wants to see them, along the curve.
 struct Points {
-  const std::vector<Vec3d>& points;
+  explicit Points(const std::vector<Vec3d>& all) : order(order_along_curve(all)) {
+    points.reserve(all.size());
+    for (const std::uint32_t p : order) points.push_back(all[p]);
+  }
+
+  std::vector<std::uint32_t> order;  // which of all each is
+  std::vector<Vec3d> points;
 
   // NOLINTBEGIN(readability-identifier-naming): names that the library prescribes
   [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
@@ -27,7 +81,8 @@ class NearestSet {
  public:
   using DistanceType = double;
 
-  explicit NearestSet(std::span<Neighbour> room) : room_(room) {}
+  NearestSet(std::span<const std::uint32_t> order, std::span<Neighbour> room)
+      : order_(order), room_(room) {}
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool full() const { return size_ == room_.size(); }
@@ -35,7 +90,7 @@ class NearestSet {
     return full() ? room_.back().distance : std::numeric_limits<double>::max();
   }
   bool addPoint(double distance, std::uint32_t point) {  // NOLINT(readability-identifier-naming)
-    const Neighbour added = {distance, point};
+    const Neighbour added = {distance, order_[point]};
     if (full() && !(added < room_.back())) return true;
     std::size_t at = full() ? size_ - 1 : size_++;
     for (; at > 0 && added < room_[at - 1]; --at) room_[at] = room_[at - 1];
@@ -44,6 +99,7 @@ class NearestSet {
   }
 
  private:
+  std::span<const std::uint32_t> order_;
   std::span<Neighbour> room_;
   std::size_t size_ = 0;
 };
@@ -54,7 +110,7 @@ using KdTree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Points, 3, std::uint3
 }  // namespace
 
 struct PointIndex::Tree {
-  explicit Tree(const std::vector<Vec3d>& all) : points{all}, index(3, points) {
+  explicit Tree(const std::vector<Vec3d>& all) : points(all), index(3, points) {
     index.buildIndex();
   }
 
@@ -68,9 +124,11 @@ PointIndex::~PointIndex() = default;
 
 std::size_t PointIndex::nearest(const Vec3d& at, std::span<Neighbour> out) const {
   if (out.empty() || tree_->points.points.empty()) return 0;
-  NearestSet found(out);
+  NearestSet found(tree_->points.order, out);
   tree_->index.findNeighbors(found, at.data(), nanoflann::SearchParams());
   return found.size();
 }
+
+std::span<const std::uint32_t> PointIndex::order() const { return tree_->points.order; }
 
 }  // namespace meshrepair

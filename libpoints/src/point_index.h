@@ -23,7 +23,8 @@ struct Neighbour {
 
 class PointIndex {
  public:
-  // Keeps a reference to the points, which are finite and small enough for their squared distances.
+  // The points are finite and small enough for their squared distances. It has a copy of them, in
+  // an order in which near ones lie together: looking up does not wait for memory then.
   explicit PointIndex(const std::vector<Vec3d>& points);
   PointIndex(const PointIndex&) = delete;
   PointIndex& operator=(const PointIndex&) = delete;
@@ -32,6 +33,9 @@ class PointIndex {
   // Fills the front of `out` with the points nearest to `at`, in order, and returns how many there
   // are: as many as `out` has room for, or all.
   std::size_t nearest(const Vec3d& at, std::span<Neighbour> out) const;
+
+  // All points, those near to each other one after the other: to look up many, best in this order.
+  [[nodiscard]] std::span<const std::uint32_t> order() const;
 
  private:
   struct Tree;

@@ -173,8 +173,8 @@ std::vector<StarTriangle> build_stars(const SiftedCloud& cloud,
              [&](std::size_t block, std::size_t first, std::size_t last) {
                StarBuilder builder(cloud, planes, index, options);
                blocks[block].reserve(7 * (last - first));  // six on average
-               for (std::size_t p = first; p < last; ++p) {
-                 builder.build(static_cast<std::uint32_t>(p), blocks[block]);
+               for (std::size_t i = first; i < last; ++i) {
+                 builder.build(index.order()[i], blocks[block]);
                }
              });
   std::vector<StarTriangle> all;
