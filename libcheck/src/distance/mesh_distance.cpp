@@ -55,12 +55,17 @@ struct FiniteMesh {
     }
     return most;
   }
-  [[nodiscard]] double diagonal() const {
-    const Vec3d low(box.low[0], box.low[1], box.low[2]);
-    const Vec3d high(box.high[0], box.high[1], box.high[2]);
-    return (high - low).norm();
-  }
 };
+
+double diagonal_of(const Box& box) {
+  const Vec3d low(box.low[0], box.low[1], box.low[2]);
+  const Vec3d high(box.high[0], box.high[1], box.high[2]);
+  return (high - low).norm();
+}
+
+void require_finite(const Box& box, const std::string& name) {
+  if (box.low[0] > box.high[0]) throw InputError(name + ": no triangle has finite coordinates");
+}
 
 FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
   FiniteMesh mesh;
@@ -84,7 +89,7 @@ FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
     mesh.triangles.push_back(corners);
     mesh.area_up_to.push_back(area);
   }
-  if (mesh.triangles.empty()) throw InputError(name + ": no triangle has finite coordinates");
+  require_finite(mesh.box, name);
   return mesh;
 }
 
@@ -297,7 +302,7 @@ MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second
   MeshDistance distance;
   distance.forth = distance_between(a, b, options);
   distance.back = distance_between(b, a, options);
-  distance.diagonal = a.diagonal();
+  distance.diagonal = diagonal_of(a.box);
   distance.not_finite = a.not_finite + b.not_finite;
   return distance;
 }
@@ -308,6 +313,17 @@ OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup
   return distance_between(finite_mesh(from, "A"), finite_mesh(to, "B"), options);
 }
 
-double bounding_diagonal(const TriangleSoup& soup) { return finite_mesh(soup, "A").diagonal(); }
+double bounding_diagonal(const TriangleSoup& soup) {
+  Box all;
+  for (const auto& t : soup.triangles) {
+    Box box;
+    for (const std::uint32_t p : t) box.add(soup.points[p]);
+    const bool is_finite = std::all_of(t.begin(), t.end(),
+                                       [&](std::uint32_t p) { return soup.points[p].allFinite(); });
+    if (is_finite) all.add(box);
+  }
+  require_finite(all, "A");
+  return diagonal_of(all);
+}
 
 }  // namespace meshrepair

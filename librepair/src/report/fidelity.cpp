@@ -89,6 +89,11 @@ OneSidedDistance measure(const TriangleSoup& from, const TriangleSoup& to,
   return one_sided_distance(from, to, options);
 }
 
+// Bit for bit.
+bool is_unchanged(const TriangleSoup& input, const TriangleSoup& mesh) {
+  return mesh.triangles == input.triangles && mesh.points == input.points;
+}
+
 }  // namespace
 
 std::size_t fidelity_samples(std::size_t triangles) {
@@ -101,6 +106,12 @@ Fidelity measure_fidelity(const TriangleSoup& input, const Surface& surface,
   fidelity.diagonal = bounding_diagonal(input);
   static_assert(Surface::kNoSource == kNone);
   fidelity.output_to_input = measure(surface.mesh, input, surface.source, options.progress, 0);
+  if (is_unchanged(input, surface.mesh)) {
+    fidelity.kept_triangles = input.triangles.size();
+    fidelity.kept_area = surface_area(input);
+    fidelity.kept_to_output = fidelity.output_to_input;
+    return fidelity;
+  }
   const std::vector<std::uint32_t> list =
       find_kept(input, surface, internal::number_spacing(surface.mesh, options.precision));
   fidelity.kept_triangles = list.size();
