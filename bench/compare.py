@@ -102,7 +102,7 @@ def command_line():
     add("--sizes", type=list_of(size_of), default=[10_000, 100_000], metavar="LIST", help="as 30k,1M [10k,100k]")
     add("--rounds", type=number, default=3, metavar="N", help="of which the best counts [%(default)s]")
     add("--threads", type=list_of(number_of), default=[1], metavar="LIST", help="as 1,2: each for ours; tells the speed-up, too [1]")
-    add("--timeout", type=seconds, default=600.0, metavar="SECONDS", help="of each run [600]")
+    add("--timeout", type=seconds, default=600.0, metavar="SECONDS", help="of each run, and of making an input [600]")
     add = parser.add_argument_group("what is told").add_argument
     add("--exponents", action="store_true", help="how CPU time and memory grow from size to size, and CPU time by stage")
     add("--output", metavar="FILE", help="write the tables there at the end, not to standard output")
@@ -170,7 +170,7 @@ class Comparison:
     def run_input(self, kind, size):
         """The size as the input has it, and the stages of the first program."""
         with tempfile.TemporaryDirectory(prefix="compare_") as work:
-            item = make_input(self.maker, kind, size, work)
+            item = make_input(self.maker, kind, size, work, self.options.timeout)
             rounds = Rounds(self.programs, self.judge, work, self.options)
             measured, calibration = rounds.measure(item, self.calibration)
             for each in measured:

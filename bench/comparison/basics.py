@@ -21,20 +21,23 @@ class Stop(Exception):
 
 
 class Interrupted(BaseException):
-    """By Ctrl-C or SIGTERM. No Exception, so that nobody takes it for a failure of his own."""
+    """By Ctrl-C, SIGTERM or SIGHUP. No Exception, so that nobody takes it for a failure of his own."""
 
     def __init__(self, number):
         super().__init__()
         self.code = 128 + number
 
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
 def stop_on_signals():
     """The first signal ends the script by way of all `with` and `finally`; later ones do not keep these from cleaning up."""
     def stop(number, _):
-        for each in (signal.SIGINT, signal.SIGTERM):
+        for each in SIGNALS:
             signal.signal(each, signal.SIG_IGN)
         raise Interrupted(number)
-    for each in (signal.SIGINT, signal.SIGTERM):
+    for each in SIGNALS:
         signal.signal(each, stop)
 
 

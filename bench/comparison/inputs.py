@@ -4,9 +4,9 @@ import dataclasses
 import hashlib
 import os
 import re
-import subprocess
 
 from .basics import USAGE, Stop
+from .measure import captured
 
 # The program make_models says more of each.
 KINDS = ("clean", "holes", "bumpy", "noisy", "cubes", "soup", "union", "cloud")
@@ -62,17 +62,16 @@ def digest_of(paths):
     return found.hexdigest()[:12]
 
 
-def make_input(maker, kind, size, folder):
+def make_input(maker, kind, size, folder, timeout):
     """Writes its files into the folder."""
     count = max(1, size // TRIANGLES_OF_A_CUBE) if kind == "cubes" else size
-    try:
-        done = subprocess.run([maker, folder, f"{kind}:{count}"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                              check=False)
-    except OSError as error:
-        raise Stop(USAGE, f"{maker}: cannot be started: {error.strerror}") from None
-    files = tuple(done.stdout.split("\n")[:-1])
-    if done.returncode != 0 or not files or not all(os.path.isfile(file) for file in files):
-        reason = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+    done = captured([maker, folder, f"{kind}:{count}"], timeout)
+    if done is None:
+        raise Stop(USAGE, f"{maker} did not make {kind}:{count} in time")
+    code, out, errors = done
+    files = tuple(out.split("\n")[:-1])
+    if code != 0 or not files or not all(os.path.isfile(file) for file in files):
+        reason = (errors.strip().splitlines() or [f"exit code {code}"])[-1]
         raise Stop(USAGE, f"{maker} did not make {kind}:{count}: {reason}")
     triangles = size if kind == "cloud" else sum(count_faces(file) or 0 for file in files)
     return Input(kind, size, files, triangles, digest_of(files))

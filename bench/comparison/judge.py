@@ -1,9 +1,8 @@
 """Whether a result is the boundary of a solid, as a checker says."""
 
 import json
-import subprocess
 
-from .basics import USAGE, Stop
+from .measure import captured
 
 YES, NO, NO_RESULT, UNJUDGED = "yes", "no", "no result", "?"
 ONE_MESH = ("clean", "holes", "bumpy", "noisy", "cubes", "soup")  # whose input the result can be held against
@@ -30,15 +29,9 @@ class Judge:
         return isinstance(check, dict) and check.get("valid_solid") is True
 
     def verdict(self, item, out):
-        command = self.command(item, out)
+        done = captured(self.command(item, out), self.timeout)
         try:
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=self.timeout, check=False)
-        except subprocess.TimeoutExpired:
-            return UNJUDGED
-        except OSError as error:
-            raise Stop(USAGE, f"{command[0]}: cannot be started: {error.strerror}") from None
-        try:
-            said = json.loads(done.stdout)
+            said = json.loads(done[1] if done else "")
         except ValueError:
             return UNJUDGED
         return YES if isinstance(said, dict) and self.accepted(said) else NO

@@ -79,3 +79,21 @@ def run(command, work, timeout, kind=""):
         wall = time.monotonic() - begin
         return Run(None if late else child.returncode, usage.ru_utime + usage.ru_stime, wall, peak_of(usage),
                    peak_of(usage) <= HIDDEN * own_peak, last_line(errors))
+
+
+def captured(command, timeout):
+    """The exit code and what it prints on standard output and standard error; None where time is over. Nothing of the group is
+    left."""
+    try:
+        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 start_new_session=True)
+    except OSError as error:
+        raise Stop(USAGE, f"{command[0]}: cannot be started: {error.strerror}") from None
+    try:
+        out, errors = child.communicate(timeout=timeout)
+    except subprocess.TimeoutExpired:
+        return None
+    finally:
+        kill(child.pid)
+        child.wait()
+    return child.returncode, out.decode("utf-8", "replace"), errors.decode("utf-8", "replace")

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 
 from .basics import USAGE, Stop, say
 from .inputs import count_faces, digest_of
@@ -56,7 +57,9 @@ class Rounds:
         self.out = os.path.join(work, "out.off")
 
     def remove_out(self):
-        if os.path.lexists(self.out):
+        if os.path.isdir(self.out) and not os.path.islink(self.out):
+            shutil.rmtree(self.out)
+        elif os.path.lexists(self.out):
             os.unlink(self.out)
 
     def run_once(self, measured):

@@ -114,6 +114,17 @@ class WithFalsePrograms(unittest.TestCase):
         self.assertNotIn("Traceback", errors)
         return child.returncode, out, errors
 
+    def assert_gone(self, pid):
+        """Or a zombie that nobody has waited for."""
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+                if pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z":
+                    time.sleep(0.01)
+                    continue
+            return
+        self.fail(f"process {pid} is still there")
+
     def compare(self, *arguments, kinds="clean", rounds=1):
         return self.run_script("--ours", self.ours, "--sizes", "1k", "--kinds", kinds, "--rounds", rounds, "-q", "--history", self.history,
                                *arguments)
@@ -176,6 +187,12 @@ class CommandLine(WithFalsePrograms):
         code, _, errors = self.compare("--make-models", self.folder / "maker")
         self.assertEqual(code, 2)
         self.assertIn("did not make clean:1000: maker: no input is called clean:1000", errors)
+
+    def test_inputs_that_take_too_long_are_told(self):
+        self.script("maker", "exec sleep 3600")
+        code, _, errors = self.compare("--make-models", self.folder / "maker", "--timeout", "0.5")
+        self.assertEqual(code, 2)
+        self.assertIn("did not make clean:1000 in time", errors)
 
 
 class Runs(WithFalsePrograms):
@@ -247,6 +264,10 @@ class Peers(WithFalsePrograms):
         row = self.row_of("exit 0")
         self.assertEqual((row["exit"], row["accepted"]), ("0", "no result"))
 
+    def test_a_peer_that_makes_a_folder_has_no_result(self):
+        row = self.row_of('mkdir "$2"; touch "$2/file"')
+        self.assertEqual((row["exit"], row["accepted"]), ("0", "no result"))
+
     def test_one_bad_result_of_several_is_not_accepted(self):
         row = self.row_of('if mkdir "$LOG.seen" 2>&-; then echo bad > "$2"; else cp "$1" "$2"; fi', rounds=2)
         self.assertEqual(row["accepted"], "no")
@@ -259,17 +280,6 @@ class Peers(WithFalsePrograms):
     def test_what_a_peer_leaves_running_is_killed(self):
         self.row_of('sleep 3600 & echo $! > "$LOG.pid"; cp "$1" "$2"')
         self.assert_gone(int((self.folder / "log.pid").read_text()))
-
-    def assert_gone(self, pid):
-        """Or a zombie that nobody has waited for."""
-        end = time.monotonic() + SECONDS
-        while time.monotonic() < end:
-            with contextlib.suppress(FileNotFoundError, ProcessLookupError):
-                if pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z":
-                    time.sleep(0.01)
-                    continue
-            return
-        self.fail(f"process {pid} is still there")
 
     def test_a_peer_says_which_kinds_it_does_not_do(self):
         self.assertIsNone(self.row_of('test "$COMPARE_KIND" = clean && exit 77'))
@@ -302,6 +312,12 @@ class Judges(WithFalsePrograms):
         self.assertEqual(self.verdict("exit 0"), "?")
         self.assertEqual(self.verdict("kill -9 $$"), "?")
 
+    def test_a_judge_without_end_is_killed_with_all_that_it_started(self):
+        judge = self.script("judge.sh", 'sleep 3600 & echo $! > "$LOG.pid"; wait')
+        _, out, _ = self.compare("--judge", judge, "--timeout", "0.5")
+        self.assertEqual(Table(out).rows[0]["accepted"], "?")
+        self.assert_gone(int((self.folder / "log.pid").read_text()))
+
     def test_a_judge_gets_the_input_where_it_is_one_mesh(self):
         yes = """echo '{"is_clean": true, "outward_oriented": true}'"""
         self.assertEqual(self.verdict(f'test "$2" = --against && test -f "$3" && {yes}'), "yes")
@@ -332,6 +348,9 @@ class Interruptions(WithFalsePrograms):
 
     def test_nothing_is_left_after_sigterm(self):
         self.assertEqual(self.interrupt(signal.SIGTERM), 143)
+
+    def test_nothing_is_left_when_the_terminal_is_closed(self):
+        self.assertEqual(self.interrupt(signal.SIGHUP), 129)
 
 
 class Inputs(unittest.TestCase):
@@ -578,7 +597,7 @@ class RealPrograms(unittest.TestCase):
                 found = set()
                 for number in range(2):
                     work = pathlib.Path(folder, f"{kind}{number}")
-                    found.add(inputs.make_input(str(PROGRAMS / "make_models"), kind, 600, str(work)).digest)
+                    found.add(inputs.make_input(str(PROGRAMS / "make_models"), kind, 600, str(work), 60).digest)
                     shutil.rmtree(work)
                 self.assertEqual(len(found), 1, kind)
 

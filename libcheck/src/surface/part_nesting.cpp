@@ -19,6 +19,7 @@ constexpr std::size_t kTrianglesPerTask = 16384;
 
 // After so many, what cancels out is dropped.
 constexpr std::size_t kTasksAtOnce = 64;
+constexpr std::size_t kPassingsAtOnce = 1 << 17;
 
 // That a ray from inside one part passes another one.
 struct Passing {
@@ -66,7 +67,12 @@ class RayCaster {
   // Of these triangles.
   [[nodiscard]] std::vector<Passing> find_passings(std::size_t first, std::size_t end) const {
     std::vector<Passing> passings;
+    std::size_t room = kPassingsAtOnce;
     for (std::size_t t = first; t < end; ++t) {
+      if (passings.size() >= room) {
+        keep_odd(passings);
+        room = std::max(room, 2 * passings.size());
+      }
       const std::uint32_t outer = part_of_[t];
       if (outer == kNoPart) continue;
       const auto& corners = soup_.triangles[t];

@@ -32,7 +32,7 @@ constexpr double kNearness = 0x1p-10;
 
 // Rounds in which as few points as may be are told to stay; and those after which all do.
 constexpr std::size_t kPatientRounds = 6;
-constexpr std::size_t kMostRounds = 16;
+constexpr std::size_t kMostRounds = 64;
 
 // More are found in the next round.
 constexpr std::size_t kMostPairs = 200'000;
