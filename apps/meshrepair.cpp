@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
                  "Mesh to repair: STL, OBJ, OFF or PLY; or points: XYZ, PTS, PWN, PCD,\n"
-                 "PLY or OBJ without faces; - is standard input")
+                 "PLY, OBJ or OFF without faces; - is standard input")
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();

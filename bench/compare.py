@@ -13,6 +13,10 @@ import re
 import sys
 import tempfile
 
+# As in scripts/repair_folder.py, where the reason stands: a disk that is full must not leave cut copies of the parts.
+sys.dont_write_bytecode = True
+sys.pycache_prefix = os.devnull
+
 from comparison import history, tables
 from comparison.basics import (DONE, FAILED, NAME, ROOT, USAGE, Interrupted, Stop, check_writable, commit, machine, say,
                                stop_on_signals)

@@ -16,7 +16,7 @@ Does at length what .ci/run does in a hurry, and prints how long each STEP took.
   fuzz      each fuzz target tries its stored inputs and 1,000 changes of them
   threads   the tests of the libraries under the thread sanitizer
 
-Takes some hours on two cores. Exit code 1 if anything failed.
+Structure and formatting are checked by .ci/run alone. Takes some hours on two cores. Exit code 1 if anything failed.
 TEXT
 }
 case "${1:-}" in -h | --help) usage; exit 0 ;; esac

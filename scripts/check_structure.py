@@ -10,7 +10,7 @@ directly in src is the library's own room, which may use all others. Fails where
   is a box of tools, all of which are for others);
 - a folder holds more than 15 sources;
 - a file other than the door to oneTBB, libbase/src/parallel.cpp, includes or names what is oneTBB's;
-- a source or a header is not where its name says, or its test stands in another room.
+- a test of a source of its name stands in another room.
 """
 
 import argparse

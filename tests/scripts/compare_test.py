@@ -13,6 +13,7 @@ import dataclasses
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -193,6 +194,24 @@ class CommandLine(WithFalsePrograms):
         code, _, errors = self.compare("--make-models", self.folder / "maker", "--timeout", "0.5")
         self.assertEqual(code, 2)
         self.assertIn("did not make clean:1000 in time", errors)
+
+
+class Caches(WithFalsePrograms):
+    """The compiled copies of its parts that Python keeps beside a script."""
+
+    def setUp(self):
+        super().setUp()
+        self.scripts = self.folder / "bench"
+        shutil.copytree(SCRIPT.parent / "comparison", self.scripts / "comparison", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(SCRIPT, self.scripts)
+
+    def test_a_first_start_on_a_full_disk_leaves_nothing(self):
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+        done = subprocess.run([sys.executable, self.scripts / SCRIPT.name, "--help"], env=environment, check=False,
+                              capture_output=True, timeout=SECONDS, preexec_fn=limit)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(list(self.scripts.rglob("*.pyc")), [])
 
 
 class Runs(WithFalsePrograms):
