@@ -201,7 +201,7 @@ class OneWay {
     const std::size_t points = distance.samples + from_.corners.size();
     SharedProgress progress(options_.progress, tasks_of(points, kPointsPerTask));
     const auto sums_of = [&](std::size_t first, std::size_t last) {
-      const Sums sums = measure(first, last, distance.samples);
+      Sums sums = measure(first, last, distance.samples);
       progress.done();
       return sums;
     };

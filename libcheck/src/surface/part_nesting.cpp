@@ -26,7 +26,12 @@ struct Passing {
   std::uint32_t inner;
   std::uint32_t outer;
 
-  auto operator<=>(const Passing&) const = default;
+  bool operator==(const Passing& other) const {
+    return inner == other.inner && outer == other.outer;
+  }
+  bool operator<(const Passing& other) const {
+    return inner != other.inner ? inner < other.inner : outer < other.outer;
+  }
 };
 
 // Sorts them, and leaves one of those that are there an odd number of times.

@@ -89,9 +89,12 @@ OneSidedDistance measure(const TriangleSoup& from, const TriangleSoup& to,
   return one_sided_distance(from, to, options);
 }
 
-// Bit for bit.
-bool is_unchanged(const TriangleSoup& input, const TriangleSoup& mesh) {
-  return mesh.triangles == input.triangles && mesh.points == input.points;
+// Bit for bit, and each triangle from the one in its place.
+bool is_unchanged(const TriangleSoup& input, const Surface& surface) {
+  for (std::uint32_t t = 0; t < surface.source.size(); ++t) {
+    if (surface.source[t] != t) return false;
+  }
+  return surface.mesh.triangles == input.triangles && surface.mesh.points == input.points;
 }
 
 }  // namespace
@@ -106,10 +109,11 @@ Fidelity measure_fidelity(const TriangleSoup& input, const Surface& surface,
   fidelity.diagonal = bounding_diagonal(input);
   static_assert(Surface::kNoSource == kNone);
   fidelity.output_to_input = measure(surface.mesh, input, surface.source, options.progress, 0);
-  if (is_unchanged(input, surface.mesh)) {
+  if (is_unchanged(input, surface)) {
     fidelity.kept_triangles = input.triangles.size();
     fidelity.kept_area = surface_area(input);
     fidelity.kept_to_output = fidelity.output_to_input;
+    if (options.progress != nullptr) options.progress->advance(1);
     return fidelity;
   }
   const std::vector<std::uint32_t> list =
