@@ -99,4 +99,13 @@ class BoxTree {
   std::vector<std::uint32_t> order_;
 };
 
+// Does the box meet one of `boxes`, which the tree was made of?
+[[nodiscard]] inline bool meets_any(const BoxTree& tree, std::span<const Box> boxes,
+                                    const Box& box) {
+  bool any = false;
+  tree.visit([&](const Box& other) { return !any && other.meets(box); },
+             [&](std::uint32_t i) { any = any || boxes[i].meets(box); });
+  return any;
+}
+
 }  // namespace meshrepair

@@ -36,7 +36,7 @@ class KnownIntersections {
   std::vector<Vec3d> places_;  // all that any mesh had a point in
   PointWelder welder_;
   // Of the triangles that met nothing, by their lowest place: where those of each begin, and the
-  // two others. One that is there twice met its copy.
+  // two others, in order. One that is there twice met its copy.
   std::vector<std::uint32_t> first_;
   std::vector<std::array<std::uint32_t, 2>> others_;
 };

@@ -81,6 +81,13 @@ void compare_around_hub(const Group& group, std::uint32_t hub,
   });
 }
 
+SelfIntersections with_left_out(SelfIntersections result, std::size_t degenerate,
+                                std::size_t not_finite) {
+  result.degenerate = degenerate;
+  result.not_finite = not_finite;
+  return result;
+}
+
 // Unless enough has been found.
 void compare_around_hubs(std::span<const CornerTriangle> triangles,
                          std::span<const std::uint32_t> ids, const std::vector<std::uint32_t>& hubs,
@@ -120,17 +127,14 @@ SelfIntersections compare_all(const SoupCorners& corners, const SelfIntersection
     compare(sorted, options, findings);
     compare_around_hubs(sorted.triangles, sorted.ids, sorted.hub, options, findings);
   }
-  SelfIntersections result = gather(findings, options.most_pairs);
-  result.degenerate = degenerate;
-  result.not_finite = not_finite;
-  return result;
+  return with_left_out(gather(findings, options.most_pairs), degenerate, not_finite);
 }
 
 SelfIntersections compare_with(const SoupCorners& corners, const TriangleList& list,
                                const SelfIntersectionOptions& options) {
   const TriangleSoup& soup = corners.soup();
   const BoxTree tree(list.boxes());
-  if (tree.nodes().empty()) return {};
+  if (tree.nodes().empty()) return with_left_out({}, list.degenerate(), list.not_finite());
   const SortedTriangles sorted(list, tree);
   std::vector<char> is_listed(soup.triangles.size(), 0);
   for (const std::uint32_t id : list.ids()) is_listed[id] = 1;
@@ -152,7 +156,7 @@ SelfIntersections compare_with(const SoupCorners& corners, const TriangleList& l
                    }
                    progress.done();
                  });
-  return gather(findings, options.most_pairs);
+  return with_left_out(gather(findings, options.most_pairs), list.degenerate(), list.not_finite());
 }
 
 void add_crossing_sheets(const SoupCorners& corners, std::span<const std::uint32_t> among,

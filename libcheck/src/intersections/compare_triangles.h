@@ -13,7 +13,7 @@
 
 namespace meshrepair::internal {
 
-// All triangles; counts those that were left out, too.
+// All triangles. Both count those that were left out, too.
 [[nodiscard]] SelfIntersections compare_all(const SoupCorners& corners,
                                             const SelfIntersectionOptions& options);
 

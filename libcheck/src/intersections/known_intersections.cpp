@@ -20,8 +20,6 @@ SelfIntersections compare_nearby(const TriangleSoup& mesh, const std::vector<std
   const TriangleList list(corners, part.among);
   SelfIntersections result = compare_with(corners, list, options);
   for (auto& pair : result.pairs) pair = {part.triangles[pair[0]], part.triangles[pair[1]]};
-  result.degenerate = list.degenerate();
-  result.not_finite = list.not_finite();
   return result;
 }
 
@@ -103,11 +101,10 @@ std::vector<std::uint32_t> KnownIntersections::find_fresh(
 std::size_t KnownIntersections::find_known(const IndexTriangle& places) const {
   if (std::size_t{places[0]} + 1 >= first_.size()) return others_.size();
   const std::array others{places[1], places[2]};
-  const std::uint32_t end = first_[places[0] + 1];
-  for (std::uint32_t i = first_[places[0]]; i < end; ++i) {
-    if (others_[i] == others) return i;
-  }
-  return others_.size();
+  const auto end = others_.begin() + first_[places[0] + 1];
+  const auto found = std::lower_bound(others_.begin() + first_[places[0]], end, others);
+  if (found == end || *found != others) return others_.size();
+  return static_cast<std::size_t>(found - others_.begin());
 }
 
 void KnownIntersections::remember(const std::vector<IndexTriangle>& triangles,
@@ -122,6 +119,10 @@ void KnownIntersections::remember(const std::vector<IndexTriangle>& triangles,
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (doubtful[t] != 0) continue;
     others_[next[triangles[t][0]]++] = {triangles[t][1], triangles[t][2]};
+  }
+  // Very many may have one place in common.
+  for (std::size_t place = 0; place < places_.size(); ++place) {
+    std::sort(others_.begin() + first_[place], others_.begin() + first_[place + 1]);
   }
 }
 

@@ -43,10 +43,7 @@ std::vector<std::uint32_t> triangles_near(const TriangleSoup& soup, std::span<co
       const auto id = static_cast<std::uint32_t>(t);
       Box box = box_of(soup, id);
       box.widen(reach);
-      bool is_near = false;
-      tree.visit([&](const Box& other) { return !is_near && other.meets(box); },
-                 [&](std::uint32_t i) { is_near = is_near || boxes[i].meets(box); });
-      if (is_near) near.push_back(id);
+      if (meets_any(tree, boxes, box)) near.push_back(id);
     }
     return near;
   };

@@ -12,10 +12,9 @@ SelfIntersections with_those(const TriangleSoup& soup, std::span<const std::uint
   const internal::SoupCorners corners(soup, options.weld);
   const internal::TriangleList list(corners, among);
   SelfIntersections result = internal::compare_with(corners, list, options);
-  if (options.weld && list.size() > 0)
+  if (options.weld && list.size() > 0) {
     internal::add_crossing_sheets(corners, list.ids(), options, result);
-  result.degenerate = list.degenerate();
-  result.not_finite = list.not_finite();
+  }
   return result;
 }
 
@@ -32,8 +31,9 @@ SelfIntersections self_intersections(const TriangleSoup& soup,
 
 SelfIntersections self_intersections(const TriangleSoup& soup, std::span<const std::uint32_t> among,
                                      const SelfIntersectionOptions& options) {
-  if (among.size() > soup.triangles.size() / internal::kFew)
+  if (among.size() > soup.triangles.size() / internal::kFew) {
     return with_those(soup, among, options);
+  }
   const internal::NearbyPart part = internal::nearby_part(soup, among, options.nearness);
   SelfIntersections result = with_those(part.soup, part.among, options);
   for (auto& pair : result.pairs) pair = {part.triangles[pair[0]], part.triangles[pair[1]]};

@@ -61,12 +61,11 @@ class RayCaster {
  public:
   RayCaster(const TriangleSoup& soup, std::span<const std::uint32_t> part_of, std::size_t parts)
       : soup_(soup), part_of_(part_of), tree_({}) {
-    std::vector<Box> boxes;
     for (const std::uint32_t t : first_triangles(part_of, parts)) {
       starts_.push_back(RayStart::in(soup, soup.triangles[t]));
-      boxes.emplace_back().add(starts_.back().corner);
+      boxes_.emplace_back().add(starts_.back().corner);
     }
-    tree_ = BoxTree(boxes);
+    tree_ = BoxTree(boxes_);
   }
 
   // Of these triangles.
@@ -84,7 +83,7 @@ class RayCaster {
       const Box box = box_of(soup_, static_cast<std::uint32_t>(t));
       tree_.visit([&](const Box& starts) { return may_pass(starts, box); },
                   [&](std::uint32_t inner) {
-                    if (inner == outer || !may_start_below(starts_[inner].corner, box)) return;
+                    if (inner == outer || !may_pass(boxes_[inner], box)) return;
                     if (passed_upward(soup_.points[corners[0]], soup_.points[corners[1]],
                                       soup_.points[corners[2]], starts_[inner]) != 0) {
                       passings.push_back({inner, outer});
@@ -102,15 +101,11 @@ class RayCaster {
            starts.low[1] <= triangle.high[1] && triangle.low[1] <= starts.high[1] &&
            starts.low[2] <= triangle.high[2];
   }
-  static bool may_start_below(const Vec3d& start, const Box& triangle) {
-    return triangle.low[0] <= start.x() && start.x() <= triangle.high[0] &&
-           triangle.low[1] <= start.y() && start.y() <= triangle.high[1] &&
-           start.z() <= triangle.high[2];
-  }
 
   const TriangleSoup& soup_;
   std::span<const std::uint32_t> part_of_;
   std::vector<RayStart> starts_;  // of each part
+  std::vector<Box> boxes_;        // of where they start
   BoxTree tree_;
 };
 

@@ -205,10 +205,7 @@ std::vector<std::uint32_t> turning_triangles(const Candidate& candidate, double 
     Box reach;
     for (const std::uint32_t p : mesh.triangles[t]) reach.add(mesh.points[p]);
     reach.widen(within);
-    bool is_near = false;
-    tree.visit([&](const Box& box) { return !is_near && box.meets(reach); },
-               [&](std::uint32_t i) { is_near = is_near || boxes[i].meets(reach); });
-    if (is_near) blamed.push_back(t);
+    if (meets_any(tree, boxes, reach)) blamed.push_back(t);
   }
   return blamed;
 }
