@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <memory>
 #include <utility>
 
+#include <base/parallel.h>
+#include <base/shared_progress.h>
 #include <repair/cell_graph.h>
 
 namespace meshrepair {
@@ -11,43 +14,143 @@ namespace {
 // steps.
 constexpr double kLeastArea = 1e-6;
 
+// Some milliseconds of work.
+constexpr std::size_t kFacetsPerTask = 8192;
+constexpr std::size_t kCellsPerTask = 16384;
+
+// Turns facets into links, in their order: tasks count theirs first, so that each knows where its
+// own begin.
+class LinkMaker {
+ public:
+  LinkMaker(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
+            std::span<const CoverLayer> layers, std::span<const char> left_out)
+      : complex_(complex),
+        cover_(cover),
+        layers_(layers),
+        left_out_(left_out),
+        tasks_(tasks_of(complex.facets.size(), kFacetsPerTask)) {}
+
+  // The number of links; the cells beside facets of the outer box get a flag.
+  std::size_t count(std::vector<char>& unbounded) {
+    parallel_tasks(complex_.facets.size(), kFacetsPerTask,
+                   [&](std::size_t task, std::size_t first, std::size_t last) {
+                     for (FacetId f(first); f.index() < last; ++f.value) look_at(f, tasks_[task]);
+                   });
+    std::size_t count = 0;
+    for (Task& task : tasks_) {
+      for (const CellId c : std::exchange(task.unbounded, {})) unbounded[c.index()] = 1;
+      task.first_link = std::exchange(count, count + task.links);
+    }
+    return count;
+  }
+
+  // After count(), into as many places.
+  void make(std::vector<Link>& links, double* moments, ProgressObserver* progress) {
+    CancelOnly quiet(progress);
+    SharedProgress shared(&quiet, tasks_.size());
+    parallel_tasks(complex_.facets.size(), kFacetsPerTask,
+                   [&](std::size_t task, std::size_t first, std::size_t last) {
+                     std::size_t next = tasks_[task].first_link;
+                     auto layer = layers_from(FacetId(first));
+                     for (FacetId f(first); f.index() < last; ++f.value) {
+                       while (layer != layers_.end() && layer->facet < f) ++layer;
+                       if (!is_link(complex_.facets[f])) continue;
+                       for (; layer != layers_.end() && layer->facet == f; ++layer) {
+                         tasks_[task].layers.push_back(
+                             {static_cast<std::uint32_t>(next), layer->triangle});
+                       }
+                       const FacetMeasure measure = measure_facet(complex_, f);
+                       moments[next] = measure.moment;
+                       links[next++] = link_of(f, measure.area);
+                     }
+                     shared.done();
+                   });
+  }
+
+  // After make().
+  [[nodiscard]] std::vector<CellGraph::Layer> layers() const {
+    std::vector<CellGraph::Layer> all;
+    for (const Task& task : tasks_) all.insert(all.end(), task.layers.begin(), task.layers.end());
+    return all;
+  }
+
+ private:
+  struct Task {
+    std::size_t first_link = 0, links = 0;
+    std::vector<CellId> unbounded;
+    std::vector<CellGraph::Layer> layers;
+  };
+
+  void look_at(FacetId f, Task& task) const {
+    const Facet& facet = complex_.facets[f];
+    if (!facet.above.valid() || !facet.below.valid()) {
+      task.unbounded.push_back(facet.above.valid() ? facet.above : facet.below);
+    }
+    task.links += is_link(facet);
+  }
+
+  [[nodiscard]] bool is_link(const Facet& facet) const {
+    return facet.above.valid() && facet.below.valid() && !is_left_out(facet.below) &&
+           !is_left_out(facet.above);
+  }
+
+  [[nodiscard]] bool is_left_out(CellId c) const {
+    return !left_out_.empty() && left_out_[c.index()] != 0;
+  }
+
+  [[nodiscard]] std::span<const CoverLayer>::iterator layers_from(FacetId first) const {
+    return std::lower_bound(
+        layers_.begin(), layers_.end(), first,
+        [](const CoverLayer& layer, FacetId facet) { return layer.facet < facet; });
+  }
+
+  [[nodiscard]] Link link_of(FacetId f, double area) const {
+    const Facet& facet = complex_.facets[f];
+    // Triangles that close holes come after those of the input.
+    const TriangleId first = cover_[f].triangle;
+    const bool given =
+        first.valid() && complex_.soup().triangles[first].source != Triangle::kNoSource;
+    return {facet.below,
+            facet.above,
+            static_cast<float>(std::max(area, kLeastArea)),
+            cover_[f].winding,
+            first.valid() ? 1.0f : 0.0f,
+            first,
+            given};
+  }
+
+  const CellComplex& complex_;
+  const IdVector<FacetId, Cover>& cover_;
+  std::span<const CoverLayer> layers_;
+  std::span<const char> left_out_;
+  std::vector<Task> tasks_;
+};
+
 }  // namespace
 
 CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
                      ProgressObserver* progress, std::span<const CoverLayer> layers,
                      std::span<const char> left_out)
     : first_(complex.cells.size() + 1, 0),
-      volume_(complex.cells.size(), 0),
+      volume_(complex.cells.size()),
       unbounded_(complex.cells.size(), 0) {
-  CancelCheck check(progress);
-  const auto is_given = [&](TriangleId t) {
-    return complex.soup().triangles[t].source != Triangle::kNoSource;
-  };
-  const auto is_left_out = [&](CellId c) { return !left_out.empty() && left_out[c.index()] != 0; };
-  std::size_t next_layer = 0;
-  for (FacetId f(0u); f < complex.facets.end_id(); ++f.value) {
-    check.tick();
-    const Facet& facet = complex.facets[f];
-    if (!facet.above.valid()) {
-      unbounded_[facet.below.index()] = 1;
-    } else if (!facet.below.valid()) {
-      unbounded_[facet.above.index()] = 1;
-    } else if (!is_left_out(facet.below) && !is_left_out(facet.above)) {
-      while (next_layer < layers.size() && layers[next_layer].facet < f) ++next_layer;
-      for (; next_layer < layers.size() && layers[next_layer].facet == f; ++next_layer) {
-        layers_.push_back({static_cast<std::uint32_t>(links_.size()), layers[next_layer].triangle});
-      }
-      const FacetMeasure measure = measure_facet(complex, f);
-      volume_[facet.below.index()] += measure.moment;
-      volume_[facet.above.index()] -= measure.moment;
-      // Triangles that close holes come after those of the input.
-      const TriangleId first = cover[f].triangle;
-      links_.push_back({facet.below, facet.above,
-                        static_cast<float>(std::max(measure.area, kLeastArea)), cover[f].winding,
-                        first.valid() ? 1.0f : 0.0f, first, first.valid() && is_given(first)});
-    }
-  }
+  LinkMaker maker(complex, cover, layers, left_out);
+  const std::size_t count = maker.count(unbounded_);
+  links_.resize(count);
+  const auto moments = std::make_unique_for_overwrite<double[]>(count);
+  maker.make(links_, moments.get(), progress);
+  layers_ = maker.layers();
   list_links_of_cells();
+  // The links of a cell are in order, so that sums are rounded alike whatever the threads.
+  parallel_tasks(cells(), kCellsPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (CellId c(first); c.index() < last; ++c.value) {
+      double sum = 0;
+      for (const std::uint32_t l : links_of(c)) {
+        sum += links_[l].below == c ? moments[l] : -moments[l];
+      }
+      volume_[c.index()] = sum;
+    }
+  });
 }
 
 CellGraph::CellGraph(std::vector<Link> links, std::vector<Layer> layers,

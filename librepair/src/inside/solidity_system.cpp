@@ -3,57 +3,48 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
-
 #include <base/error.h>
+#include <base/parallel.h>
+#include <base/shared_progress.h>
+
+#include "conjugate_gradients.h"
 
 namespace meshrepair::internal {
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-
-constexpr int kFixed = -1;
-
-// The diagonal preconditioner, asked once in each iteration: the place to notice that nobody waits
-// any more.
-class CancellablePreconditioner : public Eigen::DiagonalPreconditioner<double> {
- public:
-  void observe(ProgressObserver* progress) { progress_ = progress; }
-
-  template <class Right>
-  Eigen::Solve<Eigen::DiagonalPreconditioner<double>, Right> solve(
-      const Eigen::MatrixBase<Right>& right) const {
-    if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
-    return Eigen::DiagonalPreconditioner<double>::solve(right);
-  }
-
- private:
-  ProgressObserver* progress_ = nullptr;
-};
+constexpr std::size_t kRowsPerTask = 2048;
 
 struct System {
-  std::vector<int> row_of_cell;
+  std::vector<std::uint32_t> row_of_cell;  // kNone: fixed
   std::vector<CellId> cell_of_row;
-  std::vector<int> first, column;
-  std::vector<double> value;
-  Eigen::VectorXd right;
+  SparseRows matrix;
+  std::vector<double> right;
 };
 
+// Each row has room for its links, and the diagonal.
 void number_rows(const CellGraph& graph, System& system) {
-  system.row_of_cell.assign(graph.cells(), kFixed);
+  system.row_of_cell.assign(graph.cells(), kNone);
+  std::size_t room = 0;
   for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
     if (graph.unbounded(c)) continue;
-    system.row_of_cell[c.index()] = static_cast<int>(system.cell_of_row.size());
+    system.row_of_cell[c.index()] = static_cast<std::uint32_t>(system.cell_of_row.size());
     system.cell_of_row.push_back(c);
+    system.matrix.first.push_back(static_cast<std::uint32_t>(room));
+    room += graph.links_of(c).size() + 1;
   }
+  const std::size_t rows = system.cell_of_row.size();
+  system.matrix.last.resize(rows);
+  system.matrix.column = std::make_unique_for_overwrite<std::uint32_t[]>(room);
+  system.matrix.value = std::make_unique_for_overwrite<double[]>(room);
+  system.right.resize(rows);
 }
 
 // Half the derivative of the energy by x of this cell. The entries of one row are sorted, and those
 // of links to the same neighbour added up.
-void add_row(const CellGraph& graph, LinkTerm (*term)(const Link&), double outside, CellId cell,
-             System& system, std::vector<std::pair<int, double>>& entries) {
-  const int row = system.row_of_cell[cell.index()];
+void add_row(const CellGraph& graph, LinkTerm (*term)(const Link&), double outside,
+             std::uint32_t row, System& system,
+             std::vector<std::pair<std::uint32_t, double>>& entries) {
+  const CellId cell = system.cell_of_row[row];
   entries.assign(1, {row, 0.0});
   double right = 0;
   for (const std::uint32_t l : graph.links_of(cell)) {
@@ -61,24 +52,25 @@ void add_row(const CellGraph& graph, LinkTerm (*term)(const Link&), double outsi
     const LinkTerm t = term(link);
     entries[0].second += t.weight;
     right += t.weight * t.jump * (link.below == cell ? 1 : -t.sign);
-    const int other = system.row_of_cell[other_end(link, cell).index()];
-    if (other == kFixed) {
+    const std::uint32_t other = system.row_of_cell[other_end(link, cell).index()];
+    if (other == kNone) {
       right += t.weight * t.sign * outside;
     } else {
       entries.emplace_back(other, -t.weight * t.sign);
     }
   }
   std::sort(entries.begin(), entries.end());
-  system.first.push_back(static_cast<int>(system.column.size()));
+  SparseRows& matrix = system.matrix;
+  std::uint32_t end = matrix.first[row];
   for (const auto& [column, value] : entries) {
-    if (system.column.size() > static_cast<std::size_t>(system.first.back()) &&
-        system.column.back() == column) {
-      system.value.back() += value;
+    if (end > matrix.first[row] && matrix.column[end - 1] == column) {
+      matrix.value[end - 1] += value;
     } else {
-      system.column.push_back(column);
-      system.value.push_back(value);
+      matrix.column[end] = column;
+      matrix.value[end++] = value;
     }
   }
+  matrix.last[row] = end;
   system.right[row] = right;
 }
 
@@ -86,16 +78,16 @@ System assemble(const CellGraph& graph, LinkTerm (*term)(const Link&), double ou
                 ProgressObserver* progress) {
   System system;
   number_rows(graph, system);
-  system.right.resize(static_cast<Eigen::Index>(system.cell_of_row.size()));
-  system.column.reserve(2 * graph.links().size() + graph.cells());
-  system.value.reserve(2 * graph.links().size() + graph.cells());
-  std::vector<std::pair<int, double>> entries;
-  CancelCheck check(progress);
-  for (const CellId c : system.cell_of_row) {
-    check.tick();
-    add_row(graph, term, outside, c, system, entries);
-  }
-  system.first.push_back(static_cast<int>(system.column.size()));
+  const std::size_t rows = system.cell_of_row.size();
+  CancelOnly quiet(progress);
+  SharedProgress shared(&quiet, tasks_of(rows, kRowsPerTask));
+  parallel_tasks(rows, kRowsPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+    std::vector<std::pair<std::uint32_t, double>> entries;
+    for (std::size_t row = first; row < last; ++row) {
+      add_row(graph, term, outside, static_cast<std::uint32_t>(row), system, entries);
+    }
+    shared.done();
+  });
   return system;
 }
 
@@ -106,23 +98,11 @@ std::vector<double> minimise(const CellGraph& graph, LinkTerm (*term)(const Link
   report = {};
   std::vector<double> x(graph.cells(), outside);
   const System system = assemble(graph, term, outside, options.progress);
-  const auto n = static_cast<Eigen::Index>(system.cell_of_row.size());
   report.unknowns = system.cell_of_row.size();
-  if (n == 0) return x;
-  const Eigen::Map<const Matrix> matrix(n, n, static_cast<Eigen::Index>(system.value.size()),
-                                        system.first.data(), system.column.data(),
-                                        system.value.data());
-  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, CancellablePreconditioner> solver;
-  solver.preconditioner().observe(options.progress);
-  solver.setTolerance(options.tolerance);
-  solver.setMaxIterations(options.max_iterations);
-  solver.compute(matrix);
-  const Eigen::VectorXd solution = solver.solve(system.right);
-  report.iterations = static_cast<std::size_t>(solver.iterations());
-  report.residual = solver.error();
-  report.converged = solver.info() == Eigen::Success;
-  for (Eigen::Index row = 0; row < n; ++row) {
-    x[system.cell_of_row[static_cast<std::size_t>(row)].index()] = solution[row];
+  const std::vector<double> solution =
+      solve_by_conjugate_gradients(system.matrix, system.right, options, report);
+  for (std::size_t row = 0; row < solution.size(); ++row) {
+    x[system.cell_of_row[row].index()] = solution[row];
   }
   return x;
 }

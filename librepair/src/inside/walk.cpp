@@ -1,7 +1,11 @@
+#include <base/parallel.h>
 #include <repair/walk.h>
 
 namespace meshrepair {
 namespace {
+
+// A millisecond of work.
+constexpr std::size_t kLinksPerTask = 65536;
 
 // step(link, from, value of from) is the value at the link's other end.
 template <class Step>
@@ -28,11 +32,18 @@ Walk walk(const CellGraph& graph, ProgressObserver* progress, Step step) {
       queue.push_back(next);
     }
   }
-  for (const Link& link : graph.links()) {
-    check.tick();
-    const std::int32_t expected = step(link, link.above, result.value[link.above.index()]);
-    result.contradictions += expected != result.value[link.below.index()];
-  }
+  const auto contradictions = [&](std::size_t first, std::size_t last) {
+    std::size_t count = 0;
+    for (std::size_t l = first; l < last; ++l) {
+      const Link& link = graph.links()[l];
+      const std::int32_t expected = step(link, link.above, result.value[link.above.index()]);
+      count += expected != result.value[link.below.index()];
+    }
+    return count;
+  };
+  result.contradictions =
+      parallel_reduce(graph.links().size(), kLinksPerTask, contradictions,
+                      [](std::size_t& all, std::size_t part) { all += part; });
   return result;
 }
 
