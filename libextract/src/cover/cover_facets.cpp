@@ -12,35 +12,37 @@
 // it. So a triangle remembers which of its edges a facet was cut along, and these are not asked
 // again; and a facet gets no more cuts than lines through it could make parts, after which the
 // centre of a part decides. A facet that is not convex falls into more than two parts.
+//
+// Facets are judged block by block by several threads, all as they are before any of the block is
+// cut; then those that have to be are cut, in their order. A cut puts vertices into edges of
+// facets around, which changes nothing that was said of them: each lies between the ends of its
+// edge. In a loose complex it may not, so there each facet is judged when its turn has come.
 #include <algorithm>
-#include <limits>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include <base/assert.h>
 #include <base/error.h>
+#include <base/parallel.h>
 #include <exact/predicates.h>
 #include <extract/cover_facets.h>
 #include <extract/float_engine.h>
 
 #include "cells/complex_edit.h"
-#include "prepared_triangle.h"
+#include "facet_judge.h"
 
 namespace meshrepair {
 namespace {
 
-using internal::Coverage;
-using internal::coverage_of;
-using internal::PreparedTriangle;
+using internal::FacetCut;
+using internal::FacetJudge;
+using internal::Undecided;
 
-// How many triangles offer their edges for a cut, and on how many each offer is judged.
-constexpr std::size_t kOffers = 6;
-constexpr std::size_t kJudged = 24;
-// Up to here every triangle is asked what it covers before the facet is cut.
-constexpr std::size_t kFew = 8;
-constexpr std::size_t kFacetsPerProgress = 8192;
+// Of a block, which is also how often progress is told.
+constexpr std::size_t kFacetsPerBlock = 65536;
+// Of a task, a millisecond of work.
+constexpr std::size_t kFacetsPerTask = 2048;
 constexpr std::size_t kTicksPerQuestion = 256;
 
 class FacetCoverer {
@@ -52,16 +54,16 @@ class FacetCoverer {
         report_(report),
         progress_(progress),
         cover_(complex.facets.size()),
-        wants_layers_(wants_layers) {}
+        wants_layers_(wants_layers),
+        judge_(complex) {}
 
   IdVector<FacetId, Cover> run() {
     const std::size_t count = complex_.facets.size();
-    for (FacetId f(0u); f.index() < count; ++f.value) {
-      tell_progress(f.index(), count);
-      const Facet& facet = complex_.facets[f];
-      if (facet.triangle_count == 0) continue;
-      const auto first = complex_.facet_triangles.begin() + facet.first_triangle;
-      cover(f, {first, first + facet.triangle_count});
+    for (std::size_t first = 0; first < count; first += kFacetsPerBlock) {
+      tell_progress(first, count);
+      const std::size_t size = std::min(kFacetsPerBlock, count - first);
+      if (!complex_.loose) judge_block(first, size);
+      cover_block(first, size);
     }
     for (const Cover& c : cover_) report_.opaque_facets += c.opaque();
     complex_.facet_triangles = {};
@@ -89,30 +91,101 @@ class FacetCoverer {
     std::uint32_t below;
   };
 
-  struct Undecided {
-    TriangleId triangle;
-    std::uint32_t inside = 0;  // bit k: the facet was cut off along edge k, and is inside of it
-  };
-
   struct Piece {
     FacetId facet;
     std::vector<Undecided> undecided;
   };
 
-  struct Cut {
-    Plane plane;
-    TriangleId triangle;
-    std::size_t edge = 0;
+  // What is known of a facet before any of its block is cut. Its triangles are ranges of those of
+  // its task, up to these ends.
+  struct Judged {
+    FacetId facet;
+    std::uint32_t covering_end = 0, undecided_end = 0;
+    std::uint32_t cut = kNone;
   };
 
-  void cover(FacetId facet, std::span<const TriangleId> triangles) {
-    Piece whole{facet, {}};
-    whole.undecided.reserve(triangles.size());
-    for (const TriangleId t : triangles) whole.undecided.push_back({t, 0});
-    pieces_.push_back(std::move(whole));
-    // What the lines through 3 n edges divide a plane into.
-    const std::size_t lines = 3 * triangles.size();
+  struct Task {
+    std::vector<Judged> facets;
+    std::vector<TriangleId> covering;
+    std::vector<Undecided> undecided;
+    std::vector<FacetCut> cuts;
+    std::vector<Undecided> of_facet;  // scratch
+  };
+
+  void judge_block(std::size_t begin, std::size_t size) {
+    tasks_.resize(std::max(tasks_.size(), tasks_of(size, kFacetsPerTask)));
+    for (Task& task : tasks_) task.facets.clear();
+    parallel_tasks(size, kFacetsPerTask, [&](std::size_t t, std::size_t first, std::size_t last) {
+      Task& task = tasks_[t];
+      task.covering.clear();
+      task.undecided.clear();
+      task.cuts.clear();
+      FacetJudge judge(complex_);
+      for (FacetId f(begin + first); f.index() < begin + last; ++f.value) {
+        if (complex_.facets[f].triangle_count > 0) judge_facet(f, judge, task);
+      }
+    });
+  }
+
+  void judge_facet(FacetId facet, FacetJudge& judge, Task& task) const {
+    list_triangles(facet, task.of_facet);
+    const std::optional<FacetCut> cut = judge.judge(facet, task.of_facet, task.covering);
+    Judged& judged = task.facets.emplace_back();
+    judged.facet = facet;
+    judged.covering_end = static_cast<std::uint32_t>(task.covering.size());
+    if (!task.of_facet.empty()) {
+      MESHREPAIR_ASSERT(cut.has_value());
+      judged.cut = static_cast<std::uint32_t>(task.cuts.size());
+      task.cuts.push_back(*cut);
+      task.undecided.insert(task.undecided.end(), task.of_facet.begin(), task.of_facet.end());
+    }
+    judged.undecided_end = static_cast<std::uint32_t>(task.undecided.size());
+  }
+
+  void list_triangles(FacetId facet, std::vector<Undecided>& list) const {
+    const Facet& f = complex_.facets[facet];
+    list.clear();
+    for (std::uint32_t i = 0; i < f.triangle_count; ++i) {
+      list.push_back({complex_.facet_triangles[f.first_triangle + i], 0});
+    }
+  }
+
+  void cover_block(std::size_t begin, std::size_t size) {
+    if (complex_.loose) {
+      for (FacetId f(begin); f.index() < begin + size; ++f.value) {
+        if (complex_.facets[f].triangle_count == 0) continue;
+        Piece whole{f, {}};
+        list_triangles(f, whole.undecided);
+        count_cuts(whole.undecided.size());
+        pieces_.push_back(std::move(whole));
+        cover_pieces();
+      }
+      return;
+    }
+    for (const Task& task : tasks_) {
+      std::uint32_t covering = 0;
+      std::uint32_t undecided = 0;
+      for (const Judged& judged : task.facets) {
+        while (covering < judged.covering_end) add_cover(judged.facet, task.covering[covering++]);
+        if (undecided == judged.undecided_end) continue;
+        Piece whole{judged.facet, {}};
+        whole.undecided.assign(task.undecided.begin() + undecided,
+                               task.undecided.begin() + judged.undecided_end);
+        undecided = judged.undecided_end;
+        divide(whole, task.cuts[judged.cut]);
+        cover_pieces();
+      }
+    }
+  }
+
+  // In a loose complex a facet gets no more cuts than what the lines through 3 n edges divide a
+  // plane into.
+  void count_cuts(std::size_t triangles) {
+    const std::size_t lines = 3 * triangles;
     cuts_left_ = 1 + lines + lines * (lines - 1) / 2;
+  }
+
+  void cover_pieces() {
     while (!pieces_.empty()) {
       Piece piece = std::move(pieces_.back());
       pieces_.pop_back();
@@ -120,15 +193,10 @@ class FacetCoverer {
       if (++ticks_ % kTicksPerQuestion == 0 && progress_ != nullptr && progress_->cancelled()) {
         throw Cancelled();
       }
-      // With many triangles the facet is cut first and asked about later: most of them will be
-      // elsewhere.
-      std::optional<Cut> cut;
-      if (piece.undecided.size() > kFew) cut = choose_cut(piece);
-      if (!cut) {
-        decide(piece);
-        if (piece.undecided.empty()) continue;
-        cut = choose_cut(piece);
-      }
+      covering_.clear();
+      const std::optional<FacetCut> cut = judge_.judge(piece.facet, piece.undecided, covering_);
+      for (const TriangleId t : covering_) add_cover(piece.facet, t);
+      if (piece.undecided.empty()) continue;
       if (complex_.loose && (!cut || cuts_left_ == 0)) {
         guess(piece);
         continue;
@@ -139,14 +207,14 @@ class FacetCoverer {
   }
 
   // Cuts a piece and gives each half the triangles that reach to its side.
-  void divide(const Piece& piece, const Cut& cut) {
+  void divide(const Piece& piece, const FacetCut& cut) {
     const Halves halves = split(piece.facet, cut.plane);
     ++report_.split_facets;
-    --cuts_left_;
+    if (complex_.loose) --cuts_left_;
     Piece positive{halves.positive, {}};
     Piece negative{halves.negative, {}};
     for (Undecided u : piece.undecided) {
-      const Reach reach = reach_of(u.triangle, cut.plane);
+      const FacetJudge::Reach reach = judge_.reach_of(u.triangle, cut.plane);
       if (reach.negative) negative.undecided.push_back(u);
       if (u.triangle == cut.triangle) u.inside |= std::uint32_t{1} << cut.edge;
       if (reach.positive) positive.undecided.push_back(u);
@@ -162,21 +230,8 @@ class FacetCoverer {
   void guess(const Piece& piece) {
     ++report_.guessed_facets;
     for (const Undecided& u : piece.undecided) {
-      if (internal::covers_centre(complex_, piece.facet, prepared(u.triangle))) {
-        add_cover(piece.facet, u.triangle);
-      }
+      if (judge_.covers_centre(piece.facet, u.triangle)) add_cover(piece.facet, u.triangle);
     }
-  }
-
-  // Applies the triangles that cover all of the facet and drops those that miss it.
-  void decide(Piece& piece) {
-    std::size_t kept = 0;
-    for (const Undecided& u : piece.undecided) {
-      const Coverage coverage = coverage_of(complex_, piece.facet, prepared(u.triangle), u.inside);
-      if (coverage == Coverage::part) piece.undecided[kept++] = u;
-      if (coverage == Coverage::full) add_cover(piece.facet, u.triangle);
-    }
-    piece.undecided.resize(kept);
   }
 
   void add_cover(FacetId facet, TriangleId t) {
@@ -188,55 +243,6 @@ class FacetCoverer {
       top_layer_[facet.index()] = static_cast<std::uint32_t>(layers_.size() - 1);
     }
     if (!c.opaque() || t < c.triangle) c.triangle = t;
-  }
-
-  // An edge that crosses the facet, cuts few of the undecided triangles and leaves both sides
-  // alike; nothing when none of the edges looked at crosses it. With few triangles all are looked
-  // at.
-  std::optional<Cut> choose_cut(const Piece& piece) {
-    const auto& list = piece.undecided;
-    const std::size_t offers = list.size() > kFew ? kOffers : list.size();
-    std::size_t best_cost = std::numeric_limits<std::size_t>::max();
-    std::optional<Cut> best;
-    for (std::size_t k = 0; k < offers; ++k) {
-      const Undecided& from = list[k * list.size() / offers];
-      const PreparedTriangle offered = prepared(from.triangle);
-      for (std::size_t e = 0; e < 3; ++e) {
-        const Plane& edge = offered.edges[e];
-        if ((from.inside >> e & 1) != 0) continue;
-        const std::size_t cost = list.size() > 1 ? cost_of(edge, list) : 0;
-        const bool tie_won = best && cost == best_cost && comes_before(edge, best->plane);
-        if ((cost < best_cost || tie_won) && internal::crosses(complex_, piece.facet, edge)) {
-          best_cost = cost;
-          best = Cut{edge, from.triangle, e};
-        }
-      }
-    }
-    return best;
-  }
-
-  std::size_t cost_of(const Plane& edge, const std::vector<Undecided>& list) const {
-    const std::size_t judged = std::min(kJudged, list.size());
-    std::size_t cut = 0, positive = 0, negative = 0;
-    for (std::size_t j = 0; j < judged; ++j) {
-      const Reach reach = reach_of(list[j * list.size() / judged].triangle, edge);
-      (reach.positive && reach.negative ? cut : reach.positive ? positive : negative) += 1;
-    }
-    return 8 * cut + std::max(positive, negative) - std::min(positive, negative);
-  }
-
-  struct Reach {
-    bool positive = false, negative = false;
-  };
-
-  Reach reach_of(TriangleId t, const Plane& plane) const {
-    Reach reach;
-    for (const PointId p : complex_.soup().triangles[t].corners) {
-      const int s = side(complex_.soup().grid_points[p], plane);
-      reach.positive |= s > 0;
-      reach.negative |= s < 0;
-    }
-    return reach;
   }
 
   struct Halves {
@@ -326,17 +332,8 @@ class FacetCoverer {
 
   [[nodiscard]] int side_of(VertexId v) const { return sides_[v]; }
 
-  // Facets of one node follow each other and mostly ask for the same triangle.
-  const PreparedTriangle& prepared(TriangleId t) {
-    if (t != prepared_id_) {
-      prepared_ = internal::prepare_triangle(complex_.soup(), t);
-      prepared_id_ = t;
-    }
-    return prepared_;
-  }
-
   void tell_progress(std::size_t done, std::size_t all) {
-    if (progress_ == nullptr || done % kFacetsPerProgress != 0) return;
+    if (progress_ == nullptr) return;
     if (progress_->cancelled()) throw Cancelled();
     progress_->advance(static_cast<double>(done) / static_cast<double>(all));
   }
@@ -349,14 +346,15 @@ class FacetCoverer {
   bool wants_layers_;
   std::vector<std::uint32_t> top_layer_;  // of each facet, as far as there are any
   std::vector<Layer> layers_;
+  FacetJudge judge_;
+  std::vector<Task> tasks_;  // of a block
   std::vector<Piece> pieces_;
+  std::vector<TriangleId> covering_;  // a piece
   // Scratch of one cut.
   IdVector<VertexId, std::int8_t> sides_;
   std::vector<UseId> crossed_, ends_;
   std::vector<FacetId> more_negative_;
-  std::size_t cuts_left_ = 0;  // of the facet in hand
-  PreparedTriangle prepared_;
-  TriangleId prepared_id_;
+  std::size_t cuts_left_ = 0;  // of the facet in hand, in a loose complex
   std::size_t ticks_ = 0;
 };
 
