@@ -7,50 +7,24 @@
 // the node. What is left goes, cut where necessary, to the two sides. A region without fragments is
 // a leaf.
 //
-// Invariants:
-// - Fragments of a region lie in its closure and have their interior in its interior: those in the
-// plane of
-//   an ancestor stayed there. So every plane chosen from a fragment cuts the region properly, and
-//   so does a spatial cut with fragments strictly on both sides.
-// - The fragments of one triangle inside one region are one convex polygon, so a triangle is named
-// at most
-//   once at a node.
-// - An explicit stack replaces recursion: depth is not bounded by the machine's stack.
+// Parts of the tree are built by several threads (subtree.cpp) and joined here, numbered as if one
+// had built it from the root on, the front of each node before its back.
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include <base/error.h>
 #include <bsp/build_tree.h>
 
-#include "candidate_planes.h"
-#include "fragment_pool.h"
-#include "spatial_cut.h"
+#include "subtree.h"
 
 namespace meshrepair {
 namespace {
 
-using internal::find_spatial_cut;
-using internal::Fragment;
-using internal::FragmentId;
-using internal::FragmentPool;
-
-// A region whose fragments are the topmost part, from `begin` on, of the stack of fragment ids.
-struct Region {
-  NodeId parent;  // invalid for the root
-  int side = 0;
-  std::size_t begin = 0;
-  std::size_t depth = 0;
-  Vec3d low = Vec3d::Zero(), high = Vec3d::Zero();  // a box around it
-};
-
-struct BoxPlane {
-  PlaneId plane;
-  bool inside_is_front = false;
-};
+using internal::BoxPlane;
+using internal::Extent;
+using internal::PutOff;
+using internal::Subtree;
 
 // The sides of the bounding box; one for each axis on which it is flat.
 std::vector<BoxPlane> planes_of_bounding_box(CleanSoup& soup) {
@@ -69,218 +43,108 @@ std::vector<BoxPlane> planes_of_bounding_box(CleanSoup& soup) {
   return sides;
 }
 
-class TreeBuilder {
- public:
-  TreeBuilder(CleanSoup soup, const BuildTreeOptions& options, BuildTreeReport& report)
-      : options_(options),
-        report_(report),
-        tree_{std::move(soup), {}, {}, {}, {}},
-        box_planes_(planes_of_bounding_box(tree_.input)),
-        pool_(tree_.input) {}
+// From these ids of a subtree on, so much is added to them in the tree.
+struct Shift {
+  std::size_t from = 0, add = 0;
+};
 
-  Tree run() {
-    for (std::size_t i = 0; i < pool_.size(); ++i) stack_.push_back(FragmentId(i));
-    total_ = std::max<std::size_t>(stack_.size(), 1);
-    divide_by_bounding_box();
-    while (!regions_.empty()) {
-      const Region region = regions_.back();
-      regions_.pop_back();
-      report_.depth = std::max(report_.depth, region.depth);
-      if (stack_.size() == region.begin) {
-        attach(region, TreeRef(tree_.leaves.push_back({})));
-      } else if (options_.divides && !options_.divides(region.low, region.high)) {
-        leave_undivided(region);
-      } else {
-        divide(region);
-      }
-      tell_progress();
-    }
-    report_.nodes = tree_.nodes.size();
-    report_.leaves = tree_.leaves.size();
-    report_.fragments = tree_.node_triangles.size();
-    tree_.input.planes.release_index();
-    return std::move(tree_);
+class Shifts {
+ public:
+  // `first` is the place of id 0.
+  explicit Shifts(std::size_t first) : shifts_{{0, first}} {}
+
+  void insert(std::size_t before, std::size_t count) {
+    shifts_.push_back({before, shifts_.back().add + count});
+  }
+
+  [[nodiscard]] std::size_t operator()(std::size_t id) const {
+    const auto behind =
+        std::upper_bound(shifts_.begin(), shifts_.end(), id,
+                         [](std::size_t one, const Shift& shift) { return one < shift.from; });
+    return id + (behind - 1)->add;
   }
 
  private:
-  // Leaves one region on the stack, the inside of the box, or what is left of it when the box is
-  // flat.
-  void divide_by_bounding_box() {
-    Region inside;
-    for (const BoxPlane& box_plane : box_planes_) {
-      distribute(inside, box_plane.plane);
-      add_node(inside, box_plane.plane);
-      // add_node() left both children; the outer one has no fragments.
-      const Region front = regions_.back();
-      const Region back = regions_[regions_.size() - 2];
-      regions_.clear();
-      inside = box_plane.inside_is_front ? front : back;
-      attach(box_plane.inside_is_front ? back : front, TreeRef(tree_.leaves.push_back({})));
+  std::vector<Shift> shifts_;
+};
+
+class SubtreeJoiner {
+ public:
+  explicit SubtreeJoiner(Tree& tree) : tree_(tree), soup_planes_(tree.input.planes.size()) {}
+
+  // Appends a subtree, each part that was put off where its turn came.
+  TreeRef append(Subtree subtree) {
+    Joined joined{Shifts(tree_.nodes.size()), Shifts(tree_.leaves.size()), {}};
+    for (const PutOff& part : subtree.put_off) {
+      joined.nodes.insert(part.before.nodes, part.subtree.report.nodes);
+      joined.leaves.insert(part.before.leaves, part.subtree.report.leaves);
     }
-    const GridBox box = bounding_box(tree_.input);
-    inside.low = as_vector(box.low);
-    inside.high = as_vector(box.high);
-    regions_.push_back(inside);
-  }
-
-  void leave_undivided(const Region& region) {
-    for (const FragmentId id : fragments(region)) pool_.release(id);
-    stack_.resize(region.begin);
-    Leaf leaf;
-    leaf.undivided = true;
-    attach(region, TreeRef(tree_.leaves.push_back(leaf)));
-  }
-
-  std::span<const FragmentId> fragments(const Region& region) const {
-    return {stack_.data() + region.begin, stack_.size() - region.begin};
-  }
-
-  void attach(const Region& region, TreeRef ref) {
-    if (region.parent.valid()) {
-      tree_.nodes[region.parent].child[static_cast<std::size_t>(region.side)] = ref;
-    } else {
-      tree_.root = ref;
+    Extent from;
+    for (PutOff& part : subtree.put_off) {
+      append_between(subtree, from, part.before, joined);
+      const TreeRef root = append(std::move(part.subtree));
+      TreeNode& parent = tree_.nodes[NodeId(joined.nodes(part.region.parent.index()))];
+      parent.child[static_cast<std::size_t>(part.region.side)] = root;
+      from = part.before;
     }
+    append_between(subtree, from, extent_of(subtree), joined);
+    return place_of(subtree.root, joined);
   }
 
-  void divide(const Region& region) {
-    const bool many = fragments(region).size() > options_.spatial_cut_above;
-    if (many && divide_spatially(region)) return;
-    const internal::FragmentPlane chosen =
-        internal::choose_fragment_plane(pool_, fragments(region), options_);
-    if (chosen.cost > judged(region) / (many ? 2 : 1) && divide_by_edge(region, chosen.cost))
-      return;
-    distribute(region, chosen.plane);
-    add_node(region, chosen.plane);
+ private:
+  // Where the elements of a subtree are in the tree.
+  struct Joined {
+    Shifts nodes, leaves;
+    std::vector<PlaneId> planes;
+  };
+
+  [[nodiscard]] static TreeRef place_of(TreeRef ref, const Joined& joined) {
+    if (ref.is_leaf()) return TreeRef(LeafId(joined.leaves(ref.leaf().index())));
+    return TreeRef(NodeId(joined.nodes(ref.node().index())));
   }
 
-  bool divide_spatially(const Region& region) {
-    const auto found = find_spatial_cut(pool_, fragments(region), options_);
-    if (!found) return false;
-    if (found->cut_share > options_.tolerated_cut_share) {
-      const double cost = static_cast<double>(options_.split_weight * judged(region));
-      if (divide_by_edge(region, static_cast<std::size_t>(cost * found->cut_share))) return true;
+  void append_between(const Subtree& subtree, const Extent& from, const Extent& to,
+                      Joined& joined) {
+    for (std::size_t i = from.planes; i < to.planes; ++i) {
+      joined.planes.push_back(tree_.input.planes.intern(subtree.planes[i]).id);
     }
-    if (!divide_by_foreign_plane(region, found->plane)) return false;
-    ++report_.spatial_cuts;
-    return true;
-  }
-
-  bool divide_by_edge(const Region& region, std::size_t cost_to_beat) {
-    const std::optional<Plane> cut =
-        internal::choose_edge_plane(pool_, tree_.input, fragments(region), options_, cost_to_beat);
-    if (!cut || !divide_by_foreign_plane(region, *cut)) return false;
-    ++report_.edge_cuts;
-    return true;
-  }
-
-  // How many of a region's fragments a plane is judged on: the most that a plane may cost without
-  // cutting any.
-  [[nodiscard]] std::size_t judged(const Region& region) const {
-    return std::min(options_.judged_fragments, fragments(region).size());
-  }
-
-  // By a plane that was not chosen as the plane of a fragment. It cuts the region if there are
-  // fragments on both sides, or one in it; otherwise nothing is changed, and false returned.
-  bool divide_by_foreign_plane(const Region& region, const Plane& cut) {
-    const PlaneId plane = tree_.input.planes.intern(cut).id;
-    // The pool knows the planes that the soup had at the start; later ones have ids of its own
-    // there.
-    const PlaneId pool_plane =
-        plane.index() < pool_.soup_planes() ? plane : pool_.add_plane(tree_.input.planes[plane]);
-    distribute(region, pool_plane);
-    if (on_plane_.empty() && (front_.empty() || back_.empty())) {
-      stack_.insert(stack_.end(), front_.begin(), front_.end());
-      stack_.insert(stack_.end(), back_.begin(), back_.end());
-      return false;
-    }
-    add_node(region, plane);
-    return true;
-  }
-
-  // Takes the region's fragments off the stack, sorted into front_, back_ and on_plane_.
-  void distribute(const Region& region, PlaneId plane) {
-    front_.clear();
-    back_.clear();
-    on_plane_.clear();
-    for (const FragmentId id : fragments(region)) {
-      if (pool_[id].plane == plane) {
-        on_plane_.push_back(pool_[id].triangle);
-        pool_.release(id);
-        continue;
+    const auto triangles = static_cast<std::uint32_t>(tree_.node_triangles.size());
+    for (std::size_t i = from.nodes; i < to.nodes; ++i) {
+      TreeNode node = subtree.nodes[NodeId(i)];
+      if (node.plane.index() >= soup_planes_) {
+        node.plane = joined.planes[node.plane.index() - soup_planes_];
       }
-      const auto pieces = pool_.split(id, plane);
-      if (pieces.front.valid()) front_.push_back(pieces.front);
-      if (pieces.back.valid()) back_.push_back(pieces.back);
-      if (!pieces.front.valid() && !pieces.back.valid()) ++report_.lost_fragments;
+      node.first_triangle += triangles - static_cast<std::uint32_t>(from.triangles);
+      for (TreeRef& child : node.child) child = place_of(child, joined);
+      tree_.nodes.push_back(node);
     }
-    stack_.resize(region.begin);
-  }
-
-  void add_node(const Region& region, PlaneId plane) {
-    TreeNode node;
-    node.plane = plane;
-    node.first_triangle = static_cast<std::uint32_t>(tree_.node_triangles.size());
-    node.triangle_count = static_cast<std::uint32_t>(on_plane_.size());
-    tree_.node_triangles.insert(tree_.node_triangles.end(), on_plane_.begin(), on_plane_.end());
-    const NodeId id = tree_.nodes.push_back(node);
-    attach(region, TreeRef(id));
-    // The front is divided first, so it goes on top.
-    const std::size_t back_begin = stack_.size();
-    stack_.insert(stack_.end(), back_.begin(), back_.end());
-    regions_.push_back(part_of(region, 1, id, back_begin));
-    const std::size_t front_begin = stack_.size();
-    stack_.insert(stack_.end(), front_.begin(), front_.end());
-    regions_.push_back(part_of(region, 0, id, front_begin));
-  }
-
-  // The part of a region on one side of a node. A plane across an axis makes its box smaller.
-  [[nodiscard]] Region part_of(const Region& region, int side, NodeId node,
-                               std::size_t begin) const {
-    Region part{node, side, begin, region.depth + 1, region.low, region.high};
-    const Plane& plane = tree_.input.planes[tree_.nodes[node].plane];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int64_t n = plane.normal[axis];
-      if (n == 0 || plane.normal[(axis + 1) % 3] != 0 || plane.normal[(axis + 2) % 3] != 0)
-        continue;
-      const double at = -static_cast<double>(plane.offset) / static_cast<double>(n);
-      const bool is_above = (side == 0) == (n > 0);
-      double& bound = is_above ? part.low[static_cast<Eigen::Index>(axis)]
-                               : part.high[static_cast<Eigen::Index>(axis)];
-      bound = is_above ? std::max(bound, at) : std::min(bound, at);
+    const auto at = [&](std::size_t i) {
+      return subtree.node_triangles.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    tree_.node_triangles.insert(tree_.node_triangles.end(), at(from.triangles), at(to.triangles));
+    for (std::size_t i = from.leaves; i < to.leaves; ++i) {
+      tree_.leaves.push_back(subtree.leaves[LeafId(i)]);
     }
-    return part;
   }
 
-  // Done is what has left the stack; fragments born from cuts make it grow again, hence the
-  // maximum.
-  void tell_progress() {
-    if (options_.progress == nullptr || ++ticks_ % 1024 != 0) return;
-    if (options_.progress->cancelled()) throw Cancelled();
-    const double left = static_cast<double>(stack_.size()) / static_cast<double>(total_);
-    share_ = std::max(share_, 1 - left);
-    options_.progress->advance(share_);
-  }
-
-  BuildTreeOptions options_;
-  BuildTreeReport& report_;
-  Tree tree_;
-  std::vector<BoxPlane> box_planes_;  // interned before the pool copies the planes
-  FragmentPool pool_;
-  std::vector<FragmentId> stack_;
-  std::vector<Region> regions_;
-  std::vector<FragmentId> front_, back_;
-  std::vector<TriangleId> on_plane_;
-  std::size_t total_ = 1;
-  std::size_t ticks_ = 0;
-  double share_ = 0;
+  Tree& tree_;
+  std::size_t soup_planes_;
 };
 
 }  // namespace
 
 Tree build_tree(CleanSoup soup, const BuildTreeOptions& options, BuildTreeReport& report) {
-  report = {};
-  return TreeBuilder(std::move(soup), options, report).run();
+  Tree tree{std::move(soup), {}, {}, {}, {}};
+  const std::vector<BoxPlane> sides = planes_of_bounding_box(tree.input);
+  internal::TreeProgress progress(options.progress, tree.input.triangles.size());
+  Subtree whole = internal::build_whole({tree.input, options, progress}, sides);
+  report = whole.report;
+  tree.nodes.reserve(report.nodes);
+  tree.leaves.reserve(report.leaves);
+  tree.node_triangles.reserve(report.fragments);
+  tree.root = SubtreeJoiner(tree).append(std::move(whole));
+  tree.input.planes.release_index();
+  return tree;
 }
 
 }  // namespace meshrepair

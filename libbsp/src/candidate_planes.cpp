@@ -120,7 +120,7 @@ std::optional<Plane> choose_edge_plane(const FragmentPool& pool, const CleanSoup
   if (best && to_beat <= std::min(options.judged_fragments, count) / 4) return best;
   for (std::size_t k = 0; k < offers; ++k) {
     const Triangle& triangle = triangle_offering(k);
-    const int axis = dominant_axis(pool.planes()[triangle.plane]);
+    const int axis = dominant_axis(soup.planes[triangle.plane]);
     for (std::size_t e = 0; e < 3; ++e) {
       offer(plane_along_axis(soup.grid_points[triangle.corners[e]],
                              soup.grid_points[triangle.corners[(e + 1) % 3]], axis));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <exact/predicates.h>
 
@@ -16,11 +17,7 @@ bool is_original(PlaneId edge) { return edge.value >= kOriginalEdge; }
 
 }  // namespace
 
-FragmentPool::FragmentPool(const CleanSoup& soup)
-    : soup_(soup),
-      planes_(soup.planes),
-      soup_planes_(soup.planes.size()),
-      edge_planes_(soup.triangles.size()) {
+FragmentPool::FragmentPool(const CleanSoup& soup) : soup_(soup), planes_(soup.planes) {
   planes_.release_index();
   fragments_.reserve(soup.triangles.size());
   corners_.reserve(3 * soup.triangles.size());
@@ -38,6 +35,59 @@ FragmentPool::FragmentPool(const CleanSoup& soup)
     set_bounds(f);
     fragments_.push_back(f);
   }
+}
+
+FragmentPool::FragmentPool(const FragmentPool& other, std::span<const FragmentId> fragments)
+    : soup_(other.soup_) {
+  std::size_t corners = 0;
+  for (const FragmentId id : fragments) corners += other[id].count;
+  fragments_.reserve(fragments.size());
+  corners_.reserve(corners);
+  for (const FragmentId id : fragments) {
+    Fragment f = other[id];
+    const Corner* corner = other.corners(f);
+    f.first = static_cast<std::uint32_t>(corners_.size());
+    for (std::uint32_t i = 0; i < f.count; ++i) corners_.push_back(corner[i]);
+    fragments_.push_back(f);
+  }
+  rename_planes(other);
+}
+
+// Sorts all places where planes are named by these names, and so meets each plane once, in order.
+void FragmentPool::rename_planes(const FragmentPool& other) {
+  std::vector<std::pair<PlaneId, PlaneId*>> places;
+  places.reserve(fragments_.size() + fragments_.size() / 4);
+  for (Fragment& f : fragments_) places.emplace_back(f.plane, &f.plane);
+  for (Corner& corner : corners_) {
+    if (!is_original(corner.edge)) places.emplace_back(corner.edge, &corner.edge);
+    for (PlaneId& plane : corner.point.planes) {
+      if (plane.valid()) places.emplace_back(plane, &plane);
+    }
+  }
+  std::sort(places.begin(), places.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  PlaneId last;
+  for (const auto& [plane, place] : places) {
+    if (plane != last) {
+      planes_.append(other.planes_[plane]);
+      const PlaneId known = other.soup_plane(plane);
+      if (known.valid()) soup_plane_ids_.push_back(known);
+      last = plane;
+    }
+    *place = PlaneId(planes_.size() - 1);
+  }
+}
+
+PlaneId FragmentPool::soup_plane(PlaneId plane) const {
+  if (soup_plane_ids_.empty()) return plane.index() < soup_.planes.size() ? plane : PlaneId();
+  return plane.index() < soup_plane_ids_.size() ? soup_plane_ids_[plane.index()] : PlaneId();
+}
+
+PlaneId FragmentPool::find(PlaneId soup_plane) const {
+  if (soup_plane_ids_.empty()) return soup_plane;
+  const auto found = std::lower_bound(soup_plane_ids_.begin(), soup_plane_ids_.end(), soup_plane);
+  if (found == soup_plane_ids_.end() || *found != soup_plane) return {};
+  return PlaneId(static_cast<std::size_t>(found - soup_plane_ids_.begin()));
 }
 
 FragmentPool::Pieces FragmentPool::split(FragmentId id, PlaneId by) {
@@ -79,23 +129,20 @@ FragmentPool::Pieces FragmentPool::split(FragmentId id, PlaneId by) {
 }
 
 Point FragmentPool::cut_edge(const Fragment& f, Corner& from, const Corner& to, PlaneId by) {
-  if (is_original(from.edge)) from.edge = plane_of_edge(f.triangle, from.edge);
+  if (is_original(from.edge)) from.edge = planes_.append(plane_of_edge(f.triangle, from.edge));
   const auto& a = from.point.position;
   const auto& b = to.point.position;
   return meet(planes_, f.plane, from.edge, by,
               {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
 }
 
-PlaneId FragmentPool::plane_of_edge(TriangleId triangle, PlaneId edge) {
+// An edge that was not cut yet is one of a single fragment, so its plane is made once.
+Plane FragmentPool::plane_of_edge(TriangleId triangle, PlaneId edge) const {
   const std::uint32_t k = edge.value - kOriginalEdge;
-  PlaneId& made = edge_planes_[triangle.index()][k];
-  if (!made.valid()) {
-    const Triangle& t = soup_.triangles[triangle];
-    made = planes_.append(plane_along_axis(soup_.grid_points[t.corners[k]],
-                                           soup_.grid_points[t.corners[(k + 1) % 3]],
-                                           dominant_axis(planes_[t.plane])));
-  }
-  return made;
+  const Triangle& t = soup_.triangles[triangle];
+  return plane_along_axis(soup_.grid_points[t.corners[k]],
+                          soup_.grid_points[t.corners[(k + 1) % 3]],
+                          dominant_axis(soup_.planes[t.plane]));
 }
 
 FragmentId FragmentPool::new_fragment(const Fragment& parent, const std::vector<Corner>& corners) {

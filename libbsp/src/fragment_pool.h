@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bsp/clean_soup.h>
@@ -32,6 +33,9 @@ class FragmentPool {
  public:
   // One fragment for each triangle, in their order.
   explicit FragmentPool(const CleanSoup& soup);
+  // Copies of these fragments, in this order, with those planes alone that they refer to. Names
+  // planes in the same order.
+  FragmentPool(const FragmentPool& other, std::span<const FragmentId> fragments);
 
   struct Pieces {
     FragmentId front, back;  // invalid where there is none; both invalid: lost
@@ -48,24 +52,26 @@ class FragmentPool {
   [[nodiscard]] const Corner* corners(const Fragment& f) const { return &corners_[f.first]; }
   [[nodiscard]] std::size_t size() const { return fragments_.size(); }
 
-  // The planes that fragments refer to: those of the soup under their own ids, then planes of edges
-  // and whatever add_plane() was given.
+  // The planes that fragments refer to: those of the soup, which have other ids here, then planes
+  // of edges and whatever add_plane() was given.
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
   PlaneId add_plane(const Plane& plane) { return planes_.append(plane); }
-  // How many planes have the same ids here as in the soup.
-  [[nodiscard]] std::size_t soup_planes() const { return soup_planes_; }
+  // The id in the soup of a plane of it, and the other way round: invalid if none is in it.
+  [[nodiscard]] PlaneId soup_plane(PlaneId plane) const;
+  [[nodiscard]] PlaneId find(PlaneId soup_plane) const;
 
  private:
   FragmentId new_fragment(const Fragment& parent, const std::vector<Corner>& corners);
   std::uint32_t take_block(std::uint32_t count);
-  PlaneId plane_of_edge(TriangleId triangle, PlaneId edge);
+  [[nodiscard]] Plane plane_of_edge(TriangleId triangle, PlaneId edge) const;
+  void rename_planes(const FragmentPool& other);
   Point cut_edge(const Fragment& f, Corner& from, const Corner& to, PlaneId by);
   void set_bounds(Fragment& f) const;
 
   const CleanSoup& soup_;
   PlaneTable planes_;
-  std::size_t soup_planes_;
-  std::vector<std::array<PlaneId, 3>> edge_planes_;  // by triangle; made when first needed
+  // In the soup, of the first planes, which are of it; empty: all have the same ids here.
+  std::vector<PlaneId> soup_plane_ids_;
   TrivialVector<Fragment> fragments_;
   std::vector<FragmentId> free_fragments_;
   TrivialVector<Corner> corners_;

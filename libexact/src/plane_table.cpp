@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 
+#include <base/assert.h>
 #include <exact/plane_table.h>
 
 namespace meshrepair {
@@ -34,6 +35,16 @@ PlaneTable::Interned PlaneTable::intern(Plane plane) {
   slots_[slot] = planes_.push_back(plane);
   ++interned_;
   return {slots_[slot], turned};
+}
+
+PlaneId PlaneTable::find(const Plane& plane) const {
+  MESHREPAIR_ASSERT(!slots_.empty());
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash_of(plane) & mask;
+  while (slots_[slot].valid() && !same_coefficients(planes_[slots_[slot]], plane)) {
+    slot = (slot + 1) & mask;
+  }
+  return slots_[slot];
 }
 
 void PlaneTable::reserve(std::size_t count) { planes_.reserve(count); }

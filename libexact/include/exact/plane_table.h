@@ -20,6 +20,10 @@ class PlaneTable {
   // count up from 0. `plane` has a normal that is not zero. Amortised constant time.
   Interned intern(Plane plane);
 
+  // The id of a canonical plane; invalid if it is not there. Only between intern() and
+  // release_index().
+  [[nodiscard]] PlaneId find(const Plane& plane) const;
+
   // Adds a plane under a new id without looking whether it is there: for planes that are never
   // compared.
   PlaneId append(const Plane& plane) { return planes_.push_back(plane); }

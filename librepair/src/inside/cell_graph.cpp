@@ -48,23 +48,23 @@ class LinkMaker {
   void make(std::vector<Link>& links, double* moments, ProgressObserver* progress) {
     CancelOnly quiet(progress);
     SharedProgress shared(&quiet, tasks_.size());
-    parallel_tasks(complex_.facets.size(), kFacetsPerTask,
-                   [&](std::size_t task, std::size_t first, std::size_t last) {
-                     std::size_t next = tasks_[task].first_link;
-                     auto layer = layers_from(FacetId(first));
-                     for (FacetId f(first); f.index() < last; ++f.value) {
-                       while (layer != layers_.end() && layer->facet < f) ++layer;
-                       if (!is_link(complex_.facets[f])) continue;
-                       for (; layer != layers_.end() && layer->facet == f; ++layer) {
-                         tasks_[task].layers.push_back(
-                             {static_cast<std::uint32_t>(next), layer->triangle});
-                       }
-                       const FacetMeasure measure = measure_facet(complex_, f);
-                       moments[next] = measure.moment;
-                       links[next++] = link_of(f, measure.area);
-                     }
-                     shared.done();
-                   });
+    parallel_tasks(
+        complex_.facets.size(), kFacetsPerTask,
+        [&](std::size_t task, std::size_t first, std::size_t last) {
+          std::size_t next = tasks_[task].first_link;
+          auto layer = layers_from(FacetId(first));
+          for (FacetId f(first); f.index() < last; ++f.value) {
+            while (layer != layers_.end() && layer->facet < f) ++layer;
+            if (!is_link(complex_.facets[f])) continue;
+            for (; layer != layers_.end() && layer->facet == f; ++layer) {
+              tasks_[task].layers.push_back({static_cast<std::uint32_t>(next), layer->triangle});
+            }
+            const FacetMeasure measure = measure_facet(complex_, f);
+            moments[next] = measure.moment;
+            links[next++] = link_of(f, measure.area);
+          }
+          shared.done();
+        });
   }
 
   // After make().

@@ -41,9 +41,8 @@ Walk walk(const CellGraph& graph, ProgressObserver* progress, Step step) {
     }
     return count;
   };
-  result.contradictions =
-      parallel_reduce(graph.links().size(), kLinksPerTask, contradictions,
-                      [](std::size_t& all, std::size_t part) { all += part; });
+  result.contradictions = parallel_reduce(graph.links().size(), kLinksPerTask, contradictions,
+                                          [](std::size_t& all, std::size_t part) { all += part; });
   return result;
 }
 
