@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <base/parallel.h>
 #include <bsp/build_tree.h>
 #include <bsp/tree_io.h>
 
@@ -134,6 +135,45 @@ void expect_same_partition(const Tree& a, const Tree& b) {
   for (PlaneId p(0u); p.index() < a.input.planes.size(); ++p.value) {
     EXPECT_TRUE(same_coefficients(a.input.planes[p], b.input.planes[p]));
   }
+}
+
+// Large enough to be built in parts, within parts.
+TEST(BuildTree, TheNumberOfThreadsDoesNotMatter) {
+  const TriangleSoup soup = noisy_sphere(140000, 0.002, 1);
+  BuildTreeReport many_report, one_report;
+  const Tree many = tree_of(soup, many_report);
+  expect_valid_structure(many);
+  expect_every_triangle_at_home(many);
+  EXPECT_EQ(many_report.nodes, many.nodes.size());
+  EXPECT_EQ(many_report.leaves, many.leaves.size());
+  EXPECT_EQ(many_report.fragments, many.node_triangles.size());
+  const ThreadLimit one(1);
+  EXPECT_EQ(format_tree(tree_of(soup, one_report)), format_tree(many));
+  EXPECT_EQ(one_report.depth, many_report.depth);
+  EXPECT_EQ(one_report.spatial_cuts, many_report.spatial_cuts);
+  EXPECT_EQ(one_report.edge_cuts, many_report.edge_cuts);
+}
+
+// As a walk from the root meets them that sees the front of each node first, so that cells beside
+// each other are near each other in memory; but the sides of the box come first.
+TEST(BuildTree, NodesStandInTheOrderOfAWalk) {
+  const Tree tree = tree_of(noisy_sphere(20000, 0.005, 1));
+  std::vector<TreeRef> stack = {tree.root};
+  NodeId next(0u);
+  std::uint32_t triangles = 0;
+  while (!stack.empty()) {
+    const TreeRef ref = stack.back();
+    stack.pop_back();
+    if (ref.is_leaf()) continue;
+    ASSERT_EQ(ref.node(), next);
+    ++next.value;
+    const TreeNode& node = tree.nodes[ref.node()];
+    ASSERT_EQ(node.first_triangle, triangles);
+    triangles += node.triangle_count;
+    stack.push_back(node.child[1]);
+    stack.push_back(node.child[0]);
+  }
+  EXPECT_EQ(next, tree.nodes.end_id());
 }
 
 TEST(BuildTree, OrientationOfTrianglesDoesNotMatter) {
@@ -297,9 +337,13 @@ TEST(BuildTree, ProgressDoesNotGoBack) {
   Watcher observer;
   BuildTreeOptions options;
   options.progress = &observer;
-  BuildTreeReport report;
-  (void)tree_of(noisy_sphere(3000, 0.1, 1), report, options);
-  EXPECT_GT(observer.calls_, 0);
+  for (const std::size_t triangles : {3000u, 40000u}) {
+    observer.last_ = 0;
+    observer.calls_ = 0;
+    BuildTreeReport report;
+    (void)tree_of(noisy_sphere(triangles, 0.005, 1), report, options);
+    EXPECT_GT(observer.calls_, 1);
+  }
 }
 
 }  // namespace

@@ -103,6 +103,18 @@ TEST(PlaneTable, ReleasingTheIndexForgetsNothing) {
   EXPECT_EQ(table.size(), before);
 }
 
+TEST(PlaneTable, WhatWasInternedIsFound) {
+  Random random(5);
+  PlaneTable table;
+  for (int i = 0; i < 300; ++i) {
+    Plane plane = plane_near_origin(random, 50);
+    make_canonical(plane);
+    const PlaneId id = table.intern(plane).id;
+    EXPECT_EQ(table.find(plane), id);
+  }
+  EXPECT_FALSE(table.find(make_plane({1000, 1, 1}, 7)).valid());
+}
+
 TEST(PlaneTable, AppendedPlanesGetIdsOfTheirOwn) {
   PlaneTable table;
   const Plane plane = make_plane({1, 2, 3}, 4);

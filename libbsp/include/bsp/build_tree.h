@@ -27,7 +27,8 @@ struct BuildTreeOptions {
   // An offer's cost is split_weight * (fragments cut) + |front - back|.
   std::size_t split_weight = 8;
   // Asked whether to divide a region that has fragments, which lies in this closed box, in grid
-  // units; if not, it is left as a leaf (Leaf::undivided). Empty: all are divided.
+  // units; if not, it is left as a leaf (Leaf::undivided). Empty: all are divided. Several threads
+  // ask at once.
   std::function<bool(const Vec3d& low, const Vec3d& high)> divides;
   ProgressObserver* progress = nullptr;
 };

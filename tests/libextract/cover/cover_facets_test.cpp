@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <base/parallel.h>
 #include <extract/check_complex.h>
 #include <extract/cover_facets.h>
 #include <mesh/soup_io.h>
@@ -118,6 +119,27 @@ TEST(CoverFacets, ManyTrianglesInOnePlane) {
   const auto cover = cover_of(cells);
   check_complex(cells.complex);
   expect_facets_add_up(cells, cover);
+}
+
+TEST(CoverFacets, TheNumberOfThreadsDoesNotMatter) {
+  const TriangleSoup soup = random_soup(300, 1 << 20, 1);
+  const auto cover_all = [&] {
+    Cells cells = cells_of(soup);
+    CoverReport report;
+    std::vector<CoverLayer> layers;
+    const auto cover =
+        cover_facets(cells.complex, own_windings(cells.tree->input), report, nullptr, &layers);
+    EXPECT_GT(report.split_facets, 1000u);
+    std::vector<std::uint32_t> all;
+    for (const Cover& c : cover)
+      all.insert(all.end(), {c.triangle.value, std::uint32_t(c.winding)});
+    for (const CoverLayer& l : layers) all.insert(all.end(), {l.facet.value, l.triangle.value});
+    for (const Use& u : cells.complex.uses) all.insert(all.end(), {u.facet.value, u.next.value});
+    return all;
+  };
+  const auto many = cover_all();
+  const ThreadLimit one(1);
+  EXPECT_EQ(cover_all(), many);
 }
 
 TEST(CoverFacets, SplittingKeepsCellsConvexAndTheirVolumes) {

@@ -59,6 +59,16 @@ TEST(CellGraph, LinksAreTheFacetsBetweenCells) {
   }
 }
 
+TEST(CellGraph, VolumesAreThoseOfTheCells) {
+  const Graph g = graph_of(noisy_sphere(4000, 0.1, 1));
+  for (CellId c(0u); c.index() < g.graph.cells(); ++c.value) {
+    if (g.graph.unbounded(c)) continue;
+    const double volume = cell_volume(g.cells.complex, c);
+    // The sum is one of volumes up to the origin.
+    EXPECT_NEAR(g.graph.volume(c), volume, 1e-6 * volume + 0x1p78 * 1e-14);
+  }
+}
+
 TEST(CellGraph, EveryCellCanBeReachedFromOutside) {
   for (const SoupFamily& family : degenerate_families()) {
     SCOPED_TRACE(family.name);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <base/parallel.h>
 #include <repair/solidity.h>
 
 #include "degenerate_soups.h"
@@ -171,6 +172,16 @@ TEST(Solidity, OrientationDoesNotMatter) {
   const Graph turned = graph_of(with_some_flipped(soup, 0.5, 2));
   SolveReport report;
   EXPECT_EQ(solve_solidity(g.graph, {}, report), solve_solidity(turned.graph, {}, report));
+}
+
+// More unknowns than one task has.
+TEST(Solidity, TheNumberOfThreadsDoesNotMatter) {
+  const Graph g = graph_of(without_some(noisy_sphere(8000, 0.1, 1), 0.1, 2));
+  SolveReport report;
+  const std::vector<double> s = solve_solidity(g.graph, {}, report);
+  EXPECT_GT(report.unknowns, 10000u);
+  const ThreadLimit one(1);
+  EXPECT_EQ(solve_solidity(g.graph, {}, report), s);
 }
 
 TEST(Solidity, NoUnknownsIsNoTrouble) {
