@@ -102,7 +102,7 @@ class SubtreeBuilder {
   }
 
   void build_parts() {
-    stack_ = {};
+    stack_ = std::vector<FragmentId>();
     parallel_for(built_.put_off.size(), [&](std::size_t i) {
       PutOff& part = built_.put_off[i];
       SubtreeBuilder builder(task_, FragmentPool(pool_, std::exchange(part.fragments, {})));

@@ -13,8 +13,8 @@
 namespace meshrepair::internal {
 namespace {
 
-// The rows of a task: some ten microseconds of work. Changing it changes the rounding of sums.
-constexpr std::size_t kRowsPerTask = 4096;
+// The rows of a task: some tens of microseconds of work. Changing it changes the rounding of sums.
+constexpr std::size_t kRowsPerBlock = 4096;
 
 class Solver {
  public:
@@ -26,7 +26,7 @@ class Solver {
         direction_(right.size()),
         product_(right.size()),
         scale_(right.size()),
-        sums_(tasks_of(right.size(), kRowsPerTask)) {}
+        sums_(tasks_of(right.size(), kRowsPerBlock)) {}
 
   std::vector<double> run(SolveReport& report) {
     const Sums start = begin();
@@ -60,7 +60,7 @@ class Solver {
   // The sum of what sum_of(first, last) gives for each block of rows.
   template <class SumOf>
   Sums add_up(const SumOf& sum_of) {
-    parallel_tasks(x_.size(), kRowsPerTask,
+    parallel_tasks(x_.size(), kRowsPerBlock,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
                      sums_[task] = sum_of(first, last);
                    });
@@ -124,7 +124,7 @@ class Solver {
   }
 
   void turn(double share) {
-    parallel_tasks(x_.size(), kRowsPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+    parallel_tasks(x_.size(), kRowsPerBlock, [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         direction_[i] = scale_[i] * residual_[i] + share * direction_[i];
       }
