@@ -20,6 +20,10 @@ class PlaneTable {
   // count up from 0. `plane` has a normal that is not zero. Amortised constant time.
   Interned intern(Plane plane);
 
+  // The id of each of these canonical planes, as interning them one by one would give. The table is
+  // empty before. On several threads.
+  [[nodiscard]] std::vector<PlaneId> take(IdVector<PlaneId, Plane> planes);
+
   // Adds a plane under a new id without looking whether it is there: for planes that are never
   // compared.
   PlaneId append(const Plane& plane) { return planes_.push_back(plane); }
