@@ -40,6 +40,13 @@ class SharedSets {
     }
   }
 
+  // Once all have joined.
+  [[nodiscard]] std::size_t count() const {
+    std::size_t roots = 0;
+    for (std::size_t i = 0; i < parent_.size(); ++i) roots += parent_[i] == i;
+    return roots;
+  }
+
  private:
   std::atomic_ref<std::uint32_t> at(std::uint32_t member) {
     return std::atomic_ref<std::uint32_t>(parent_[member]);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <base/trivial_vector.h>
+#include <base/raw_vector.h>
 #include <check/box_tree.h>
 #include <check/triangle_pair.h>
 #include <mesh/soup.h>
@@ -51,9 +51,9 @@ class TriangleList {
   [[nodiscard]] std::size_t size() const { return ids_.size(); }
   [[nodiscard]] const SoupCorners& corners() const { return corners_; }
   [[nodiscard]] CornerTriangle triangle(std::uint32_t i) const;
-  [[nodiscard]] std::span<const Box> boxes() const { return {boxes_.data(), boxes_.size()}; }
+  [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
   // Their numbers in the soup.
-  [[nodiscard]] std::span<const std::uint32_t> ids() const { return {ids_.data(), ids_.size()}; }
+  [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
   void drop_boxes() { boxes_ = {}; }
   [[nodiscard]] std::size_t degenerate() const { return degenerate_; }
   [[nodiscard]] std::size_t not_finite() const { return not_finite_; }
@@ -63,8 +63,8 @@ class TriangleList {
   void add(std::size_t count, const IdOf& id_of);
 
   const SoupCorners& corners_;
-  TrivialVector<Box> boxes_;
-  TrivialVector<std::uint32_t> ids_;
+  RawVector<Box> boxes_;
+  RawVector<std::uint32_t> ids_;
   std::size_t degenerate_ = 0;
   std::size_t not_finite_ = 0;
 };

@@ -135,7 +135,7 @@ SortedTriangles::SortedTriangles(TriangleList&& list, const BoxTree& box_tree) :
 }
 
 void SortedTriangles::sort_boxes(const TriangleList& list) {
-  boxes.resize_for_overwrite(list.size());
+  boxes.resize(list.size());
   parallel_tasks(list.size(), kTrianglesPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t i = first; i < last; ++i) {

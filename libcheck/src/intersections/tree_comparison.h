@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <base/raw_vector.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/self_intersections.h>
@@ -50,9 +51,9 @@ struct SortedTriangles {
   void sort_triangles(const TriangleList& list);
 
   const BoxTree& tree;
-  std::vector<CornerTriangle> triangles;
-  TrivialVector<Box> boxes;
-  std::vector<std::uint32_t> ids;
+  RawVector<CornerTriangle> triangles;
+  RawVector<Box> boxes;
+  RawVector<std::uint32_t> ids;
   std::vector<std::uint32_t> hub, node_hub;  // empty: nothing is left out
 };
 

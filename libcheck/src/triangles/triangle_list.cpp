@@ -62,7 +62,7 @@ void TriangleList::add(std::size_t count, const IdOf& id_of) {
   struct Found {
     std::size_t usable = 0, degenerate = 0, not_finite = 0;
   };
-  std::vector<Fetched> state(count);
+  RawVector<Fetched> state(count);
   std::vector<Found> before(tasks_of(count, kTrianglesPerTask));  // first of each task alone
   parallel_tasks(count, kTrianglesPerTask,
                  [&](std::size_t task, std::size_t first, std::size_t last) {
@@ -81,8 +81,8 @@ void TriangleList::add(std::size_t count, const IdOf& id_of) {
     not_finite_ += found.not_finite;
     usable += std::exchange(found.usable, usable);
   }
-  boxes_.resize_for_overwrite(usable);
-  ids_.resize_for_overwrite(usable);
+  boxes_.resize(usable);
+  ids_.resize(usable);
   parallel_tasks(count, kTrianglesPerTask,
                  [&](std::size_t task, std::size_t first, std::size_t last) {
                    std::size_t place = before[task].usable;

@@ -29,6 +29,10 @@ class PointWelder {
 // For each point the first one that has its place. On several threads.
 [[nodiscard]] std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& points);
 
+// For each of `points` the first one of both lists, one after the other, that has its place.
+[[nodiscard]] std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& before,
+                                                        const std::vector<Vec3d>& points);
+
 // Points by where they lie.
 struct PointPlaces {
   std::vector<std::uint32_t> place;  // of each point the first one that is there

@@ -56,10 +56,19 @@ std::uint32_t PointWelder::index_of(Vec3d point) {
 }
 
 std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& points) {
-  const auto point = [&](std::size_t p) -> Vec3d { return without_negative_zero(points[p]); };
-  return first_equal(
-      points.size(), [&](std::size_t p) { return hash(point(p)); },
+  return first_in_place({}, points);
+}
+
+std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& before,
+                                          const std::vector<Vec3d>& points) {
+  const auto point = [&](std::size_t p) -> Vec3d {
+    return without_negative_zero(p < before.size() ? before[p] : points[p - before.size()]);
+  };
+  std::vector<std::uint32_t> first = first_equal(
+      before.size() + points.size(), [&](std::size_t p) { return hash(point(p)); },
       [&](std::size_t p, std::size_t q) { return same_bits(point(p), point(q)); });
+  first.erase(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(before.size()));
+  return first;
 }
 
 PointPlaces find_places(const std::vector<Vec3d>& points) {
