@@ -2,6 +2,7 @@
 #include <array>
 #include <utility>
 
+#include <base/buckets.h>
 #include <base/ids.h>
 #include <base/parallel.h>
 #include <check/known_intersections.h>
@@ -26,6 +27,8 @@ SelfIntersections compare_nearby(const TriangleSoup& mesh, const std::vector<std
 }
 
 constexpr std::size_t kTrianglesPerTask = 16384;
+// Of lowest corners, for sorting.
+constexpr std::size_t kMostBuckets = 512, kFewestCorners = 1024;
 
 // Of the corners of each triangle, ascending.
 std::vector<IndexTriangle> places_of(const SoupCorners& corners) {
@@ -123,21 +126,25 @@ void KnownIntersections::remember(const TriangleSoup& mesh, const SoupCorners& c
     std::sort(triangle.begin(), triangle.end());
     return triangle;
   };
-  first_.assign(points + 1, 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (doubtful[t] == 0) ++first_[corners_of(t)[0] + 1];
-  }
-  for (std::size_t p = 0; p < points; ++p) first_[p + 1] += first_[p];
+  const std::size_t corners_each = std::max(kFewestCorners, tasks_of(points, kMostBuckets));
+  Buckets<IndexTriangle> buckets(mesh.triangles.size(), tasks_of(points, corners_each),
+                                 [&](std::size_t t, const auto& put) {
+                                   if (doubtful[t] != 0) return;
+                                   const IndexTriangle triangle = corners_of(t);
+                                   put(triangle[0] / corners_each, triangle);
+                                 });
+  first_.assign(points + 1, buckets.first(buckets.size()));
   others_.resize(first_.back());
-  std::vector<std::uint32_t> next = first_;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (doubtful[t] != 0) continue;
-    const auto [lowest, second, third] = corners_of(t);
-    others_[next[lowest]++] = {second, third};
-  }
-  // Very many may have one corner in common.
-  parallel_for(points, [&](std::size_t p) {
-    std::sort(others_.begin() + first_[p], others_.begin() + first_[p + 1]);
+  parallel_for(buckets.size(), [&](std::size_t b) {
+    const auto bucket = buckets[b];
+    std::sort(bucket.begin(), bucket.end());
+    std::size_t i = 0;
+    for (std::size_t p = b * corners_each; p < std::min(points, (b + 1) * corners_each); ++p) {
+      first_[p] = buckets.first(b) + static_cast<std::uint32_t>(i);
+      for (; i < bucket.size() && bucket[i][0] == p; ++i) {
+        others_[buckets.first(b) + i] = {bucket[i][1], bucket[i][2]};
+      }
+    }
   });
   points_ = mesh.points;
 }
