@@ -4,6 +4,7 @@
 
 #include <base/assert.h>
 #include <base/first_equal.h>
+#include <base/release.h>
 #include <exact/plane_table.h>
 
 namespace meshrepair {
@@ -65,7 +66,7 @@ std::vector<PlaneId> PlaneTable::take(IdVector<PlaneId, Plane> planes) {
 void PlaneTable::reserve(std::size_t count) { planes_.reserve(count); }
 
 void PlaneTable::release_index() {
-  slots_ = {};
+  release(slots_);
   interned_ = 0;
 }
 

@@ -2,6 +2,7 @@
 #include <map>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +102,25 @@ TEST(PlaneTable, ReleasingTheIndexForgetsNothing) {
   const std::size_t before = table.size();
   for (const auto& [plane, id] : all) EXPECT_EQ(table.intern(plane).id, id);
   EXPECT_EQ(table.size(), before);
+}
+
+TEST(PlaneTable, TakesManyAtOnceAsOneByOne) {
+  Random random(12);
+  PlaneTable one_by_one, at_once;
+  IdVector<PlaneId, Plane> planes;
+  std::vector<PlaneId> wanted;
+  for (int i = 0; i < 30'000; ++i) {
+    Plane plane = plane_near_origin(random, 6);
+    wanted.push_back(one_by_one.intern(plane).id);
+    make_canonical(plane);
+    planes.push_back(plane);
+  }
+  EXPECT_EQ(at_once.take(std::move(planes)), wanted);
+  ASSERT_EQ(at_once.size(), one_by_one.size());
+  for (PlaneId id(0u); id.index() < at_once.size(); ++id.value) {
+    ASSERT_TRUE(same_coefficients(at_once[id], one_by_one[id]));
+    ASSERT_EQ(at_once.intern(one_by_one[id]).id, id);
+  }
 }
 
 TEST(PlaneTable, AppendedPlanesGetIdsOfTheirOwn) {

@@ -26,6 +26,7 @@ class KnownIntersections {
   [[nodiscard]] SelfIntersections find(const TriangleSoup& mesh);
 
  private:
+  [[nodiscard]] SelfIntersections compare(const SoupCorners& corners) const;
   [[nodiscard]] std::vector<std::uint32_t> find_fresh(
       const std::vector<IndexTriangle>& triangles) const;
   [[nodiscard]] std::size_t find_known(const IndexTriangle& places) const;

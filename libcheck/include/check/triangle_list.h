@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <base/raw_vector.h>
+#include <base/release.h>
 #include <check/box_tree.h>
 #include <check/triangle_pair.h>
 #include <mesh/soup.h>
@@ -54,7 +55,7 @@ class TriangleList {
   [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
   // Their numbers in the soup.
   [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
-  void drop_boxes() { boxes_ = {}; }
+  void drop_boxes() { release(boxes_); }
   [[nodiscard]] std::size_t degenerate() const { return degenerate_; }
   [[nodiscard]] std::size_t not_finite() const { return not_finite_; }
 

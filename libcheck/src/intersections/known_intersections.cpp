@@ -71,13 +71,17 @@ KnownIntersections::KnownIntersections(std::size_t most_pairs, ProgressObserver*
 SelfIntersections KnownIntersections::find(const TriangleSoup& mesh) {
   const SoupCorners corners(mesh, first_in_place(points_, mesh.points),
                             points_.size() + mesh.points.size());
-  const std::vector<std::uint32_t> fresh = find_fresh(places_of(corners));
-  const bool few = fresh.size() <= mesh.triangles.size() / kFew;
-  SelfIntersections found =
-      few ? compare_nearby(mesh, fresh, options_) : compare_all(corners, options_);
+  SelfIntersections found = compare(corners);
   add_crossing_sheets(corners, {}, options_, found);
   remember(mesh, corners, find_doubtful(corners, found));
   return found;
+}
+
+SelfIntersections KnownIntersections::compare(const SoupCorners& corners) const {
+  if (others_.empty()) return compare_all(corners, options_);
+  const std::vector<std::uint32_t> fresh = find_fresh(places_of(corners));
+  const bool few = fresh.size() <= corners.soup().triangles.size() / kFew;
+  return few ? compare_nearby(corners.soup(), fresh, options_) : compare_all(corners, options_);
 }
 
 // Those that are not known, and all but one of those in one place, and that one.

@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include <base/parallel.h>
+#include <base/release.h>
 #include <base/shared_progress.h>
 
 #include "cut_lines.h"
@@ -192,7 +193,7 @@ class FacetArranger {
       lines_[t] = {};
     });
     join(same_);
-    same_ = {};
+    release(same_);
   }
 
   void sort_lines_of(std::uint32_t t, SamePoints& same) {
@@ -218,10 +219,10 @@ class FacetArranger {
     std::atomic<bool> sound = true;
     for_all(cut_.size(), [&](std::uint32_t t, std::size_t) {
       if (!triangulate(t, all[t])) sound = false;
-      line_points_[t] = {};
+      release(line_points_[t]);
     });
     if (!sound) return std::nullopt;
-    for_all(cut_.edges(), [&](std::uint32_t e, std::size_t) { edge_points_[e] = {}; });
+    for_all(cut_.edges(), [&](std::uint32_t e, std::size_t) { release(edge_points_[e]); });
     return put_together(all);
   }
 

@@ -6,6 +6,7 @@
 
 #include <base/ids.h>
 #include <base/parallel.h>
+#include <base/release.h>
 #include <base/shared_progress.h>
 #include <base/shared_sets.h>
 
@@ -263,7 +264,7 @@ class SheetSurfaceMaker {
       report_.regions += made.regions;
       all = all && made.all;
     });
-    order_ = {};
+    release(order_);
     return all;
   }
 
@@ -286,7 +287,7 @@ class SheetSurfaceMaker {
       static_assert(Surface::kNoSource == Triangle::kNoSource);
       surface_.source.push_back(cut_.soup().triangles[TriangleId(triangle.source)].source);
     }
-    triangles_ = {};
+    release(triangles_);
   }
 
   void place_points() {
