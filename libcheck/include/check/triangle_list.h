@@ -46,8 +46,10 @@ class SoupCorners {
 class TriangleList {
  public:
   explicit TriangleList(const SoupCorners& corners);
+  explicit TriangleList(SoupCorners&& corners) = delete;
   // Each of `among` once, in that order.
   TriangleList(const SoupCorners& corners, std::span<const std::uint32_t> among);
+  TriangleList(SoupCorners&& corners, std::span<const std::uint32_t> among) = delete;
 
   [[nodiscard]] std::size_t size() const { return ids_.size(); }
   [[nodiscard]] const SoupCorners& corners() const { return corners_; }
