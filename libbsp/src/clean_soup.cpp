@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <base/error.h>
+#include <base/first_equal.h>
 #include <base/hash_index.h>
+#include <base/parallel.h>
 #include <bsp/clean_soup.h>
 #include <bsp/common_grid.h>
 #include <exact/grid_hash.h>
@@ -18,8 +21,10 @@ namespace {
 
 using internal::hash_mix;
 using internal::hash_of;
-using internal::HashIndex;
 using Corners = std::array<PointId, 3>;
+
+// Some milliseconds of work.
+constexpr std::size_t kItemsPerTask = 32768;
 
 // Which points are corners of triangles whose three corners are finite; throws on indices out of
 // range.
@@ -45,27 +50,35 @@ std::vector<char> used_points(const TriangleSoup& soup, std::vector<char>& finit
 
 // Fills points and grid_points; returns the new id of each used point.
 std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<char>& used,
-                                 CleanSoup& clean, CleanReport& report, CancelCheck& check) {
-  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
-  clean.points.reserve(count);
-  clean.grid_points.reserve(count);
-  HashIndex index(count);
+                                 CleanSoup& clean, CleanReport& report) {
+  std::vector<std::uint32_t> given;  // those in use
+  given.reserve(used.size());
+  for (std::uint32_t i = 0; i < used.size(); ++i) {
+    if (used[i] != 0) given.push_back(i);
+  }
+  std::vector<GridPoint> at(given.size());
+  parallel_tasks(given.size(), kItemsPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     at[i] = clean.grid.to_grid(soup.points[given[i]]);
+                   }
+                 });
+  const std::vector<std::uint32_t> first = first_equal(
+      given.size(), [&](std::size_t i) { return hash_of(at[i]); },
+      [&](std::size_t i, std::size_t j) { return at[i] == at[j]; });
+  clean.points.reserve(given.size());
+  clean.grid_points.reserve(given.size());
   std::vector<PointId> id_of(soup.points.size());
-  for (std::size_t i = 0; i < soup.points.size(); ++i) {
-    if (!used[i]) continue;
-    check.tick();
-    const GridPoint at = clean.grid.to_grid(soup.points[i]);
-    const PointId fresh = clean.grid_points.end_id();
-    const PointId id(index.find_or_insert(hash_of(at), fresh.value, [&](std::uint32_t candidate) {
-      return clean.grid_points[PointId(candidate)] == at;
-    }));
-    if (id == fresh) {
-      clean.grid_points.push_back(at);
-      clean.points.push_back(soup.points[i]);
-    } else if (clean.points[id] != soup.points[i]) {
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const Vec3d& point = soup.points[given[i]];
+    PointId& id = id_of[given[i]];
+    id = id_of[given[first[i]]];
+    if (first[i] == i) {
+      id = clean.grid_points.push_back(at[i]);
+      clean.points.push_back(point);
+    } else if (clean.points[id] != point) {
       ++report.joined_points;
     }
-    id_of[i] = id;
   }
   return id_of;
 }
@@ -86,33 +99,99 @@ std::uint64_t hash_of_corners(const Corners& sorted_corners) {
                   sorted_corners[2].value);
 }
 
+// Corners are in a line where their triangle is lower than this over its longest side, the largest
+// coordinate being 1. Each coordinate was rounded twice, when it was made and when it was scaled,
+// which moves a corner by up to sqrt(3) 2^-52 and changes the height by twice that at most; the
+// cross product adds about as much. For the report alone: what is kept is decided on the grid.
+constexpr double kFlat = 0x1p-48;
+
+bool in_a_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const double size = a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(c.cwiseAbs()).maxCoeff();
+  if (size == 0) return true;
+  const Vec3d u = b / size - a / size;
+  const Vec3d v = c / size - a / size;
+  const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
+  return u.cross(v).norm() <= kFlat * longest;
+}
+
+Plane plane_of(const CleanSoup& clean, const Corners& corners) {
+  const auto& at = clean.grid_points;
+  return plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
+}
+
+// The corners of a triangle as given, on the grid.
+class GridCorners {
+ public:
+  GridCorners(const TriangleSoup& soup, const std::vector<PointId>& id_of)
+      : soup_(soup), id_of_(id_of) {}
+  Corners operator[](std::size_t triangle) const {
+    const auto& c = soup_.triangles[triangle];
+    return {id_of_[c[0]], id_of_[c[1]], id_of_[c[2]]};
+  }
+
+ private:
+  const TriangleSoup& soup_;
+  const std::vector<PointId>& id_of_;
+};
+
+// Those that have an area on the grid, and in the report how many have none.
+std::vector<std::uint32_t> find_triangles(const TriangleSoup& soup, const GridCorners& corners,
+                                          const std::vector<char>& finite, const CleanSoup& clean,
+                                          CleanReport& report) {
+  struct Found {
+    std::vector<std::uint32_t> triangles;
+    std::size_t not_finite = 0, degenerate = 0, below_grid = 0;
+  };
+  const auto find = [&](std::size_t first, std::size_t last) {
+    Found found;
+    for (std::size_t t = first; t < last; ++t) {
+      if (finite[t] == 0) {
+        ++found.not_finite;
+      } else if (!is_null(plane_of(clean, corners[t]))) {
+        found.triangles.push_back(static_cast<std::uint32_t>(t));
+      } else {
+        const auto& c = soup.triangles[t];
+        const bool flat = in_a_line(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
+        ++(flat ? found.degenerate : found.below_grid);
+      }
+    }
+    return found;
+  };
+  std::vector<std::uint32_t> all;
+  parallel_reduce(soup.triangles.size(), kItemsPerTask, find, [&](Found&, const Found& found) {
+    all.insert(all.end(), found.triangles.begin(), found.triangles.end());
+    report.dropped_not_finite += found.not_finite;
+    report.dropped_degenerate += found.degenerate;
+    report.dropped_below_grid += found.below_grid;
+  });
+  return all;
+}
+
+// Each triangle once, with its plane.
 class TriangleCollector {
  public:
   TriangleCollector(const TriangleSoup& soup, CleanSoup& clean, CleanReport& report)
-      : soup_(soup), clean_(clean), report_(report), index_(soup.triangles.size()) {
-    clean_.triangles.reserve(soup.triangles.size());
-  }
+      : soup_(soup), clean_(clean), report_(report) {}
 
-  // False where there is no triangle: the corners are equal or in a line, on the grid.
-  bool add(const Corners& corners, std::uint32_t source) {
-    const auto& at = clean_.grid_points;
-    Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
-    if (is_null(plane)) return false;
-    const Corners key = sorted(corners);
-    const TriangleId fresh = clean_.triangles.end_id();
-    const TriangleId id(
-        index_.find_or_insert(hash_of_corners(key), fresh.value, [&](std::uint32_t candidate) {
-          return sorted(clean_.triangles[TriangleId(candidate)].corners) == key;
-        }));
-    if (id == fresh) {
-      const auto interned = clean_.planes.intern(plane);
-      clean_.triangles.push_back({corners, interned.id, interned.turned ? -1 : 1, source});
-    } else {
-      const bool same = same_orientation(clean_.triangles[id].corners, corners);
+  void add(const std::vector<std::uint32_t>& all, const GridCorners& corners) {
+    const std::vector<std::uint32_t> first = first_equal(
+        all.size(), [&](std::size_t i) { return hash_of_corners(sorted(corners[all[i]])); },
+        [&](std::size_t i, std::size_t j) {
+          return sorted(corners[all[i]]) == sorted(corners[all[j]]);
+        });
+    std::vector<TriangleId> id_of(all.size());
+    clean_.triangles.reserve(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (first[i] == i) {
+        id_of[i] = clean_.triangles.push_back({corners[all[i]], PlaneId(), 1, all[i]});
+        continue;
+      }
+      id_of[i] = id_of[first[i]];
+      const bool same = same_orientation(corners[all[first[i]]], corners[all[i]]);
       ++(same ? report_.duplicates : report_.opposite_duplicates);
-      copies_.push_back({id, source, same ? 1 : -1});
+      copies_.push_back({id_of[i], all[i], same ? 1 : -1});
     }
-    return true;
+    find_planes();
   }
 
   // Says how those with copies are turned.
@@ -178,28 +257,30 @@ class TriangleCollector {
     return sum;
   }
 
+  void find_planes() {
+    IdVector<PlaneId, Plane> planes;
+    planes.raw().resize_for_overwrite(clean_.triangles.size());
+    parallel_tasks(planes.size(), kItemsPerTask,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t t = first; t < last; ++t) {
+                       Triangle& triangle = clean_.triangles[TriangleId(t)];
+                       Plane& plane = planes[PlaneId(t)];
+                       plane = plane_of(clean_, triangle.corners);
+                       if (make_canonical(plane)) triangle.winding = -1;
+                     }
+                   });
+    const std::vector<PlaneId> ids = clean_.planes.take(std::move(planes));
+    for (std::size_t t = 0; t < ids.size(); ++t) {
+      clean_.triangles[TriangleId(t)].plane = ids[t];
+    }
+  }
+
   const TriangleSoup& soup_;
   CleanSoup& clean_;
   CleanReport& report_;
-  HashIndex index_;
   std::vector<Copy> copies_;
   std::vector<Layer> layers_;
 };
-
-// Corners are in a line where their triangle is lower than this over its longest side, the largest
-// coordinate being 1. Each coordinate was rounded twice, when it was made and when it was scaled,
-// which moves a corner by up to sqrt(3) 2^-52 and changes the height by twice that at most; the
-// cross product adds about as much. For the report alone: what is kept is decided on the grid.
-constexpr double kFlat = 0x1p-48;
-
-bool in_a_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const double size = a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(c.cwiseAbs()).maxCoeff();
-  if (size == 0) return true;
-  const Vec3d u = b / size - a / size;
-  const Vec3d v = c / size - a / size;
-  const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
-  return u.cross(v).norm() <= kFlat * longest;
-}
 
 }  // namespace
 
@@ -233,21 +314,12 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Grid& grid, CleanReport& re
   CleanSoup clean;
   clean.grid = grid;
   report.grid_unit = clean.grid.unit;
-  const std::vector<PointId> id_of = join_points(soup, used, clean, report, check);
+  const std::vector<PointId> id_of = join_points(soup, used, clean, report);
+  check.ask();
+  const GridCorners corners(soup, id_of);
   TriangleCollector collector(soup, clean, report);
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    check.tick();
-    if (!finite[t]) {
-      ++report.dropped_not_finite;
-      continue;
-    }
-    const auto& c = soup.triangles[t];
-    if (collector.add({id_of[c[0]], id_of[c[1]], id_of[c[2]]}, static_cast<std::uint32_t>(t))) {
-      continue;
-    }
-    const bool flat = in_a_line(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
-    ++(flat ? report.dropped_degenerate : report.dropped_below_grid);
-  }
+  collector.add(find_triangles(soup, corners, finite, clean, report), corners);
+  check.ask();
   collector.finish();
   return clean;
 }

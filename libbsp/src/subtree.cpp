@@ -22,6 +22,7 @@
 
 #include <base/error.h>
 #include <base/parallel.h>
+#include <base/release.h>
 
 #include "candidate_planes.h"
 #include "spatial_cut.h"
@@ -102,7 +103,7 @@ class SubtreeBuilder {
   }
 
   void build_parts() {
-    stack_ = std::vector<FragmentId>();
+    release(stack_);
     parallel_for(built_.put_off.size(), [&](std::size_t i) {
       PutOff& part = built_.put_off[i];
       SubtreeBuilder builder(task_, FragmentPool(pool_, std::exchange(part.fragments, {})));

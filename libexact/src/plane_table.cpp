@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include <base/assert.h>
+#include <base/first_equal.h>
+#include <base/release.h>
 #include <exact/plane_table.h>
 
 namespace meshrepair {
@@ -47,10 +50,33 @@ PlaneId PlaneTable::find(const Plane& plane) const {
   return slots_[slot];
 }
 
+std::vector<PlaneId> PlaneTable::take(IdVector<PlaneId, Plane> planes) {
+  MESHREPAIR_ASSERT(planes_.empty());
+  planes_ = std::move(planes);
+  const std::vector<std::uint32_t> first = first_equal(
+      planes_.size(), [&](std::size_t i) { return hash_of(planes_[PlaneId(i)]); },
+      [&](std::size_t i, std::size_t j) {
+        return same_coefficients(planes_[PlaneId(i)], planes_[PlaneId(j)]);
+      });
+  std::vector<PlaneId> ids(planes_.size());
+  PlaneId next(0u);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (first[i] != i) {
+      ids[i] = ids[first[i]];
+      continue;
+    }
+    planes_[next] = planes_[PlaneId(i)];
+    ids[i] = next;
+    ++next.value;
+  }
+  planes_.resize(next.index());
+  return ids;
+}
+
 void PlaneTable::reserve(std::size_t count) { planes_.reserve(count); }
 
 void PlaneTable::release_index() {
-  slots_ = {};
+  release(slots_);
   interned_ = 0;
 }
 

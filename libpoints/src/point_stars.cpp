@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include <base/release.h>
+
 #include "point_blocks.h"
 #include "point_index.h"
 #include "tangent_star.h"
@@ -183,7 +185,7 @@ std::vector<StarTriangle> build_stars(const SiftedCloud& cloud,
   all.reserve(count);
   for (auto& block : blocks) {
     all.insert(all.end(), block.begin(), block.end());
-    block = {};
+    release(block);
   }
   return all;
 }

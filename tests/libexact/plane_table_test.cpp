@@ -2,6 +2,7 @@
 #include <map>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +114,25 @@ TEST(PlaneTable, WhatWasInternedIsFound) {
     EXPECT_EQ(table.find(plane), id);
   }
   EXPECT_FALSE(table.find(make_plane({1000, 1, 1}, 7)).valid());
+}
+
+TEST(PlaneTable, TakesManyAtOnceAsOneByOne) {
+  Random random(12);
+  PlaneTable one_by_one, at_once;
+  IdVector<PlaneId, Plane> planes;
+  std::vector<PlaneId> wanted;
+  for (int i = 0; i < 30'000; ++i) {
+    Plane plane = plane_near_origin(random, 6);
+    wanted.push_back(one_by_one.intern(plane).id);
+    make_canonical(plane);
+    planes.push_back(plane);
+  }
+  EXPECT_EQ(at_once.take(std::move(planes)), wanted);
+  ASSERT_EQ(at_once.size(), one_by_one.size());
+  for (PlaneId id(0u); id.index() < at_once.size(); ++id.value) {
+    ASSERT_TRUE(same_coefficients(at_once[id], one_by_one[id]));
+    ASSERT_EQ(at_once.intern(one_by_one[id]).id, id);
+  }
 }
 
 TEST(PlaneTable, AppendedPlanesGetIdsOfTheirOwn) {

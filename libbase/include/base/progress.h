@@ -44,8 +44,11 @@ class CancelCheck {
 
   // Throws Cancelled when the observer says so.
   void tick() {
-    if (++ticks_ % kTicksPerQuestion != 0 || progress_ == nullptr) return;
-    if (progress_->cancelled()) throw Cancelled();
+    if (++ticks_ % kTicksPerQuestion == 0) ask();
+  }
+  // At once.
+  void ask() {
+    if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
   }
 
  private:

@@ -72,6 +72,11 @@ class TrivialVector {
     if (count > size_) std::fill(data_ + size_, data_ + count, Value());
     size_ = count;
   }
+  // What is new has no value yet.
+  void resize_for_overwrite(std::size_t count) {
+    reserve(count);
+    size_ = count;
+  }
   void assign(std::size_t count, const Value& value) {
     const Value copy = value;
     reserve(count);

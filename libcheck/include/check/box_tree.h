@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <base/raw_vector.h>
 #include <mesh/soup.h>
 
 namespace meshrepair {
@@ -95,8 +96,8 @@ class BoxTree {
   // Of 2^32 items, halved each time.
   static constexpr std::size_t kMostDepth = 32;
 
-  std::vector<BoxNode> nodes_;
-  std::vector<std::uint32_t> order_;
+  RawVector<BoxNode> nodes_;
+  RawVector<std::uint32_t> order_;
 };
 
 // Does the box meet one of `boxes`, which the tree was made of?

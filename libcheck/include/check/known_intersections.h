@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <check/self_intersections.h>
+#include <check/triangle_list.h>
 #include <mesh/edge_table.h>
 #include <mesh/soup.h>
-#include <mesh/weld_points.h>
 
 namespace meshrepair::internal {
 
@@ -26,17 +26,18 @@ class KnownIntersections {
   [[nodiscard]] SelfIntersections find(const TriangleSoup& mesh);
 
  private:
-  [[nodiscard]] std::vector<std::uint32_t> place_points(const TriangleSoup& mesh);
+  [[nodiscard]] SelfIntersections compare(const SoupCorners& corners) const;
   [[nodiscard]] std::vector<std::uint32_t> find_fresh(
       const std::vector<IndexTriangle>& triangles) const;
   [[nodiscard]] std::size_t find_known(const IndexTriangle& places) const;
-  void remember(const std::vector<IndexTriangle>& triangles, const std::vector<char>& doubtful);
+  void remember(const TriangleSoup& mesh, const SoupCorners& corners,
+                const std::vector<char>& doubtful);
 
   SelfIntersectionOptions options_;
-  std::vector<Vec3d> places_;  // all that any mesh had a point in
-  PointWelder welder_;
-  // Of the triangles that met nothing, by their lowest place: where those of each begin, and the
-  // two others, in order. One that is there twice met its copy.
+  std::vector<Vec3d> points_;  // of the last mesh
+  // Of the triangles that met nothing, by their lowest corner: where those of each begin, and the
+  // two others, in order. Corners are first points in their places. A triangle that is there twice
+  // met its copy.
   std::vector<std::uint32_t> first_;
   std::vector<std::array<std::uint32_t, 2>> others_;
 };

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <base/raw_vector.h>
+#include <base/release.h>
 #include <check/box_tree.h>
 #include <check/triangle_pair.h>
 #include <mesh/soup.h>
@@ -40,30 +42,32 @@ class SoupCorners {
   std::size_t end_;
 };
 
+// Which triangles these are, and their boxes. Made on several threads. `corners` has to stay.
 class TriangleList {
  public:
   explicit TriangleList(const SoupCorners& corners);
+  explicit TriangleList(SoupCorners&& corners) = delete;
+  // Each of `among` once, in that order.
   TriangleList(const SoupCorners& corners, std::span<const std::uint32_t> among);
+  TriangleList(SoupCorners&& corners, std::span<const std::uint32_t> among) = delete;
 
   [[nodiscard]] std::size_t size() const { return ids_.size(); }
-  [[nodiscard]] std::span<const CornerTriangle> triangles() const { return triangles_; }
+  [[nodiscard]] const SoupCorners& corners() const { return corners_; }
+  [[nodiscard]] CornerTriangle triangle(std::uint32_t i) const;
   [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
   // Their numbers in the soup.
   [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
-  // Afterwards the list has none.
-  [[nodiscard]] std::vector<CornerTriangle> take_triangles() { return std::move(triangles_); }
-  [[nodiscard]] std::vector<Box> take_boxes() { return std::move(boxes_); }
-  [[nodiscard]] std::vector<std::uint32_t> take_ids() { return std::move(ids_); }
+  void drop_boxes() { release(boxes_); }
   [[nodiscard]] std::size_t degenerate() const { return degenerate_; }
   [[nodiscard]] std::size_t not_finite() const { return not_finite_; }
 
  private:
-  void reserve(std::size_t count);
-  void add(const SoupCorners& corners, std::uint32_t id);
+  template <class IdOf>
+  void add(std::size_t count, const IdOf& id_of);
 
-  std::vector<CornerTriangle> triangles_;
-  std::vector<Box> boxes_;
-  std::vector<std::uint32_t> ids_;
+  const SoupCorners& corners_;
+  RawVector<Box> boxes_;
+  RawVector<std::uint32_t> ids_;
   std::size_t degenerate_ = 0;
   std::size_t not_finite_ = 0;
 };

@@ -163,7 +163,7 @@ class Bounder {
   Bounder(const NearestTriangle& to, const BoundOptions& options)
       : to_(to), options_(options), known_(options.known) {}
 
-  double run(const std::vector<Corners>& from) {
+  double run(std::span<const Corners> from) {
     std::vector<Piece> fresh(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) fresh[i].corners = from[i];
     while (!fresh.empty()) {
@@ -261,7 +261,7 @@ class Bounder {
 
 }  // namespace
 
-double distance_bound(const std::vector<Corners>& from, const NearestTriangle& to,
+double distance_bound(std::span<const Corners> from, const NearestTriangle& to,
                       const BoundOptions& options) {
   return Bounder(to, options).run(from);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <base/progress.h>
@@ -20,7 +21,7 @@ struct BoundOptions {
 
 // Not below the distance of any point of `from`. At most `factor` times the largest distance of any
 // point looked at and what rounding adds, unless `most_pieces` came first.
-[[nodiscard]] double distance_bound(const std::vector<Corners>& from, const NearestTriangle& to,
+[[nodiscard]] double distance_bound(std::span<const Corners> from, const NearestTriangle& to,
                                     const BoundOptions& options);
 
 }  // namespace meshrepair::internal

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <string>
 
@@ -16,6 +17,7 @@
 #include <base/hash_index.h>
 #include <base/ids.h>
 #include <base/parallel.h>
+#include <base/raw_vector.h>
 #include <base/shared_progress.h>
 #include <check/mesh_distance.h>
 
@@ -30,6 +32,7 @@ using internal::Nearest;
 using internal::NearestTriangle;
 
 constexpr std::size_t kPointsPerTask = 2048;
+constexpr std::size_t kTrianglesPerTask = 8192;
 
 // A number in [0, 1) for each seed and position: the mixing function splitmix64 of both.
 double random_share(std::uint64_t seed, std::uint64_t position) {
@@ -41,7 +44,7 @@ double random_share(std::uint64_t seed, std::uint64_t position) {
 }
 
 struct FiniteMesh {
-  std::vector<Corners> triangles;
+  RawVector<Corners> triangles;
   std::vector<std::array<std::uint32_t, 3>> corner_of;  // of each triangle, in `corners`
   std::vector<Vec3d> corners;                           // each point of a triangle once
   std::vector<double> area_up_to;                       // of the triangles before and this one
@@ -67,28 +70,46 @@ void require_finite(const Box& box, const std::string& name) {
   if (box.low[0] > box.high[0]) throw InputError(name + ": no triangle has finite coordinates");
 }
 
+// The triangles' own data, in a mesh without any that are not finite.
+void measure_triangles(FiniteMesh& mesh) {
+  const std::size_t count = mesh.corner_of.size();
+  mesh.triangles.resize(count);
+  mesh.area_up_to.resize(count);
+  const auto measure = [&](std::size_t first, std::size_t last) {
+    Box box;
+    for (std::size_t t = first; t < last; ++t) {
+      Corners& corners = mesh.triangles[t];
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.corners[mesh.corner_of[t][k]];
+      for (const Vec3d& p : corners) box.add(p);
+      mesh.area_up_to[t] = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    }
+    return box;
+  };
+  mesh.box = parallel_reduce(count, kTrianglesPerTask, measure,
+                             [](Box& all, const Box& some) { all.add(some); });
+  std::partial_sum(mesh.area_up_to.begin(), mesh.area_up_to.end(), mesh.area_up_to.begin());
+}
+
 FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
   FiniteMesh mesh;
-  mesh.triangles.reserve(soup.triangles.size());
+  mesh.corner_of.reserve(soup.triangles.size());
+  mesh.corners.reserve(soup.points.size());
   std::vector<std::uint32_t> place(soup.points.size(), kNone);
-  double area = 0;
   for (const auto& t : soup.triangles) {
-    const Corners corners = {soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]};
-    if (!corners[0].allFinite() || !corners[1].allFinite() || !corners[2].allFinite()) {
+    const bool is_finite = std::all_of(t.begin(), t.end(),
+                                       [&](std::uint32_t p) { return soup.points[p].allFinite(); });
+    if (!is_finite) {
       ++mesh.not_finite;
       continue;
     }
-    for (const Vec3d& p : corners) mesh.box.add(p);
     for (const std::uint32_t p : t) {
       if (place[p] != kNone) continue;
       place[p] = static_cast<std::uint32_t>(mesh.corners.size());
       mesh.corners.push_back(soup.points[p]);
     }
     mesh.corner_of.push_back({place[t[0]], place[t[1]], place[t[2]]});
-    area += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-    mesh.triangles.push_back(corners);
-    mesh.area_up_to.push_back(area);
   }
+  measure_triangles(mesh);
   require_finite(mesh.box, name);
   return mesh;
 }

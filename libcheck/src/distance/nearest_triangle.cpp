@@ -4,8 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include <base/parallel.h>
+
 namespace meshrepair::internal {
 namespace {
+
+constexpr std::size_t kTrianglesPerTask = 8192;
 
 double squared_distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
@@ -24,11 +28,15 @@ double squared_distance_to_box(const Vec3d& p, const Box& box) {
   return sum;
 }
 
-std::vector<Box> boxes_of(const std::vector<Corners>& triangles) {
-  std::vector<Box> boxes(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (const Vec3d& p : triangles[t]) boxes[t].add(p);
-  }
+RawVector<Box> boxes_of(std::span<const Corners> triangles) {
+  RawVector<Box> boxes(triangles.size());
+  parallel_tasks(boxes.size(), kTrianglesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t t = first; t < last; ++t) {
+                     boxes[t] = Box();
+                     for (const Vec3d& p : triangles[t]) boxes[t].add(p);
+                   }
+                 });
   return boxes;
 }
 
@@ -53,10 +61,14 @@ double squared_distance(const Vec3d& p, const Corners& triangle) {
                    squared_distance_to_segment(p, c, a)});
 }
 
-NearestTriangle::NearestTriangle(const std::vector<Corners>& triangles)
-    : tree_(boxes_of(triangles)) {
-  triangles_.reserve(triangles.size());
-  for (const std::uint32_t t : tree_.order()) triangles_.push_back(triangles[t]);
+NearestTriangle::NearestTriangle(std::span<const Corners> triangles)
+    : tree_(boxes_of(triangles)), triangles_(triangles.size()) {
+  parallel_tasks(triangles.size(), kTrianglesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t t = first; t < last; ++t) {
+                     triangles_[t] = triangles[tree_.order()[t]];
+                   }
+                 });
 }
 
 Nearest NearestTriangle::find(const Vec3d& p, std::uint32_t hint) const {

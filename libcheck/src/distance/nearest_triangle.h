@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include <base/raw_vector.h>
 #include <check/box_tree.h>
 #include <mesh/soup.h>
 
@@ -25,17 +27,17 @@ struct Nearest {
 class NearestTriangle {
  public:
   // All triangles are finite; there is at least one.
-  explicit NearestTriangle(const std::vector<Corners>& triangles);
+  explicit NearestTriangle(std::span<const Corners> triangles);
 
   // `hint` is any triangle, best one that is near: it makes the search faster.
   [[nodiscard]] Nearest find(const Vec3d& p, std::uint32_t hint) const;
 
   // In the order of the tree.
-  [[nodiscard]] const std::vector<Corners>& triangles() const { return triangles_; }
+  [[nodiscard]] std::span<const Corners> triangles() const { return triangles_; }
 
  private:
   BoxTree tree_;
-  std::vector<Corners> triangles_;
+  RawVector<Corners> triangles_;
 };
 
 }  // namespace meshrepair::internal

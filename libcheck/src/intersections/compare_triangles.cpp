@@ -30,8 +30,8 @@ struct Group {
 };
 
 // Calls visit(hub, group) for those with the same hub, in the order of the hubs.
-template <class Visit>
-void visit_groups(std::span<const CornerTriangle> triangles, std::span<const std::uint32_t> ids,
+template <class TriangleAt, class Visit>
+void visit_groups(const TriangleAt& triangle_at, std::span<const std::uint32_t> ids,
                   const std::vector<std::uint32_t>& hubs, Visit visit) {
   std::vector<std::uint32_t> items;
   for (std::uint32_t i = 0; i < hubs.size(); ++i) {
@@ -42,7 +42,7 @@ void visit_groups(std::span<const CornerTriangle> triangles, std::span<const std
   Group group;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::uint32_t hub = hubs[items[i]];
-    group.triangles.push_back(triangles[items[i]]);
+    group.triangles.push_back(triangle_at(items[i]));
     group.ids.push_back(ids[items[i]]);
     if (i + 1 < items.size() && hubs[items[i + 1]] == hub) continue;
     visit(hub, group);
@@ -76,7 +76,8 @@ void compare_around_hub(const Group& group, std::uint32_t hub,
   SortedTriangles sorted(group.triangles, boxes, group.ids, tree);
   sorted.leave_out_hubs(second);
   compare(sorted, options, findings);
-  visit_groups(group.triangles, group.ids, second, [&](std::uint32_t end, const Group& around) {
+  const auto triangle_at = [&](std::uint32_t i) { return group.triangles[i]; };
+  visit_groups(triangle_at, group.ids, second, [&](std::uint32_t end, const Group& around) {
     compare_around_edge(around, {hub, end}, options, findings);
   });
 }
@@ -89,8 +90,9 @@ SelfIntersections with_left_out(SelfIntersections result, std::size_t degenerate
 }
 
 // Unless enough has been found.
-void compare_around_hubs(std::span<const CornerTriangle> triangles,
-                         std::span<const std::uint32_t> ids, const std::vector<std::uint32_t>& hubs,
+template <class TriangleAt>
+void compare_around_hubs(const TriangleAt& triangle_at, std::span<const std::uint32_t> ids,
+                         const std::vector<std::uint32_t>& hubs,
                          const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
   const bool any =
       std::any_of(findings.begin(), findings.end(), [](const Findings& f) { return f.any(); });
@@ -98,7 +100,7 @@ void compare_around_hubs(std::span<const CornerTriangle> triangles,
   CancelOnly quiet(options.progress);
   SelfIntersectionOptions around_hubs = options;
   around_hubs.progress = &quiet;
-  visit_groups(triangles, ids, hubs, [&](std::uint32_t hub, const Group& group) {
+  visit_groups(triangle_at, ids, hubs, [&](std::uint32_t hub, const Group& group) {
     compare_around_hub(group, hub, around_hubs, findings);
   });
 }
@@ -109,23 +111,25 @@ SelfIntersections compare_all(const SoupCorners& corners, const SelfIntersection
   TriangleList list(corners);
   const std::size_t degenerate = list.degenerate(), not_finite = list.not_finite();
   const BoxTree tree(list.boxes());
-  const std::vector<std::uint32_t> hubs = find_hubs(list.triangles());
+  const std::vector<std::uint32_t> hubs = find_hubs(list);
   std::vector<Findings> findings;
   std::optional<std::vector<MeetingPair>> in_space;
-  if (boxes_tell_little(list.triangles(), list.boxes(), hubs, tree)) {
-    in_space = compare_in_space(list.triangles(), hubs, options.progress);
+  if (boxes_tell_little(list, hubs, tree)) {
+    in_space = compare_in_space(list, hubs, options.progress);
   }
   if (in_space) {
     findings.emplace_back(options.most_pairs);
     for (const auto& [a, b, meeting] : *in_space) {
       findings.back().add(list.ids()[a], list.ids()[b], meeting);
     }
-    compare_around_hubs(list.triangles(), list.ids(), hubs, options, findings);
+    const auto triangle_at = [&](std::uint32_t i) { return list.triangle(i); };
+    compare_around_hubs(triangle_at, list.ids(), hubs, options, findings);
   } else {
     SortedTriangles sorted(std::move(list), tree);
     sorted.leave_out_hubs(hubs);
     compare(sorted, options, findings);
-    compare_around_hubs(sorted.triangles, sorted.ids, sorted.hub, options, findings);
+    const auto triangle_at = [&](std::uint32_t i) { return sorted.triangles[i]; };
+    compare_around_hubs(triangle_at, sorted.ids, sorted.hub, options, findings);
   }
   return with_left_out(gather(findings, options.most_pairs), degenerate, not_finite);
 }

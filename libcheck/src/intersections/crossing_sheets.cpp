@@ -36,8 +36,8 @@ std::vector<Span> open_brackets(std::span<const Wing> wings) {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 2>> find_crossing_sheets(const SoupCorners& corners) {
-  std::vector<std::array<std::uint32_t, 2>> pairs;
-  SharedEdges(corners).visit([&](const std::vector<Wing>& wings) {
+  using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+  const auto visit = [](Pairs& pairs, const std::vector<Wing>& wings) {
     const std::vector<Span> sheets = open_brackets(wings);
     for (std::size_t a = 0; a < sheets.size(); ++a) {
       for (std::size_t b = a + 1; b < sheets.size(); ++b) {
@@ -48,7 +48,11 @@ std::vector<std::array<std::uint32_t, 2>> find_crossing_sheets(const SoupCorners
         pairs.push_back({std::min(s, t), std::max(s, t)});
       }
     }
-  });
+  };
+  const auto join = [](Pairs& all, const Pairs& part) {
+    all.insert(all.end(), part.begin(), part.end());
+  };
+  Pairs pairs = SharedEdges(corners).gather<Pairs>(visit, join);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

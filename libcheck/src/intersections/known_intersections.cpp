@@ -2,9 +2,12 @@
 #include <array>
 #include <utility>
 
+#include <base/buckets.h>
 #include <base/ids.h>
+#include <base/parallel.h>
 #include <check/known_intersections.h>
 #include <check/triangle_list.h>
+#include <mesh/weld_points.h>
 
 #include "compare_triangles.h"
 #include "nearby_part.h"
@@ -23,16 +26,23 @@ SelfIntersections compare_nearby(const TriangleSoup& mesh, const std::vector<std
   return result;
 }
 
+constexpr std::size_t kTrianglesPerTask = 16384;
+// Of lowest corners, for sorting.
+constexpr std::size_t kMostBuckets = 512, kFewestCorners = 1024;
+
 // Of the corners of each triangle, ascending.
 std::vector<IndexTriangle> places_of(const SoupCorners& corners) {
-  std::vector<IndexTriangle> triangles;
-  triangles.reserve(corners.soup().triangles.size());
-  for (const auto& triangle : corners.soup().triangles) {
-    IndexTriangle places{};
-    for (std::size_t k = 0; k < 3; ++k) places[k] = corners.corner(triangle[k]);
-    std::sort(places.begin(), places.end());
-    triangles.push_back(places);
-  }
+  const auto& soup = corners.soup();
+  std::vector<IndexTriangle> triangles(soup.triangles.size());
+  parallel_tasks(triangles.size(), kTrianglesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t t = first; t < last; ++t) {
+                     for (std::size_t k = 0; k < 3; ++k) {
+                       triangles[t][k] = corners.corner(soup.triangles[t][k]);
+                     }
+                     std::sort(triangles[t].begin(), triangles[t].end());
+                   }
+                 });
   return triangles;
 }
 
@@ -53,45 +63,44 @@ std::vector<char> find_doubtful(const SoupCorners& corners, const SelfIntersecti
 
 }  // namespace
 
-KnownIntersections::KnownIntersections(std::size_t most_pairs, ProgressObserver* progress)
-    : welder_(places_) {
+KnownIntersections::KnownIntersections(std::size_t most_pairs, ProgressObserver* progress) {
   options_.most_pairs = most_pairs;
   options_.progress = progress;
 }
 
 SelfIntersections KnownIntersections::find(const TriangleSoup& mesh) {
-  std::vector<std::uint32_t> place_of_point = place_points(mesh);
-  const SoupCorners corners(mesh, std::move(place_of_point), places_.size());
-  const std::vector<IndexTriangle> triangles = places_of(corners);
-  const std::vector<std::uint32_t> fresh = find_fresh(triangles);
-  const bool few = fresh.size() <= triangles.size() / kFew;
-  SelfIntersections found =
-      few ? compare_nearby(mesh, fresh, options_) : compare_all(corners, options_);
+  const SoupCorners corners(mesh, first_in_place(points_, mesh.points),
+                            points_.size() + mesh.points.size());
+  SelfIntersections found = compare(corners);
   add_crossing_sheets(corners, {}, options_, found);
-  remember(triangles, find_doubtful(corners, found));
+  remember(mesh, corners, find_doubtful(corners, found));
   return found;
 }
 
-std::vector<std::uint32_t> KnownIntersections::place_points(const TriangleSoup& mesh) {
-  std::vector<std::uint32_t> places;
-  places.reserve(mesh.points.size());
-  for (const Vec3d& point : mesh.points) places.push_back(welder_.index_of(point));
-  return places;
+SelfIntersections KnownIntersections::compare(const SoupCorners& corners) const {
+  if (others_.empty()) return compare_all(corners, options_);
+  const std::vector<std::uint32_t> fresh = find_fresh(places_of(corners));
+  const bool few = fresh.size() <= corners.soup().triangles.size() / kFew;
+  return few ? compare_nearby(corners.soup(), fresh, options_) : compare_all(corners, options_);
 }
 
 // Those that are not known, and all but one of those in one place, and that one.
 std::vector<std::uint32_t> KnownIntersections::find_fresh(
     const std::vector<IndexTriangle>& triangles) const {
+  std::vector<std::size_t> known(triangles.size());
+  parallel_tasks(triangles.size(), kTrianglesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t t = first; t < last; ++t) known[t] = find_known(triangles[t]);
+                 });
   std::vector<std::uint32_t> fresh;
   std::vector<std::uint32_t> taken_by(others_.size(), kNone);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::size_t known = find_known(triangles[t]);
-    if (known == others_.size()) {
+    if (known[t] == others_.size()) {
       fresh.push_back(t);
-    } else if (taken_by[known] == kNone) {
-      taken_by[known] = t;
+    } else if (taken_by[known[t]] == kNone) {
+      taken_by[known[t]] = t;
     } else {
-      fresh.insert(fresh.end(), {taken_by[known], t});
+      fresh.insert(fresh.end(), {taken_by[known[t]], t});
     }
   }
   return fresh;
@@ -107,23 +116,41 @@ std::size_t KnownIntersections::find_known(const IndexTriangle& places) const {
   return static_cast<std::size_t>(found - others_.begin());
 }
 
-void KnownIntersections::remember(const std::vector<IndexTriangle>& triangles,
+void KnownIntersections::remember(const TriangleSoup& mesh, const SoupCorners& corners,
                                   const std::vector<char>& doubtful) {
-  first_.assign(places_.size() + 1, 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (doubtful[t] == 0) ++first_[triangles[t][0] + 1];
+  const std::size_t points = mesh.points.size();
+  std::vector<std::uint32_t> own(corners.end(), kNone);  // of each place
+  for (std::uint32_t p = 0; p < points; ++p) {
+    std::uint32_t& first = own[corners.corner(p)];
+    if (first == kNone) first = p;
   }
-  for (std::size_t place = 0; place < places_.size(); ++place) first_[place + 1] += first_[place];
+  const auto corners_of = [&](std::size_t t) {
+    IndexTriangle triangle{};
+    for (std::size_t k = 0; k < 3; ++k) triangle[k] = own[corners.corner(mesh.triangles[t][k])];
+    std::sort(triangle.begin(), triangle.end());
+    return triangle;
+  };
+  const std::size_t corners_each = std::max(kFewestCorners, tasks_of(points, kMostBuckets));
+  Buckets<IndexTriangle> buckets(mesh.triangles.size(), tasks_of(points, corners_each),
+                                 [&](std::size_t t, const auto& put) {
+                                   if (doubtful[t] != 0) return;
+                                   const IndexTriangle triangle = corners_of(t);
+                                   put(triangle[0] / corners_each, triangle);
+                                 });
+  first_.assign(points + 1, buckets.first(buckets.size()));
   others_.resize(first_.back());
-  std::vector<std::uint32_t> next = first_;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (doubtful[t] != 0) continue;
-    others_[next[triangles[t][0]]++] = {triangles[t][1], triangles[t][2]};
-  }
-  // Very many may have one place in common.
-  for (std::size_t place = 0; place < places_.size(); ++place) {
-    std::sort(others_.begin() + first_[place], others_.begin() + first_[place + 1]);
-  }
+  parallel_for(buckets.size(), [&](std::size_t b) {
+    const auto bucket = buckets[b];
+    std::sort(bucket.begin(), bucket.end());
+    std::size_t i = 0;
+    for (std::size_t p = b * corners_each; p < std::min(points, (b + 1) * corners_each); ++p) {
+      first_[p] = buckets.first(b) + static_cast<std::uint32_t>(i);
+      for (; i < bucket.size() && bucket[i][0] == p; ++i) {
+        others_[buckets.first(b) + i] = {bucket[i][1], bucket[i][2]};
+      }
+    }
+  });
+  points_ = mesh.points;
 }
 
 }  // namespace meshrepair::internal

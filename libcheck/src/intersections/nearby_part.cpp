@@ -55,7 +55,8 @@ std::vector<std::uint32_t> triangles_near(const TriangleSoup& soup, std::span<co
 
 NearbyPart nearby_part(const TriangleSoup& soup, std::span<const std::uint32_t> among,
                        double reach) {
-  const TriangleList list(SoupCorners(soup, false), among);
+  const SoupCorners corners(soup, false);
+  const TriangleList list(corners, among);
   // Those that were left out have nothing near them, but are to be counted.
   NearbyPart part;
   part.triangles = triangles_near(soup, list.boxes(), reach);

@@ -41,7 +41,7 @@ constexpr std::size_t kCellsPerQuestion = 256;
 constexpr std::size_t kMostWork = 256;
 
 bool have_one_hub(std::span<const std::uint32_t> hubs, std::uint32_t a, std::uint32_t b) {
-  return hubs[a] != kNoHub && hubs[a] == hubs[b];
+  return !hubs.empty() && hubs[a] != kNoHub && hubs[a] == hubs[b];
 }
 
 class SpatialComparison {
@@ -223,12 +223,14 @@ class SpatialComparison {
 
 }  // namespace
 
-bool boxes_tell_little(std::span<const CornerTriangle> triangles, std::span<const Box> boxes,
-                       std::span<const std::uint32_t> hubs, const BoxTree& tree) {
+bool boxes_tell_little(const TriangleList& triangles, std::span<const std::uint32_t> hubs,
+                       const BoxTree& tree) {
+  const std::span<const Box> boxes = triangles.boxes();
   if (triangles.size() < kSamples * kManyNeighbours / 16) return false;
   std::size_t neighbours = 0, tests = 0, hits = 0;
   for (std::size_t k = 0; k < kSamples; ++k) {
     const auto sample = static_cast<std::uint32_t>(k * triangles.size() / kSamples);
+    const CornerTriangle triangle = triangles.triangle(sample);
     std::size_t own_tests = 0;
     tree.visit([&](const Box& box) { return box.meets(boxes[sample]); },
                [&](std::uint32_t other) {
@@ -237,15 +239,18 @@ bool boxes_tell_little(std::span<const CornerTriangle> triangles, std::span<cons
                  ++neighbours;
                  if (++own_tests > kTestsPerSample) return;
                  ++tests;
-                 hits += meeting_of(triangles[sample], triangles[other]) != Meeting::apart;
+                 hits += meeting_of(triangle, triangles.triangle(other)) != Meeting::apart;
                });
   }
   return neighbours > kSamples * kManyNeighbours && hits * kHitsAreRare < tests;
 }
 
-std::optional<std::vector<MeetingPair>> compare_in_space(std::span<const CornerTriangle> triangles,
+std::optional<std::vector<MeetingPair>> compare_in_space(const TriangleList& list,
                                                          std::span<const std::uint32_t> hubs,
                                                          ProgressObserver* progress) {
+  std::vector<CornerTriangle> triangles;
+  triangles.reserve(list.size());
+  for (std::uint32_t i = 0; i < list.size(); ++i) triangles.push_back(list.triangle(i));
   return SpatialComparison(triangles, hubs, progress).run();
 }
 

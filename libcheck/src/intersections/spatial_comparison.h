@@ -8,6 +8,7 @@
 
 #include <base/progress.h>
 #include <check/box_tree.h>
+#include <check/triangle_list.h>
 #include <check/triangle_pair.h>
 
 namespace meshrepair::internal {
@@ -19,16 +20,15 @@ struct MeetingPair {
 };
 
 // Would a comparison of boxes look at very many pairs of triangles that do not meet? Told by a
-// sample. Pairs with the same hub (triangle_hubs.h) do not count; `tree` is that of the boxes.
-[[nodiscard]] bool boxes_tell_little(std::span<const CornerTriangle> triangles,
-                                     std::span<const Box> boxes,
+// sample. Pairs with the same hub (triangle_hubs.h; empty: none) do not count; `tree` is that of
+// the boxes.
+[[nodiscard]] bool boxes_tell_little(const TriangleList& triangles,
                                      std::span<const std::uint32_t> hubs, const BoxTree& tree);
 
 // All pairs that meet, but for those with the same hub; sorted. n log n where triangles are near to
 // few others, however long they are; empty where that is not so, and comparing boxes may be as
 // fast. `progress` is asked whether to go on; it may be null.
 [[nodiscard]] std::optional<std::vector<MeetingPair>> compare_in_space(
-    std::span<const CornerTriangle> triangles, std::span<const std::uint32_t> hubs,
-    ProgressObserver* progress);
+    const TriangleList& triangles, std::span<const std::uint32_t> hubs, ProgressObserver* progress);
 
 }  // namespace meshrepair::internal

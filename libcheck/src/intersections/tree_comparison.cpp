@@ -13,6 +13,7 @@ namespace {
 
 // Enough that all threads end at about the same time.
 constexpr std::size_t kTasks = 1024;
+constexpr std::size_t kTrianglesPerTask = 4096;
 // A few hundred microseconds of work.
 constexpr std::size_t kStepsPerQuestion = 4096;
 
@@ -105,18 +106,6 @@ class TreeComparison {
   std::size_t steps_ = 0;
 };
 
-// Brings item order[i] to place i, by swap(place, other place) along each cycle.
-template <class Swap>
-void sort_in_place(std::span<const std::uint32_t> order, const Swap& swap) {
-  std::vector<char> is_done(order.size(), 0);
-  for (std::uint32_t start = 0; start < order.size(); ++start) {
-    for (std::uint32_t i = start; is_done[i] == 0; i = order[i]) {
-      is_done[i] = 1;
-      if (order[i] != start) swap(i, order[i]);
-    }
-  }
-}
-
 }  // namespace
 
 SortedTriangles::SortedTriangles(std::span<const CornerTriangle> given,
@@ -133,19 +122,42 @@ SortedTriangles::SortedTriangles(std::span<const CornerTriangle> given,
   }
 }
 
-SortedTriangles::SortedTriangles(TriangleList&& list, const BoxTree& box_tree)
-    : tree(box_tree),
-      triangles(list.take_triangles()),
-      boxes(list.take_boxes()),
-      ids(list.take_ids()) {
-  sort_in_place(tree.order(), [&](std::uint32_t to, std::uint32_t from) {
-    std::swap(triangles[to], triangles[from]);
-    std::swap(boxes[to], boxes[from]);
-    std::swap(ids[to], ids[from]);
-  });
+SortedTriangles::SortedTriangles(const TriangleList& list, const BoxTree& box_tree)
+    : tree(box_tree) {
+  sort_boxes(list);
+  sort_triangles(list);
+}
+
+SortedTriangles::SortedTriangles(TriangleList&& list, const BoxTree& box_tree) : tree(box_tree) {
+  sort_boxes(list);
+  list.drop_boxes();
+  sort_triangles(list);
+}
+
+void SortedTriangles::sort_boxes(const TriangleList& list) {
+  boxes.resize(list.size());
+  parallel_tasks(list.size(), kTrianglesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     boxes[i] = list.boxes()[tree.order()[i]];
+                   }
+                 });
+}
+
+void SortedTriangles::sort_triangles(const TriangleList& list) {
+  triangles.resize(list.size());
+  ids.resize(list.size());
+  parallel_tasks(list.size(), kTrianglesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     triangles[i] = list.triangle(tree.order()[i]);
+                     ids[i] = list.ids()[tree.order()[i]];
+                   }
+                 });
 }
 
 void SortedTriangles::leave_out_hubs(const std::vector<std::uint32_t>& hubs) {
+  if (hubs.empty()) return;
   for (const std::uint32_t item : tree.order()) hub.push_back(hubs[item]);
   node_hub.assign(tree.nodes().size(), internal::kNoHub);
   for (std::size_t n = tree.nodes().size(); n-- > 0;) {  // children come behind their parent

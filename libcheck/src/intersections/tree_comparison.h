@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <base/raw_vector.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/self_intersections.h>
@@ -27,12 +28,12 @@ struct NodePair {
 struct SortedTriangles {
   SortedTriangles(std::span<const CornerTriangle> given, std::span<const Box> given_boxes,
                   std::span<const std::uint32_t> given_ids, const BoxTree& box_tree);
-  SortedTriangles(const TriangleList& list, const BoxTree& box_tree)
-      : SortedTriangles(list.triangles(), list.boxes(), list.ids(), box_tree) {}
-  // Takes them out of the list, so that they are never there twice.
+  SortedTriangles(const TriangleList& list, const BoxTree& box_tree);
+  // Drops the list's boxes, so that they are never there twice with the triangles.
   SortedTriangles(TriangleList&& list, const BoxTree& box_tree);
 
-  // Leaves out pairs of triangles with the same hub. `hubs` are those of the triangles as given.
+  // Leaves out pairs of triangles with the same hub. `hubs` are those of the triangles as given;
+  // empty: there are none.
   void leave_out_hubs(const std::vector<std::uint32_t>& hubs);
 
   [[nodiscard]] bool may_meet(NodePair pair) const {
@@ -46,10 +47,13 @@ struct SortedTriangles {
     return !hub.empty() && hub[i] != internal::kNoHub && hub[i] == hub[j];
   }
 
+  void sort_boxes(const TriangleList& list);
+  void sort_triangles(const TriangleList& list);
+
   const BoxTree& tree;
-  std::vector<CornerTriangle> triangles;
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> ids;
+  RawVector<CornerTriangle> triangles;
+  RawVector<Box> boxes;
+  RawVector<std::uint32_t> ids;
   std::vector<std::uint32_t> hub, node_hub;  // empty: nothing is left out
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <mesh/edge_table.h>
+
 namespace meshrepair::internal {
 namespace {
 
@@ -14,10 +16,10 @@ constexpr double kDirectionMargin = 1e-12;
 
 // Of a triangle's corners, the one with the highest count if that is high; the lowest of several.
 template <class CountOf>
-std::uint32_t hub_of(const CornerTriangle& triangle, CountOf count_of) {
+std::uint32_t hub_of(const IndexTriangle& corners, CountOf count_of) {
   std::uint32_t hub = kNoHub;
   std::uint32_t most = kManyTriangles;
-  for (const std::uint32_t c : triangle.corner) {
+  for (const std::uint32_t c : corners) {
     const std::uint32_t count = count_of(c);
     if (count < most || (count == most && hub != kNoHub && hub < c)) continue;
     most = count;
@@ -57,19 +59,23 @@ Vec3d direction(const Vec3d& from, const Vec3d& to) {
 
 }  // namespace
 
-std::vector<std::uint32_t> find_hubs(std::span<const CornerTriangle> triangles) {
-  std::uint32_t corners = 0;
-  for (const CornerTriangle& t : triangles) {
-    corners = std::max(corners, *std::max_element(t.corner.begin(), t.corner.end()) + 1);
+std::vector<std::uint32_t> find_hubs(const TriangleList& triangles) {
+  const SoupCorners& corners = triangles.corners();
+  const auto corners_of = [&](std::uint32_t id) {
+    const auto& points = corners.soup().triangles[id];
+    return IndexTriangle{corners.corner(points[0]), corners.corner(points[1]),
+                         corners.corner(points[2])};
+  };
+  std::vector<std::uint32_t> count(corners.end(), 0);
+  bool any = false;
+  for (const std::uint32_t id : triangles.ids()) {
+    for (const std::uint32_t c : corners_of(id)) any |= ++count[c] == kManyTriangles;
   }
-  std::vector<std::uint32_t> count(corners, 0);
-  for (const CornerTriangle& t : triangles) {
-    for (const std::uint32_t c : t.corner) ++count[c];
-  }
+  if (!any) return {};
   std::vector<std::uint32_t> hubs;
   hubs.reserve(triangles.size());
-  for (const CornerTriangle& t : triangles) {
-    hubs.push_back(hub_of(t, [&](std::uint32_t c) { return count[c]; }));
+  for (const std::uint32_t id : triangles.ids()) {
+    hubs.push_back(hub_of(corners_of(id), [&](std::uint32_t c) { return count[c]; }));
   }
   return hubs;
 }
@@ -99,7 +105,7 @@ std::vector<std::uint32_t> find_second_hubs(std::uint32_t hub,
   std::vector<std::uint32_t> second;
   second.reserve(triangles.size());
   for (const CornerTriangle& t : triangles) {
-    second.push_back(hub_of(t, [&](std::uint32_t c) {
+    second.push_back(hub_of(t.corner, [&](std::uint32_t c) {
       const auto [first, last] = std::equal_range(corners.begin(), corners.end(), c);
       return c == hub ? 0 : static_cast<std::uint32_t>(last - first);
     }));

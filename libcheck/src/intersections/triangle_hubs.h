@@ -8,14 +8,16 @@
 #include <vector>
 
 #include <check/box_tree.h>
+#include <check/triangle_list.h>
 #include <check/triangle_pair.h>
 
 namespace meshrepair::internal {
 
 inline constexpr std::uint32_t kNoHub = ~std::uint32_t{0};
 
-// For each triangle the corner that most triangles share, if these are very many, or kNoHub.
-[[nodiscard]] std::vector<std::uint32_t> find_hubs(std::span<const CornerTriangle> triangles);
+// For each triangle the corner that most triangles share, if these are very many, or kNoHub; empty
+// if there are none.
+[[nodiscard]] std::vector<std::uint32_t> find_hubs(const TriangleList& triangles);
 
 // A box around the directions in which a triangle is seen from one of its corners. If two triangles
 // with that corner have another point in common, these boxes meet.

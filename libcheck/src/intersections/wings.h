@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <base/parallel.h>
 #include <check/triangle_list.h>
 #include <mesh/edge_table.h>
 
@@ -33,14 +34,23 @@ class SharedEdges {
  public:
   explicit SharedEdges(const SoupCorners& corners);
 
-  // Calls visit(wings) for each edge of several sheets, with what order_around_edge() gives.
-  template <class Visit>
-  void visit(const Visit& visit_wings) const {
-    EdgeTable(places_).for_each_edge([&](std::span<const std::uint32_t> sides) {
-      if (sides.size() < 4) return;  // one sheet
-      const std::vector<Wing> wings = wings_at(sides);
-      if (!wings.empty()) visit_wings(wings);
-    });
+  // What join(all, part) makes of parts that start as Part{} and are given to visit(part, wings)
+  // for each edge of several sheets, in order, with what order_around_edge() gives. On several
+  // threads.
+  template <class Part, class Visit, class Join>
+  [[nodiscard]] Part gather(const Visit& visit, const Join& join) const {
+    constexpr std::size_t kEdgesPerTask = 4096;
+    const EdgeTable table(places_);
+    const auto visit_some = [&](std::size_t first, std::size_t last) {
+      Part part{};
+      for (std::size_t edge = first; edge < last; ++edge) {
+        if (table.sides(edge).size() < 4) continue;  // one sheet
+        const std::vector<Wing> wings = wings_at(table.sides(edge));
+        if (!wings.empty()) visit(part, wings);
+      }
+      return part;
+    };
+    return parallel_reduce(table.edges(), kEdgesPerTask, visit_some, join);
   }
 
  private:

@@ -22,12 +22,11 @@ std::uint32_t leaves_of(std::uint32_t items) {
 
 class TreeBuilder {
  public:
-  TreeBuilder(std::span<const Box> boxes, std::vector<Entry>& entries, std::vector<BoxNode>& nodes)
+  TreeBuilder(std::span<const Box> boxes, std::span<Entry> entries, std::span<BoxNode> nodes)
       : boxes_(boxes), entries_(entries), nodes_(nodes) {}
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-    nodes_[node].first = first;
-    nodes_[node].count = count;
+    nodes_[node] = {Box(), first, count, 0};
     const std::uint32_t leaves = leaves_of(count);
     if (leaves == 1) {
       for (std::uint32_t i = first; i < first + count; ++i) {
@@ -80,8 +79,8 @@ class TreeBuilder {
   }
 
   std::span<const Box> boxes_;
-  std::vector<Entry>& entries_;
-  std::vector<BoxNode>& nodes_;
+  std::span<Entry> entries_;
+  std::span<BoxNode> nodes_;
 };
 
 }  // namespace
@@ -89,18 +88,22 @@ class TreeBuilder {
 BoxTree::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
   const auto count = static_cast<std::uint32_t>(boxes.size());
-  std::vector<Entry> entries(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    entries[i].item = i;
-    for (std::size_t k = 0; k < 3; ++k) {
-      // Halved first: the sum of two large numbers may overflow.
-      entries[i].centre[k] = 0.5 * boxes[i].low[k] + 0.5 * boxes[i].high[k];
+  RawVector<Entry> entries(count);
+  parallel_tasks(count, kParallelItems, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      entries[i].item = static_cast<std::uint32_t>(i);
+      for (std::size_t k = 0; k < 3; ++k) {
+        // Halved first: the sum of two large numbers may overflow.
+        entries[i].centre[k] = 0.5 * boxes[i].low[k] + 0.5 * boxes[i].high[k];
+      }
     }
-  }
+  });
   nodes_.resize(2 * std::size_t{leaves_of(count)} - 1);
   TreeBuilder(boxes, entries, nodes_).build(0, 0, count);
   order_.resize(count);
-  for (std::uint32_t i = 0; i < count; ++i) order_[i] = entries[i].item;
+  parallel_tasks(count, kParallelItems, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) order_[i] = entries[i].item;
+  });
 }
 
 }  // namespace meshrepair

@@ -24,6 +24,10 @@ class PlaneTable {
   // release_index().
   [[nodiscard]] PlaneId find(const Plane& plane) const;
 
+  // The id of each of these canonical planes, as interning them one by one would give. The table is
+  // empty before. On several threads.
+  [[nodiscard]] std::vector<PlaneId> take(IdVector<PlaneId, Plane> planes);
+
   // Adds a plane under a new id without looking whether it is there: for planes that are never
   // compared.
   PlaneId append(const Plane& plane) { return planes_.push_back(plane); }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <base/parallel.h>
 #include <check/self_intersections.h>
 #include <extract/arrange.h>
 
@@ -20,6 +21,8 @@ namespace {
 
 // For each triangle; of more, nearly all triangles meet nearly all others.
 constexpr std::size_t kPairsEach = 64;
+
+constexpr std::size_t kFacetsPerTask = 4096;
 
 // All that meet in more than corners and edges that they share, unless these are too many.
 std::optional<std::vector<internal::CutSet::Pair>> find_pairs(const CleanSoup& soup,
@@ -54,12 +57,24 @@ struct Arrangement::Parts {
     const IndexTriangle& c = sheets.corners[f];
     return {place(c[0]), place(c[1]), place(c[2])};
   }
-  [[nodiscard]] ChamberWall wall(std::uint32_t f) const {
-    const auto [a, b, c] = places(f);
+  // `area`: that of the facet.
+  [[nodiscard]] ChamberWall wall(std::uint32_t f, double area) const {
     const bool along = internal::corner_side(soup, sheets.triangle[f]) > 0;
     const std::uint32_t front = chambers.front[f], behind = chambers.behind[f];
-    return {along ? behind : front, along ? front : behind, sheets.triangle[f],
-            0.5 * (b - a).cross(c - a).norm()};
+    return {along ? behind : front, along ? front : behind, sheets.triangle[f], area};
+  }
+  // measure(a, b, c) of the corners of each facet.
+  template <class Measure>
+  [[nodiscard]] std::vector<double> measures(const Measure& measure) const {
+    std::vector<double> all(sheets.size());
+    parallel_tasks(all.size(), kFacetsPerTask,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t f = first; f < last; ++f) {
+                       const auto [a, b, c] = places(static_cast<std::uint32_t>(f));
+                       all[f] = measure(a, b, c);
+                     }
+                   });
+    return all;
   }
 
   const CleanSoup& soup;
@@ -104,26 +119,33 @@ std::size_t Arrangement::chambers() const { return parts_->chambers.count; }
 
 std::vector<double> Arrangement::volumes() const {
   std::vector<double> volumes(chambers(), 0);
-  for (std::uint32_t f = 0; f < parts_->sheets.size(); ++f) {
-    const auto [a, b, c] = parts_->places(f);
-    const double moment = a.dot(b.cross(c)) / 6;
-    volumes[parts_->chambers.behind[f]] += moment;
-    volumes[parts_->chambers.front[f]] -= moment;
+  const std::vector<double> moments =
+      parts_->measures([](const Vec3d& a, const Vec3d& b, const Vec3d& c) -> double {
+        return a.dot(b.cross(c)) / 6;
+      });
+  for (std::uint32_t f = 0; f < moments.size(); ++f) {
+    volumes[parts_->chambers.behind[f]] += moments[f];
+    volumes[parts_->chambers.front[f]] -= moments[f];
   }
   return volumes;
 }
 
 // Facets that are in no stack in their order, then those of the lowest triangle of each stack.
 std::vector<ChamberWall> Arrangement::walls() const {
+  const std::vector<double> areas =
+      parts_->measures([](const Vec3d& a, const Vec3d& b, const Vec3d& c) -> double {
+        return 0.5 * (b - a).cross(c - a).norm();
+      });
   std::vector<ChamberWall> walls;
+  walls.reserve(areas.size());
   for (std::uint32_t f = 0; f < parts_->sheets.size(); ++f) {
-    if (!parts_->stacks->contains(f)) walls.push_back(parts_->wall(f));
+    if (!parts_->stacks->contains(f)) walls.push_back(parts_->wall(f, areas[f]));
   }
   parts_->stacks->for_each([&](std::span<const std::uint32_t> stack) {
-    const std::uint32_t above = parts_->wall(stack.back()).above;
+    const std::uint32_t above = parts_->wall(stack.back(), 0).above;
     for (const std::uint32_t f : stack) {
       if (parts_->sheets.triangle[f] != parts_->sheets.triangle[stack.front()]) break;
-      walls.push_back(parts_->wall(f));
+      walls.push_back(parts_->wall(f, areas[f]));
       walls.back().above = above;
     }
   });

@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include <base/parallel.h>
+#include <base/release.h>
 #include <base/shared_progress.h>
 
 #include "cut_lines.h"
@@ -109,9 +110,14 @@ class FacetArranger {
     names.reserve(records.on_edges.size());
     for (const PointOnEdge& p : records.on_edges) names.push_back(p.point);
     points_.emplace(cut_, std::move(names));
+    std::vector<std::uint32_t> on_edges(records.on_edges.size());
+    parallel_for(on_edges.size(),
+                 [&](std::size_t i) { on_edges[i] = points_->find(records.on_edges[i].point); });
     on_edges_.fill(
         records.on_edges, cut_.edges(), [](const PointOnEdge& p) { return p.edge; },
-        [&](const PointOnEdge& p) { return points_->find(p.point); });
+        [&](const PointOnEdge& p) {
+          return on_edges[static_cast<std::size_t>(&p - records.on_edges.data())];
+        });
     segments_.fill(
         records.segments, cut_.size(), [](const CutSegment& s) { return s.cut; },
         [](const CutSegment& s) { return s; });
@@ -184,10 +190,10 @@ class FacetArranger {
     same_.assign(tasks_of(cut_.size(), kTrianglesPerTask), {});
     for_all(cut_.size(), [&](std::uint32_t t, std::size_t task) {
       sort_lines_of(t, same_[task]);
-      lines_[t].points = {};
+      lines_[t] = {};
     });
     join(same_);
-    same_ = {};
+    release(same_);
   }
 
   void sort_lines_of(std::uint32_t t, SamePoints& same) {
@@ -213,20 +219,34 @@ class FacetArranger {
     std::atomic<bool> sound = true;
     for_all(cut_.size(), [&](std::uint32_t t, std::size_t) {
       if (!triangulate(t, all[t])) sound = false;
-      line_points_[t] = {};
+      release(line_points_[t]);
     });
     if (!sound) return std::nullopt;
+    for_all(cut_.edges(), [&](std::uint32_t e, std::size_t) { release(edge_points_[e]); });
+    return put_together(all);
+  }
+
+  // Each one goes as it is taken.
+  ArrangedFacets put_together(std::vector<CutTriangle>& all) {
     ArrangedFacets facets;
-    for (std::uint32_t t = 0; t < all.size(); ++t) {
-      const auto first = static_cast<std::uint32_t>(facets.corners.size());
-      facets.first.push_back(first);
-      for (const std::uint32_t s : all[t].across) {
-        facets.across.push_back(s == kNone ? kNone : s + 3 * first);
-      }
-      facets.corners.insert(facets.corners.end(), all[t].corners.begin(), all[t].corners.end());
-      all[t] = {};
+    facets.first.reserve(all.size() + 1);
+    std::uint32_t count = 0;
+    for (const CutTriangle& triangle : all) {
+      facets.first.push_back(count);
+      count += static_cast<std::uint32_t>(triangle.corners.size());
     }
-    facets.first.push_back(static_cast<std::uint32_t>(facets.corners.size()));
+    facets.first.push_back(count);
+    facets.corners.resize(count);
+    facets.across.resize(3 * std::size_t{count});
+    for_all(all.size(), [&](std::uint32_t t, std::size_t) {
+      const std::uint32_t first = facets.first[t];
+      std::copy(all[t].corners.begin(), all[t].corners.end(), facets.corners.begin() + first);
+      for (std::size_t i = 0; i < all[t].across.size(); ++i) {
+        const std::uint32_t s = all[t].across[i];
+        facets.across[3 * std::size_t{first} + i] = s == kNone ? kNone : s + 3 * first;
+      }
+      all[t] = {};
+    });
     return facets;
   }
 

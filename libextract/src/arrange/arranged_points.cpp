@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <base/assert.h>
 #include <base/ids.h>
@@ -66,7 +67,7 @@ int order_along(const Direction& direction, const Point& p, const Point& q,
 ArrangedPoints::ArrangedPoints(const CutSet& cut, std::vector<PointName> names)
     : cut_(cut), first_new_(cut.soup().points.size()), names_(std::move(names)), same_(0) {
   std::erase_if(names_, [](const PointName& n) { return n.is_corner(); });
-  std::sort(names_.begin(), names_.end());
+  parallel_sort(names_.begin(), names_.end(), std::less<>());
   names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
   points_.resize(names_.size());
   parallel_for(names_.size(), [&](std::size_t i) { points_[i] = meet_of(names_[i]); });
@@ -74,7 +75,7 @@ ArrangedPoints::ArrangedPoints(const CutSet& cut, std::vector<PointName> names)
 
 void ArrangedPoints::add_triples(std::vector<TripleName> names) {
   triples_ = std::move(names);
-  std::sort(triples_.begin(), triples_.end());
+  parallel_sort(triples_.begin(), triples_.end(), std::less<>());
   triples_.erase(std::unique(triples_.begin(), triples_.end()), triples_.end());
   points_.resize(names_.size() + triples_.size());
   parallel_for(triples_.size(), [&](std::size_t i) {

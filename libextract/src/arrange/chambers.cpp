@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include <base/disjoint_sets.h>
 #include <base/ids.h>
+#include <base/parallel.h>
+#include <base/shared_sets.h>
 #include <check/soup_rays.h>
 #include <exact/turn.h>
 
@@ -12,6 +13,8 @@ namespace {
 
 // So many triangles of a part are tried, the highest ones first.
 constexpr std::size_t kMostRays = 32;
+
+constexpr std::size_t kJoinsPerTask = 16384;
 
 class ChamberFinder {
  public:
@@ -29,17 +32,16 @@ class ChamberFinder {
         is_reached_(sheets.size(), 0) {}
 
   std::optional<Chambers> run() {
-    for (std::uint32_t s = 0; s < 3 * sheets_.size(); ++s) {
-      const std::uint32_t other = sheets_.across[s];
-      if (other == kNone || other < s) continue;
-      sides_.join(front(s / 3), front(other / 3));
-      sides_.join(behind(s / 3), behind(other / 3));
-      parts_.join(s / 3, other / 3);
-    }
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      check_.tick();
-      walk_around(e);
-    }
+    parallel_tasks(3 * sheets_.size(), kJoinsPerTask,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t s = first; s < last; ++s) join_across(s);
+                   });
+    check_.ask();
+    parallel_tasks(edges_.size(), kJoinsPerTask,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t e = first; e < last; ++e) walk_around(e);
+                   });
+    check_.ask();
     if (!place_parts()) return std::nullopt;
     return number();
   }
@@ -49,6 +51,15 @@ class ChamberFinder {
   static std::uint32_t behind(std::uint32_t f) { return 2 * f + 1; }
   [[nodiscard]] std::uint32_t outside() const {
     return static_cast<std::uint32_t>(2 * sheets_.size());
+  }
+
+  void join_across(std::size_t slot) {
+    const std::uint32_t other = sheets_.across[slot];
+    if (other == kNone || other < slot) return;
+    const auto facet = static_cast<std::uint32_t>(slot / 3);
+    sides_.join(front(facet), front(other / 3));
+    sides_.join(behind(facet), behind(other / 3));
+    parts_.join(facet, other / 3);
   }
 
   // After a facet and before the next one is the same place.
@@ -306,8 +317,8 @@ class ChamberFinder {
   const SheetEdges& edges_;
   const Stacks& stacks_;
   CancelCheck check_;
-  DisjointSets sides_;            // of facets, and the outside
-  DisjointSets parts_;            // facets that are connected
+  SharedSets sides_;              // of facets, and the outside
+  SharedSets parts_;              // facets that are connected
   std::vector<char> is_reached_;  // of the first facet of each part: a ray told where it lies
   std::size_t axis_ = 2;          // along which rays run
   PlaneTable planes_;             // those of cut triangles, and of rays; empty until needed

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include <base/disjoint_sets.h>
 #include <base/ids.h>
+#include <base/parallel.h>
+#include <base/shared_sets.h>
 #include <exact/turn.h>
 
 namespace meshrepair::internal {
@@ -30,9 +31,9 @@ class SheetMerger {
 
   SheetRegions run() {
     result_.dissolved.assign(3 * sheets_.size(), 0);
-    for (std::uint32_t s = 0; s < 3 * sheets_.size(); ++s) {
-      if (kept_.mate[s] != kNone && sheets_.across[s] != kNone) dissolve(s);
-    }
+    for_each(3 * sheets_.size(), [&](std::uint32_t s) {
+      if (kept_.mate[s] != kNone && kept_.mate[s] > s && sheets_.across[s] != kNone) dissolve(s);
+    });
     dissolve_edges(
         [&](std::uint32_t s, std::uint32_t t) { return triangle_of(s) == triangle_of(t); });
     find_broken();
@@ -45,6 +46,15 @@ class SheetMerger {
   }
 
  private:
+  // visit(i) for each i below `count`, on several threads.
+  template <class Visit>
+  static void for_each(std::size_t count, const Visit& visit) {
+    constexpr std::size_t kVisitsPerTask = 16384;
+    parallel_tasks(count, kVisitsPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) visit(static_cast<std::uint32_t>(i));
+    });
+  }
+
   [[nodiscard]] std::uint32_t triangle_of(std::uint32_t s) const { return sheets_.triangle[s / 3]; }
   [[nodiscard]] PlaneId plane_of(std::uint32_t s) const {
     return cut_.soup().triangles[TriangleId(triangle_of(s))].plane;
@@ -62,7 +72,7 @@ class SheetMerger {
   // Only where nothing but two facets is kept, turned alike.
   template <class BelongTogether>
   void dissolve_edges(BelongTogether belong_together) {
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
+    for_each(edges_.size(), [&](std::uint32_t e) {
       for (const std::uint32_t s : edges_.slots(e)) {
         const std::uint32_t mate = kept_.mate[s];
         if (mate == kNone || mate < s || kept_.singular[s] != 0 || !is_cut(s)) continue;
@@ -71,7 +81,7 @@ class SheetMerger {
           dissolve(s);
         }
       }
-    }
+    });
   }
 
   // Two facets in one plane, but not folded onto each other.
@@ -88,19 +98,19 @@ class SheetMerger {
   // Triangles of which not all is one region.
   void find_broken() {
     broken_.assign(sheets_.first.size() - 1, 0);
-    for (std::uint32_t t = 0; t < broken_.size(); ++t) {
+    for_each(broken_.size(), [&](std::uint32_t t) {
       const std::uint32_t first = sheets_.first[t];
       for (std::uint32_t f = first; f < sheets_.first[t + 1]; ++f) {
         if (kept_.kept[f] == Kept::no || joined_.root(f) != joined_.root(first)) broken_[t] = 1;
       }
-    }
+    });
   }
 
   void number() {
     result_.region.resize(sheets_.size());
-    for (std::uint32_t f = 0; f < sheets_.size(); ++f) {
+    for_each(sheets_.size(), [&](std::uint32_t f) {
       result_.region[f] = kept_.kept[f] == Kept::no ? kNone : joined_.root(f);
-    }
+    });
   }
 
   void find_needed() {
@@ -117,12 +127,12 @@ class SheetMerger {
         if (kept_.mate[s] != kNone && (touches || !is_cut(s))) need_ends_of(s);
       }
     }
-    for (std::uint32_t p = 0; p < outlines_.size(); ++p) {
+    for_each(outlines_.size(), [&](std::uint32_t p) {
       const Outline& outline = outlines_[p];
       if (outline.count > 2 || (outline.count == 2 && !goes_straight_on(p, outline))) {
         result_.needed[p] = 1;
       }
-    }
+    });
   }
 
   void look_at(std::uint32_t s) {
@@ -156,7 +166,7 @@ class SheetMerger {
   const SheetEdges& edges_;
   const KeptFacets& kept_;
   const bool releases_touching_;
-  DisjointSets joined_;
+  SharedSets joined_;
   std::vector<char> broken_;  // of each triangle of the soup
   std::vector<Outline> outlines_;
   SheetRegions result_;

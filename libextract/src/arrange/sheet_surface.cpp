@@ -4,14 +4,174 @@
 #include <span>
 #include <utility>
 
-#include <base/disjoint_sets.h>
 #include <base/ids.h>
+#include <base/parallel.h>
+#include <base/release.h>
+#include <base/shared_progress.h>
+#include <base/shared_sets.h>
 
 #include "sheet_regions.h"
 #include "triangulate/planar_mesh.h"
 
 namespace meshrepair::internal {
 namespace {
+
+// Some milliseconds of work.
+constexpr std::size_t kFacetsPerTask = 2048;
+
+// A triangle of the surface, by slots that start at its corners.
+struct SlotTriangle {
+  IndexTriangle slots{};
+  std::uint32_t source = kNone;  // a triangle of the cut soup
+};
+
+// What all regions have in common.
+struct RegionInput {
+  const CutSet& cut;
+  const ArrangedPoints& points;
+  const Sheets& sheets;
+  const KeptFacets& kept;
+  const SheetRegions& regions;
+  // Of a slot, what is the same for all whose corners, at which they start, are one vertex.
+  const std::vector<std::uint32_t>& fan;
+
+  [[nodiscard]] std::uint32_t start(std::uint32_t slot) const {
+    return side_start(sheets.corners, slot);
+  }
+};
+
+// Triangulates regions, one after the other.
+class RegionMaker {
+ public:
+  RegionMaker(const RegionInput& input, std::vector<SlotTriangle>& result)
+      : in_(input), result_(result), mesh_(input.cut.planes(), false) {}
+
+  // The facets of one region. False where that cannot be.
+  bool add(std::span<const std::uint32_t> facets) {
+    const std::uint32_t t = in_.sheets.triangle[facets[0]];
+    const bool all_of_it = facets.size() == in_.sheets.first[t + 1] - in_.sheets.first[t] &&
+                           in_.sheets.triangle[facets.back()] == t;
+    if (all_of_it && add_whole(facets, t)) return true;
+    return add_mesh(facets);
+  }
+
+ private:
+  // The triangle itself, if no other point of its outline is needed.
+  bool add_whole(std::span<const std::uint32_t> facets, std::uint32_t t) {
+    const auto& corners = in_.cut.soup().triangles[TriangleId(t)].corners;
+    IndexTriangle fan = {kNone, kNone, kNone};
+    for (const std::uint32_t f : facets) {
+      for (std::uint32_t s = 3 * f; s < 3 * f + 3; ++s) {
+        const std::uint32_t p = in_.start(s);
+        const auto k = static_cast<std::size_t>(
+            std::find_if(corners.begin(), corners.end(), [&](PointId c) { return c.value == p; }) -
+            corners.begin());
+        if (k < 3) {
+          if (in_.regions.needed[p] == 0) return false;
+          fan[k] = s;
+        } else if (in_.regions.needed[p] != 0) {
+          return false;
+        }
+      }
+    }
+    if (in_.kept.kept[facets[0]] == Kept::turned_round) std::swap(fan[1], fan[2]);
+    result_.push_back({fan, t});
+    return true;
+  }
+
+  bool add_mesh(std::span<const std::uint32_t> facets) {
+    const std::uint32_t t = in_.sheets.triangle[facets[0]];
+    const std::uint32_t number = in_.cut.number_of(t);
+    if (number == kNone) return false;
+    const bool turned = in_.kept.kept[facets[0]] == Kept::turned_round;
+    const int side = in_.cut.side_of(number);
+    mesh_.reset(in_.cut.plane(number), turned ? -side : side);
+    add_vertices(facets);
+    slot_in_mesh_.clear();
+    for (std::size_t i = 0; i < facets.size(); ++i) add_facet(facets[i], 3 * i);
+    join_facets();
+    for (std::uint32_t v = 0; v < corner_.size(); ++v) {
+      const bool goes = in_.regions.needed[in_.start(corner_[v])] == 0;
+      if (goes && !mesh_.remove_vertex(v)) return false;
+    }
+    mesh_.improve();
+    mesh_.for_each_triangle([&](const auto& corners, const auto& marks) {
+      std::uint32_t source = t;
+      for (const std::uint32_t mark : marks) {
+        if (mark == kNone) continue;
+        source = in_.sheets.triangle[mark / 3];
+        break;
+      }
+      result_.push_back({{corner_[corners[0]], corner_[corners[1]], corner_[corners[2]]}, source});
+    });
+    return true;
+  }
+
+  // One for each fan, in the order in which these come first.
+  void add_vertices(std::span<const std::uint32_t> facets) {
+    const std::size_t slots = 3 * facets.size();
+    const auto slot_at = [&](std::size_t i) {
+      return 3 * facets[i / 3] + static_cast<std::uint32_t>(i % 3);
+    };
+    by_fan_.clear();
+    for (std::uint32_t i = 0; i < slots; ++i) by_fan_.push_back({in_.fan[slot_at(i)], i});
+    std::sort(by_fan_.begin(), by_fan_.end());
+    vertex_.assign(slots, kNone);
+    for (std::size_t i = 0; i < slots; ++i) {  // for the time being, where its fan comes first
+      const bool is_first = i == 0 || by_fan_[i].first != by_fan_[i - 1].first;
+      const std::uint32_t at = by_fan_[i].second;
+      vertex_[at] = is_first ? at : vertex_[by_fan_[i - 1].second];
+    }
+    at_.clear();
+    at_.reserve(slots);
+    corner_.clear();
+    for (std::uint32_t i = 0; i < slots; ++i) {
+      if (vertex_[i] != i) {
+        vertex_[i] = vertex_[vertex_[i]];
+        continue;
+      }
+      at_.push_back(in_.points.at(in_.start(slot_at(i))));
+      vertex_[i] = mesh_.add_vertex(at_.back());
+      corner_.push_back(slot_at(i));
+    }
+  }
+
+  void add_facet(std::uint32_t f, std::size_t first_slot) {
+    IndexTriangle vertices = {vertex_[first_slot], vertex_[first_slot + 1],
+                              vertex_[first_slot + 2]};
+    const bool turned = in_.kept.kept[f] == Kept::turned_round;
+    if (turned) std::swap(vertices[1], vertices[2]);
+    const std::uint32_t first = 3 * mesh_.add_triangle(vertices);
+    // Turned round, sides 0, 1 and 2 are the last, the middle and the first one.
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      slot_in_mesh_.push_back({3 * f + k, first + (turned ? 2 - k : k)});
+    }
+  }
+
+  // The slots of facets are in ascending order.
+  void join_facets() {
+    for (const auto& [s, slot] : slot_in_mesh_) {
+      if (in_.regions.dissolved[s] == 0) {
+        mesh_.mark(slot, s);
+        continue;
+      }
+      const std::uint32_t mate = in_.kept.mate[s];
+      if (mate < s) continue;
+      const auto other =
+          std::lower_bound(slot_in_mesh_.begin(), slot_in_mesh_.end(), std::pair(mate, 0u));
+      mesh_.join(slot, other->second);
+    }
+  }
+
+  const RegionInput& in_;
+  std::vector<SlotTriangle>& result_;
+  // Of one region.
+  PlanarMesh mesh_;
+  std::vector<Point> at_;
+  std::vector<std::uint32_t> corner_;  // of each vertex a slot that starts there
+  std::vector<std::uint32_t> vertex_;  // of each slot
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> slot_in_mesh_, by_fan_;
+};
 
 class SheetSurfaceMaker {
  public:
@@ -24,23 +184,14 @@ class SheetSurfaceMaker {
         kept_(kept),
         regions_(std::move(regions)),
         report_(report),
-        check_(progress),
-        fans_(3 * sheets.size()),
-        mesh_(cut.planes(), false) {}
+        quiet_(progress) {}
 
   std::optional<Surface> run() {
-    join_fans();
+    find_fans();
     list_regions();
-    local_.assign(3 * sheets_.size(), kNone);
-    vertex_.assign(3 * sheets_.size(), kNone);
-    for (std::size_t i = 0; i < order_.size();) {
-      check_.tick();
-      std::size_t end = i + 1;
-      while (end < order_.size() && region_of(order_[end]) == region_of(order_[i])) ++end;
-      if (!add_region(std::span(order_).subspan(i, end - i))) return std::nullopt;
-      ++report_.regions;
-      i = end;
-    }
+    if (!make_regions()) return std::nullopt;
+    number_points();
+    place_points();
     if (!is_manifold()) return std::nullopt;
     return std::move(surface_);
   }
@@ -52,18 +203,23 @@ class SheetSurfaceMaker {
   }
 
   // Corners of facets that are joined are one vertex.
-  void join_fans() {
-    for (std::uint32_t s = 0; s < kept_.mate.size(); ++s) {
+  void find_fans() {
+    SharedSets fans(kept_.mate.size());
+    const auto join = [&](std::uint32_t s) {
       const std::uint32_t m = kept_.mate[s];
-      if (m == kNone || m < s) continue;
+      if (m == kNone || m < s) return;
       if (start(s) == start(m)) {
-        fans_.join(s, m);
-        fans_.join(next_side(s), next_side(m));
+        fans.join(s, m);
+        fans.join(next_side(s), next_side(m));
       } else {
-        fans_.join(s, next_side(m));
-        fans_.join(next_side(s), m);
+        fans.join(s, next_side(m));
+        fans.join(next_side(s), m);
       }
-    }
+    };
+    parallel_for(kept_.mate.size(), [&](std::size_t s) { join(static_cast<std::uint32_t>(s)); });
+    fan_.resize(kept_.mate.size());
+    parallel_for(fan_.size(),
+                 [&](std::size_t s) { fan_[s] = fans.root(static_cast<std::uint32_t>(s)); });
   }
 
   // Facets by their regions, those in the order of the triangle that they begin in.
@@ -71,129 +227,81 @@ class SheetSurfaceMaker {
     for (std::uint32_t f = 0; f < sheets_.size(); ++f) {
       if (kept_.kept[f] != Kept::no) order_.push_back(f);
     }
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return region_of(a) < region_of(b); });
+    parallel_sort(order_.begin(), order_.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return region_of(a) < region_of(b); });
   }
 
-  bool add_region(std::span<const std::uint32_t> facets) {
-    const std::uint32_t t = sheets_.triangle[facets[0]];
-    const bool all_of_it = facets.size() == sheets_.first[t + 1] - sheets_.first[t] &&
-                           sheets_.triangle[facets.back()] == t;
-    if (all_of_it && add_whole(facets, t)) return true;
-    return add_mesh(facets);
-  }
-
-  // The triangle itself, if no other point of its outline is needed.
-  bool add_whole(std::span<const std::uint32_t> facets, std::uint32_t t) {
-    const auto& corners = cut_.soup().triangles[TriangleId(t)].corners;
-    std::array<std::uint32_t, 3> fan = {kNone, kNone, kNone};
-    for (const std::uint32_t f : facets) {
-      for (std::uint32_t s = 3 * f; s < 3 * f + 3; ++s) {
-        const std::uint32_t p = start(s);
-        const auto k = static_cast<std::size_t>(
-            std::find_if(corners.begin(), corners.end(), [&](PointId c) { return c.value == p; }) -
-            corners.begin());
-        if (k < 3) {
-          if (regions_.needed[p] == 0) return false;
-          fan[k] = s;
-        } else if (regions_.needed[p] != 0) {
-          return false;
-        }
+  // Each task takes the regions that begin among its facets.
+  bool make_regions() {
+    const RegionInput input = {cut_, points_, sheets_, kept_, regions_, fan_};
+    struct Made {
+      std::vector<SlotTriangle> triangles;
+      std::size_t regions = 0;
+      bool all = true;
+    };
+    const auto begins = [&](std::size_t i) {
+      return i == 0 || i == order_.size() || region_of(order_[i]) != region_of(order_[i - 1]);
+    };
+    SharedProgress progress(&quiet_, tasks_of(order_.size(), kFacetsPerTask));
+    const auto make = [&](std::size_t first, std::size_t last) {
+      Made made;
+      RegionMaker maker(input, made.triangles);
+      std::size_t i = first;
+      while (!begins(i)) ++i;
+      while (i < last && made.all) {
+        std::size_t end = i + 1;
+        while (!begins(end)) ++end;
+        made.all = maker.add(std::span(order_).subspan(i, end - i));
+        ++made.regions;
+        i = end;
       }
-    }
-    if (kept_.kept[facets[0]] == Kept::turned_round) std::swap(fan[1], fan[2]);
-    add_triangle(fan, t);
-    return true;
-  }
-
-  bool add_mesh(std::span<const std::uint32_t> facets) {
-    const std::uint32_t t = sheets_.triangle[facets[0]];
-    const std::uint32_t number = cut_.number_of(t);
-    if (number == kNone) return false;
-    const bool turned = kept_.kept[facets[0]] == Kept::turned_round;
-    mesh_.reset(cut_.plane(number), turned ? -cut_.side_of(number) : cut_.side_of(number));
-    at_.clear();
-    at_.reserve(3 * facets.size());
-    corner_.clear();
-    slot_in_mesh_.clear();
-    for (const std::uint32_t f : facets) add_facet(f);
-    join_facets();
-    bool done = true;
-    for (std::uint32_t v = 0; v < corner_.size() && done; ++v) {
-      if (regions_.needed[start(corner_[v])] == 0) done = mesh_.remove_vertex(v);
-    }
-    for (const std::uint32_t s : corner_) local_[fans_.root(s)] = kNone;
-    if (!done) return false;
-    mesh_.improve();
-    mesh_.for_each_triangle([&](const auto& corners, const auto& marks) {
-      std::uint32_t source = t;
-      for (const std::uint32_t mark : marks) {
-        if (mark == kNone) continue;
-        source = sheets_.triangle[mark / 3];
-        break;
-      }
-      add_triangle({corner_[corners[0]], corner_[corners[1]], corner_[corners[2]]}, source);
+      progress.done();
+      return made;
+    };
+    bool all = true;
+    parallel_reduce(order_.size(), kFacetsPerTask, make, [&](Made&, const Made& made) {
+      triangles_.insert(triangles_.end(), made.triangles.begin(), made.triangles.end());
+      report_.regions += made.regions;
+      all = all && made.all;
     });
-    return true;
+    release(order_);
+    return all;
   }
 
-  void add_facet(std::uint32_t f) {
-    std::array<std::uint32_t, 3> vertices{};
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t s = 3 * f + k;
-      std::uint32_t& local = local_[fans_.root(s)];
-      if (local == kNone) {
-        at_.push_back(points_.at(start(s)));
-        local = mesh_.add_vertex(at_.back());
-        corner_.push_back(s);
+  // In the order in which triangles have them.
+  void number_points() {
+    std::vector<std::uint32_t> vertex(fan_.size(), kNone);  // of a fan: its point of the surface
+    surface_.mesh.triangles.reserve(triangles_.size());
+    surface_.source.reserve(triangles_.size());
+    for (const SlotTriangle& triangle : triangles_) {
+      IndexTriangle corners{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::uint32_t& number = vertex[fan_[triangle.slots[k]]];
+        if (number == kNone) {
+          number = static_cast<std::uint32_t>(point_.size());
+          point_.push_back(start(triangle.slots[k]));
+        }
+        corners[k] = number;
       }
-      vertices[k] = local;
+      surface_.mesh.triangles.push_back(corners);
+      static_assert(Surface::kNoSource == Triangle::kNoSource);
+      surface_.source.push_back(cut_.soup().triangles[TriangleId(triangle.source)].source);
     }
-    const bool turned = kept_.kept[f] == Kept::turned_round;
-    if (turned) std::swap(vertices[1], vertices[2]);
-    const std::uint32_t first = 3 * mesh_.add_triangle(vertices);
-    // Turned round, sides 0, 1 and 2 are the last, the middle and the first one.
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      slot_in_mesh_.push_back({3 * f + k, first + (turned ? 2 - k : k)});
-    }
+    release(triangles_);
   }
 
-  // The slots of facets are in ascending order.
-  void join_facets() {
-    for (const auto& [s, slot] : slot_in_mesh_) {
-      if (regions_.dissolved[s] == 0) {
-        mesh_.mark(slot, s);
-        continue;
-      }
-      const std::uint32_t mate = kept_.mate[s];
-      if (mate < s) continue;
-      const auto other =
-          std::lower_bound(slot_in_mesh_.begin(), slot_in_mesh_.end(), std::pair(mate, 0u));
-      mesh_.join(slot, other->second);
-    }
-  }
-
-  // By slots that start at its corners.
-  void add_triangle(const std::array<std::uint32_t, 3>& corners, std::uint32_t triangle) {
-    IndexTriangle result{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::uint32_t& vertex = vertex_[fans_.root(corners[k])];
-      if (vertex == kNone) vertex = add_point(start(corners[k]));
-      result[k] = vertex;
-    }
-    surface_.mesh.triangles.push_back(result);
-    static_assert(Surface::kNoSource == Triangle::kNoSource);
-    surface_.source.push_back(cut_.soup().triangles[TriangleId(triangle)].source);
-  }
-
-  std::uint32_t add_point(std::uint32_t p) {
+  void place_points() {
     const CleanSoup& soup = cut_.soup();
-    const bool of_input = p < points_.first_new();
-    surface_.mesh.points.push_back(
-        of_input ? soup.points[PointId(p)]
-                 : soup.grid.from_grid(accurate_position(points_.at(p), cut_.planes())));
-    surface_.input_point.push_back(of_input ? 1 : 0);
-    return static_cast<std::uint32_t>(surface_.mesh.points.size() - 1);
+    surface_.mesh.points.resize(point_.size());
+    surface_.input_point.resize(point_.size());
+    parallel_for(point_.size(), [&](std::size_t i) {
+      const std::uint32_t p = point_[i];
+      const bool of_input = p < points_.first_new();
+      surface_.mesh.points[i] =
+          of_input ? soup.points[PointId(p)]
+                   : soup.grid.from_grid(accurate_position(points_.at(p), cut_.planes()));
+      surface_.input_point[i] = of_input ? 1 : 0;
+    });
   }
 
   // Whether each edge has two triangles that pass it in opposite directions.
@@ -213,17 +321,12 @@ class SheetSurfaceMaker {
   const KeptFacets& kept_;
   const SheetRegions regions_;
   ArrangeReport& report_;
-  CancelCheck check_;
-  DisjointSets fans_;  // of slots, by the corners that they start at
-  std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> local_;   // of a fan: its vertex in the mesh of a region
-  std::vector<std::uint32_t> vertex_;  // of a fan: its point of the surface
+  CancelOnly quiet_;
+  std::vector<std::uint32_t> fan_;    // of each slot the lowest one of its fan
+  std::vector<std::uint32_t> order_;  // facets by their regions
+  std::vector<SlotTriangle> triangles_;
+  std::vector<std::uint32_t> point_;  // of each point of the surface, that of the arrangement
   Surface surface_;
-  // Of one region.
-  PlanarMesh mesh_;
-  std::vector<Point> at_;
-  std::vector<std::uint32_t> corner_;  // of each vertex a slot that starts there
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> slot_in_mesh_;
 };
 
 }  // namespace

@@ -23,11 +23,13 @@ class EdgeTable {
   // Calls visit(std::span<const std::uint32_t> sides) for each edge, the sides in ascending order.
   template <class Visit>
   void for_each_edge(Visit visit) const {
-    for (std::size_t i = 0; i + 1 < first_.size(); ++i) {
-      visit(std::span<const std::uint32_t>(sides_.data() + first_[i], first_[i + 1] - first_[i]));
-    }
+    for (std::size_t edge = 0; edge < edges(); ++edge) visit(sides(edge));
   }
   [[nodiscard]] std::size_t edges() const { return first_.size() - 1; }
+  // Ascending.
+  [[nodiscard]] std::span<const std::uint32_t> sides(std::size_t edge) const {
+    return {sides_.data() + first_[edge], first_[edge + 1] - first_[edge]};
+  }
   // The sides of all edges, one after the other, and where those of each edge begin, and end. The
   // table is empty then.
   [[nodiscard]] std::vector<std::uint32_t> take_sides() { return std::move(sides_); }

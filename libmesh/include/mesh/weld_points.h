@@ -26,12 +26,16 @@ class PointWelder {
   internal::HashIndex index_;
 };
 
-// For each point the first one that has its place.
+// For each point the first one that has its place. On several threads.
 [[nodiscard]] std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& points);
+
+// For each of `points` the first one of both lists, one after the other, that has its place.
+[[nodiscard]] std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& before,
+                                                        const std::vector<Vec3d>& points);
 
 // Points by where they lie.
 struct PointPlaces {
-  std::vector<std::uint32_t> place;  // of each point; equal points have the same
+  std::vector<std::uint32_t> place;  // of each point the first one that is there
   std::vector<char> is_copy;         // of each point: has another one its place?
 };
 

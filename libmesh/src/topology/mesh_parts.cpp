@@ -3,18 +3,20 @@
 
 #include <Eigen/Geometry>
 
-#include <base/disjoint_sets.h>
 #include <base/ids.h>
+#include <base/parallel.h>
+#include <base/shared_sets.h>
 #include <mesh/mesh_parts.h>
 
 namespace meshrepair {
 
 MeshParts find_parts(const TriangleSoup& mesh) {
-  DisjointSets joined(mesh.points.size());
-  for (const auto& t : mesh.triangles) {
-    joined.join(t[0], t[1]);
-    joined.join(t[0], t[2]);
-  }
+  SharedSets joined(mesh.points.size());
+  parallel_for(mesh.triangles.size(), [&](std::size_t t) {
+    const auto& corners = mesh.triangles[t];
+    joined.join(corners[0], corners[1]);
+    joined.join(corners[0], corners[2]);
+  });
   MeshParts parts;
   parts.of_triangle.reserve(mesh.triangles.size());
   std::vector<std::uint32_t> number(mesh.points.size(), kNone);

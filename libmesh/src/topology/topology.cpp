@@ -4,7 +4,8 @@
 
 #include <Eigen/Geometry>
 
-#include <base/disjoint_sets.h>
+#include <base/parallel.h>
+#include <base/shared_sets.h>
 #include <mesh/topology.h>
 
 namespace meshrepair {
@@ -33,16 +34,39 @@ void note_edge(std::span<const IndexTriangle> triangles, std::span<const std::ui
   }
 }
 
+constexpr std::size_t kEdgesPerTask = 16384;
+
+// What a list of edges tells.
+struct Edges {
+  Topology counts;
+  TopologyPlaces places;
+
+  void add(const Edges& other) {
+    counts.edges += other.counts.edges;
+    counts.open_edges += other.counts.open_edges;
+    counts.nonmanifold_edges += other.counts.nonmanifold_edges;
+    counts.inconsistent_edges += other.counts.inconsistent_edges;
+    append(places.open_sides, other.places.open_sides);
+    append(places.nonmanifold_sides, other.places.nonmanifold_sides);
+    append(places.inconsistent_sides, other.places.inconsistent_sides);
+  }
+
+ private:
+  static void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+};
+
 // Joins the two pairs of corners that the triangles on both sides of an edge have in common.
 void join_corners(std::span<const IndexTriangle> triangles, std::uint32_t s, std::uint32_t t,
-                  DisjointSets& corners) {
+                  SharedSets& corners) {
   const bool opposite = side_start(triangles, s) != side_start(triangles, t);
   corners.join(s, opposite ? next_side(t) : t);
   corners.join(next_side(s), opposite ? t : next_side(t));
 }
 
 std::size_t count_split_vertices(std::span<const IndexTriangle> triangles, std::size_t points,
-                                 DisjointSets& corners, TopologyPlaces* places) {
+                                 SharedSets& corners, TopologyPlaces* places) {
   std::vector<char> fans(points, 0);
   std::size_t split = 0;
   for (std::uint32_t c = 0; c < 3 * triangles.size(); ++c) {
@@ -60,7 +84,7 @@ std::size_t count_split_vertices(std::span<const IndexTriangle> triangles, std::
 }
 
 // The lowest triangle of a part stands for it, so parts are met in the order of their numbers.
-std::vector<std::uint32_t> number_parts(std::size_t triangles, DisjointSets& sets) {
+std::vector<std::uint32_t> number_parts(std::size_t triangles, SharedSets& sets) {
   std::vector<std::uint32_t> parts(triangles);
   std::uint32_t count = 0;
   for (std::uint32_t t = 0; t < triangles; ++t) {
@@ -75,21 +99,30 @@ std::vector<std::uint32_t> number_parts(std::size_t triangles, DisjointSets& set
 Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t points,
                           TopologyPlaces* places) {
   if (places != nullptr) *places = {};
-  Topology topology;
+  SharedSets parts(triangles.size());
+  SharedSets corners(3 * triangles.size());
+  const EdgeTable table(triangles);
+  const auto examine = [&](std::size_t first, std::size_t last) {
+    Edges some;
+    for (std::size_t edge = first; edge < last; ++edge) {
+      const std::span<const std::uint32_t> sides = table.sides(edge);
+      count_edge(triangles, sides, some.counts);
+      if (places != nullptr) note_edge(triangles, sides, some.places);
+      for (std::size_t i = 1; i < sides.size(); ++i) {
+        parts.join(sides[0] / 3, sides[i] / 3);
+        join_corners(triangles, sides[0], sides[i], corners);
+      }
+    }
+    return some;
+  };
+  Edges edges = parallel_reduce(table.edges(), kEdgesPerTask, examine,
+                                [](Edges& all, const Edges& some) { all.add(some); });
+  if (places != nullptr) *places = std::move(edges.places);
+  Topology topology = edges.counts;
   topology.triangles = triangles.size();
   for (const auto& t : triangles) {
     topology.repeated_corners += t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
   }
-  DisjointSets parts(triangles.size());
-  DisjointSets corners(3 * triangles.size());
-  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
-    count_edge(triangles, sides, topology);
-    if (places != nullptr) note_edge(triangles, sides, *places);
-    for (std::size_t i = 1; i < sides.size(); ++i) parts.join(sides[0] / 3, sides[i] / 3);
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-      join_corners(triangles, sides[0], sides[i], corners);
-    }
-  });
   topology.parts = parts.count();
   topology.nonmanifold_vertices = count_split_vertices(triangles, points, corners, places);
   if (places != nullptr) places->parts = number_parts(triangles.size(), parts);

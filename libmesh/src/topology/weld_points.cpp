@@ -3,6 +3,7 @@
 
 #include <base/assert.h>
 #include <base/error.h>
+#include <base/first_equal.h>
 #include <mesh/weld_points.h>
 
 namespace meshrepair {
@@ -20,6 +21,8 @@ std::uint64_t hash(const Vec3d& point) {
   return hash_mix(h, std::bit_cast<std::uint64_t>(point.z()));
 }
 
+Vec3d without_negative_zero(const Vec3d& point) { return point.array() + 0.0; }
+
 bool same_bits(const Vec3d& a, const Vec3d& b) {
   const auto differ = [&](int i) {
     return std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
@@ -36,7 +39,7 @@ PointWelder::PointWelder(std::vector<Vec3d>& points, std::size_t expected)
 }
 
 std::uint32_t PointWelder::index_of(Vec3d point) {
-  point.array() += 0.0;  // -0 + 0 is 0
+  point = without_negative_zero(point);
   const std::uint64_t key = hash(point);
   const auto same = [&](std::uint32_t index) { return same_bits(points_[index], point); };
   if (points_.size() == kMostPoints && index_.find(key, same) == HashIndex::kNone) {
@@ -53,29 +56,26 @@ std::uint32_t PointWelder::index_of(Vec3d point) {
 }
 
 std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& points) {
-  std::vector<Vec3d> distinct;
-  PointWelder welder(distinct, points.size());
-  std::vector<std::uint32_t> first_at, first;
-  first.reserve(points.size());
-  for (std::uint32_t p = 0; p < points.size(); ++p) {
-    const std::uint32_t place = welder.index_of(points[p]);
-    if (place == first_at.size()) first_at.push_back(p);
-    first.push_back(first_at[place]);
-  }
+  return first_in_place({}, points);
+}
+
+std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& before,
+                                          const std::vector<Vec3d>& points) {
+  const auto point = [&](std::size_t p) -> Vec3d {
+    return without_negative_zero(p < before.size() ? before[p] : points[p - before.size()]);
+  };
+  std::vector<std::uint32_t> first = first_equal(
+      before.size() + points.size(), [&](std::size_t p) { return hash(point(p)); },
+      [&](std::size_t p, std::size_t q) { return same_bits(point(p), point(q)); });
+  first.erase(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(before.size()));
   return first;
 }
 
 PointPlaces find_places(const std::vector<Vec3d>& points) {
-  std::vector<Vec3d> distinct;
-  PointWelder welder(distinct, points.size());
-  PointPlaces places;
-  places.place.reserve(points.size());
-  for (const Vec3d& p : points) places.place.push_back(welder.index_of(p));
-  std::vector<std::uint32_t> count(distinct.size(), 0);
-  for (const std::uint32_t place : places.place) ++count[place];
-  places.is_copy.reserve(points.size());
-  for (const std::uint32_t place : places.place) {
-    places.is_copy.push_back(count[place] > 1 ? 1 : 0);
+  PointPlaces places{first_in_place(points), std::vector<char>(points.size(), 0)};
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    const std::uint32_t place = places.place[p];
+    if (place != p) places.is_copy[p] = places.is_copy[place] = 1;
   }
   return places;
 }

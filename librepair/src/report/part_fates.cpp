@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 
+#include <base/parallel.h>
 #include <mesh/topology.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
@@ -65,21 +66,21 @@ PartFates find_part_fates(const CleanSoup& soup, const std::vector<std::uint8_t>
 
 std::vector<char> find_whole_triangles(const CleanSoup& input, const Surface& surface) {
   std::vector<char> whole(surface.mesh.triangles.size(), 0);
-  for (std::size_t t = 0; t < whole.size(); ++t) {
-    if (surface.source[t] == Surface::kNoSource) continue;
+  const auto is_whole = [&](std::size_t t) {
+    if (surface.source[t] == Surface::kNoSource) return false;
     // Sources ascend.
     const auto found = std::lower_bound(
         input.triangles.begin(), input.triangles.end(), surface.source[t],
         [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
-    if (found == input.triangles.end() || found->source != surface.source[t]) continue;
+    if (found == input.triangles.end() || found->source != surface.source[t]) return false;
     const auto& to = surface.mesh.triangles[t];
-    const bool same = std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
+    return std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
       return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
         return surface.mesh.points[q] == input.points[p];
       });
     });
-    whole[t] = same ? 1 : 0;
-  }
+  };
+  parallel_for(whole.size(), [&](std::size_t t) { whole[t] = is_whole(t) ? 1 : 0; });
   return whole;
 }
 

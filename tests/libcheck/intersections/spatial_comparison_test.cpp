@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,17 +25,22 @@ using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 class Compared {
  public:
-  explicit Compared(const TriangleSoup& soup)
-      : corners_(soup, true), list_(corners_), hubs_(list_.size(), kNoHub) {}
+  explicit Compared(TriangleSoup soup)
+      : soup_(std::move(soup)), corners_(soup_, true), list_(corners_) {
+    for (std::uint32_t t = 0; t < list_.size(); ++t) triangles_.push_back(list_.triangle(t));
+  }
 
-  void use_hubs() { hubs_ = find_hubs(list_.triangles()); }
+  Compared(const Compared&) = delete;
+  Compared& operator=(const Compared&) = delete;
+
+  void use_hubs() { hubs_ = find_hubs(list_); }
 
   [[nodiscard]] std::optional<Pairs> in_space(ProgressObserver* progress = nullptr) const {
-    const auto found = compare_in_space(list_.triangles(), hubs_, progress);
+    const auto found = compare_in_space(list_, hubs_, progress);
     if (!found) return std::nullopt;
     Pairs pairs;
     for (const MeetingPair& pair : *found) {
-      EXPECT_EQ(pair.meeting, meeting_of(list_.triangles()[pair.a], list_.triangles()[pair.b]));
+      EXPECT_EQ(pair.meeting, meeting_of(triangles_[pair.a], triangles_[pair.b]));
       pairs.push_back({pair.a, pair.b});
     }
     return pairs;
@@ -44,8 +50,8 @@ class Compared {
     Pairs pairs;
     for (std::uint32_t a = 0; a < list_.size(); ++a) {
       for (std::uint32_t b = a + 1; b < list_.size(); ++b) {
-        if (hubs_[a] != kNoHub && hubs_[a] == hubs_[b]) continue;
-        if (meeting_of(list_.triangles()[a], list_.triangles()[b]) != Meeting::apart) {
+        if (!hubs_.empty() && hubs_[a] != kNoHub && hubs_[a] == hubs_[b]) continue;
+        if (meeting_of(triangles_[a], triangles_[b]) != Meeting::apart) {
           pairs.push_back({a, b});
         }
       }
@@ -54,14 +60,15 @@ class Compared {
   }
 
   [[nodiscard]] bool boxes_tell_little() const {
-    return internal::boxes_tell_little(list_.triangles(), list_.boxes(), hubs_,
-                                       BoxTree(list_.boxes()));
+    return internal::boxes_tell_little(list_, hubs_, BoxTree(list_.boxes()));
   }
 
  private:
+  TriangleSoup soup_;
   SoupCorners corners_;
   TriangleList list_;
-  std::vector<std::uint32_t> hubs_;
+  std::vector<CornerTriangle> triangles_;
+  std::vector<std::uint32_t> hubs_;  // empty: none
 };
 
 // Two cones base to base, all of whose upper triangles have boxes that meet many lower ones.

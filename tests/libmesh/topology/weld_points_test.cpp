@@ -37,6 +37,15 @@ TEST(WeldPoints, PointsThatDifferInTheLastBitStayApart) {
   EXPECT_EQ(welder.index_of({1, 0, std::numeric_limits<double>::denorm_min()}), 2u);
 }
 
+TEST(WeldPoints, FirstInPlaceGoesOnFromAnotherList) {
+  const std::vector<Vec3d> before = {{1, 0, 0}, {-0.0, 0, 0}, {1, 0, 0}};
+  const std::vector<Vec3d> points = {{2, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  EXPECT_EQ(first_in_place(before, points), (std::vector<std::uint32_t>{3, 1, 0, 3}));
+  EXPECT_EQ(first_in_place({}, points), first_in_place(points));
+  EXPECT_EQ(first_in_place(points), (std::vector<std::uint32_t>{0, 1, 2, 0}));
+  EXPECT_TRUE(first_in_place(before, {}).empty());
+}
+
 TEST(WeldPoints, NanIsEqualToItself) {
   std::vector<Vec3d> points;
   PointWelder welder(points);

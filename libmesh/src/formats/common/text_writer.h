@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include <base/parallel.h>
 #include <mesh/soup.h>
 
 namespace meshrepair {
@@ -28,23 +29,36 @@ void append_triple(std::string& text, const Triple& triple) {
   append_number(text, triple[2]);
 }
 
+// What append(text, i) appends for each i below `count`. On several threads.
+template <class Append>
+void append_lines(std::string& text, std::size_t count, const Append& append) {
+  constexpr std::size_t kLinesPerTask = 16384;
+  const auto lines_of = [&](std::size_t first, std::size_t last) {
+    std::string lines;
+    for (std::size_t i = first; i < last; ++i) append(lines, i);
+    return lines;
+  };
+  parallel_reduce(count, kLinesPerTask, lines_of,
+                  [&](std::string&, const std::string& lines) { text += lines; });
+}
+
 // A line "x y z" for each point, then one "3 a b c" for each triangle, as OFF and PLY have them;
 // with `sources`, if there are any, its number at the end, signed.
 inline void append_mesh_lines(std::string& text, const TriangleSoup& soup,
                               std::span<const std::uint32_t> sources = {}) {
-  for (const Vec3d& point : soup.points) {
-    append_triple(text, point);
-    text += '\n';
-  }
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    text += "3 ";
-    append_triple(text, soup.triangles[t]);
+  append_lines(text, soup.points.size(), [&](std::string& lines, std::size_t p) {
+    append_triple(lines, soup.points[p]);
+    lines += '\n';
+  });
+  append_lines(text, soup.triangles.size(), [&](std::string& lines, std::size_t t) {
+    lines += "3 ";
+    append_triple(lines, soup.triangles[t]);
     if (!sources.empty()) {
-      text += ' ';
-      append_number(text, static_cast<std::int32_t>(sources[t]));
+      lines += ' ';
+      append_number(lines, static_cast<std::int32_t>(sources[t]));
     }
-    text += '\n';
-  }
+    lines += '\n';
+  });
 }
 
 }  // namespace meshrepair

@@ -83,16 +83,17 @@ ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); 
 std::string format_obj(const TriangleSoup& soup, const std::vector<std::string>& comments) {
   std::string out;
   for (const std::string& comment : comments) out += "# " + comment + "\n";
-  for (const Vec3d& point : soup.points) {
-    out += "v ";
-    append_triple(out, point);
-    out += '\n';
-  }
-  for (const auto& [a, b, c] : soup.triangles) {
-    out += "f ";
-    append_triple(out, std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
-    out += '\n';
-  }
+  append_lines(out, soup.points.size(), [&](std::string& lines, std::size_t p) {
+    lines += "v ";
+    append_triple(lines, soup.points[p]);
+    lines += '\n';
+  });
+  append_lines(out, soup.triangles.size(), [&](std::string& lines, std::size_t t) {
+    const auto& [a, b, c] = soup.triangles[t];
+    lines += "f ";
+    append_triple(lines, std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
+    lines += '\n';
+  });
   return out;
 }
 
