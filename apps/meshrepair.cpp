@@ -7,15 +7,22 @@
 namespace meshrepair {
 namespace {
 
+Attributes attributes_of(const AnySoup& input, const Surface& surface) {
+  if (input.attributes.empty()) return {};
+  return transfer_attributes(input.soup, input.attributes, surface);
+}
+
 void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
   const WriteOptions format = mesh_format(options);
-  const AnySoup input = read_any_stage(points, run, findings);
+  const bool attributes = options.attributes && holds_attributes(*format.format);
+  const AnySoup input = read_any_stage(points, attributes, run, findings);
   RepairOptions repair_options = certified_for(*format.format, options.repair);
+  repair_options.extract.merges_triangles = input.attributes.empty();
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
   const Surface surface = repair_any(input, points, repair_options, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
-  write_mesh_stage(surface, format, options, run, findings);
+  write_mesh_stage(surface, attributes_of(input, surface), format, options, run, findings);
 }
 
 }  // namespace
@@ -52,6 +59,7 @@ int main(int argc, char** argv) {
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
+  add_attributes_option(app, options.attributes);
   add_certify_options(app, options.repair.certify, options.strict);
   add_point_repair_options(app, points);
   return run_steps(program, argc, argv, options,

@@ -38,10 +38,12 @@ void add_point_repair_options(CLI::App& app, PointOptions& options);
 struct AnySoup {
   TriangleSoup soup;
   std::vector<float> opacity;  // as RepairOptions takes it
+  Attributes attributes;       // of a mesh, if they are asked for
 };
 
-// Reads a mesh, or a point cloud, triangulates it and puts it on its base.
-[[nodiscard]] AnySoup read_any_stage(const PointOptions& options, Run& run, Findings& findings);
+// Reads a mesh, with its attributes if wanted, or a point cloud, triangulates it and puts it on its base.
+[[nodiscard]] AnySoup read_any_stage(const PointOptions& options, bool attributes, Run& run,
+                                     Findings& findings);
 
 // repair(), as the input needs it: the floor of a base is a hole of any size, and solids that the
 // points are too few to tell are dropped. Throws NoSolidError, with advice, also where the points

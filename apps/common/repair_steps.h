@@ -65,6 +65,7 @@ struct StepOptions {
   std::string output;
   std::optional<SoupFormat> format;
   bool sources = false;  // write of each triangle which one of the input it lies in
+  bool attributes = true;  // carry texture coordinates, materials and the like, where formats can
   bool strict = false;
   RepairOptions repair;
 };

@@ -18,6 +18,7 @@
 #include <base/progress.h>
 #include <bsp/clean_soup.h>
 #include <extract/cut_nonmanifold.h>
+#include <extract/extract_surface.h>
 #include <extract/surface.h>
 
 namespace meshrepair {
@@ -73,9 +74,9 @@ class Arrangement {
     // solid, 4 outside; of several in one place only of the first.
     std::vector<std::uint8_t> places;
   };
-  [[nodiscard]] std::optional<Boundary> boundary(const std::vector<char>& solid, Touching touching,
-                                                 ArrangeReport& report,
-                                                 ProgressObserver* progress = nullptr) const;
+  [[nodiscard]] std::optional<Boundary> boundary(const std::vector<char>& solid,
+                                                 const ExtractOptions& options,
+                                                 ArrangeReport& report) const;
 
  private:
   struct Parts;

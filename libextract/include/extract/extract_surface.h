@@ -14,6 +14,9 @@ namespace meshrepair {
 
 struct ExtractOptions {
   Touching touching = Touching::separate;  // what becomes of solids that touch along an edge
+  // Whether what is cut of several triangles in one plane may become one triangle; else each one
+  // lies in its source.
+  bool merges_triangles = true;
   ProgressObserver* progress = nullptr;
   // Of each triangle of the soup, whether it is not cut, though only a part of it may be among the
   // cells' facets: nothing is merged with it. Empty: what is cut is seen there.

@@ -171,16 +171,16 @@ std::vector<Arrangement::Layer> Arrangement::layers() const {
 }
 
 std::optional<Arrangement::Boundary> Arrangement::boundary(const std::vector<char>& solid,
-                                                           Touching touching, ArrangeReport& report,
-                                                           ProgressObserver* progress) const {
+                                                           const ExtractOptions& options,
+                                                           ArrangeReport& report) const {
   internal::KeptFacets kept =
       internal::keep_facets(parts_->soup, parts_->sheets, *parts_->edges, *parts_->stacks,
-                            parts_->chambers, solid, touching);
+                            parts_->chambers, solid, options.touching);
   if (!kept.closed) return std::nullopt;
   report.singular_edges = kept.singular_edges;
   report.regions = 0;
   std::optional<Surface> surface = internal::make_sheet_surface(
-      parts_->cut, *parts_->points, parts_->sheets, *parts_->edges, kept, report, progress);
+      parts_->cut, *parts_->points, parts_->sheets, *parts_->edges, kept, options, report);
   if (!surface) return std::nullopt;
   return Boundary{std::move(*surface), std::move(kept.places)};
 }

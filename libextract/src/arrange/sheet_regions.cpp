@@ -20,13 +20,13 @@ struct Outline {
 class SheetMerger {
  public:
   SheetMerger(const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets,
-              const SheetEdges& edges, const KeptFacets& kept, bool releases_touching)
+              const SheetEdges& edges, const KeptFacets& kept, const MergeOptions& options)
       : cut_(cut),
         points_(points),
         sheets_(sheets),
         edges_(edges),
         kept_(kept),
-        releases_touching_(releases_touching),
+        options_(options),
         joined_(sheets.size()) {}
 
   SheetRegions run() {
@@ -36,10 +36,7 @@ class SheetMerger {
     });
     dissolve_edges(
         [&](std::uint32_t s, std::uint32_t t) { return triangle_of(s) == triangle_of(t); });
-    find_broken();
-    dissolve_edges([&](std::uint32_t s, std::uint32_t t) {
-      return plane_of(s) == plane_of(t) && is_broken(s) && is_broken(t);
-    });
+    if (options_.merges_triangles) merge_triangles();
     number();
     find_needed();
     return std::move(result_);
@@ -67,6 +64,13 @@ class SheetMerger {
   void dissolve(std::uint32_t s) {
     result_.dissolved[s] = result_.dissolved[kept_.mate[s]] = 1;
     joined_.join(s / 3, kept_.mate[s] / 3);
+  }
+
+  void merge_triangles() {
+    find_broken();
+    dissolve_edges([&](std::uint32_t s, std::uint32_t t) {
+      return plane_of(s) == plane_of(t) && is_broken(s) && is_broken(t);
+    });
   }
 
   // Only where nothing but two facets is kept, turned alike.
@@ -123,7 +127,7 @@ class SheetMerger {
         break;  // all slots of the edge have the same ends
       }
       for (const std::uint32_t s : edges_.slots(e)) {
-        const bool touches = kept_.singular[s] != 0 && !releases_touching_;
+        const bool touches = kept_.singular[s] != 0 && !options_.releases_touching;
         if (kept_.mate[s] != kNone && (touches || !is_cut(s))) need_ends_of(s);
       }
     }
@@ -165,7 +169,7 @@ class SheetMerger {
   const Sheets& sheets_;
   const SheetEdges& edges_;
   const KeptFacets& kept_;
-  const bool releases_touching_;
+  const MergeOptions options_;
   SharedSets joined_;
   std::vector<char> broken_;  // of each triangle of the soup
   std::vector<Outline> outlines_;
@@ -175,8 +179,9 @@ class SheetMerger {
 }  // namespace
 
 SheetRegions merge_sheets(const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets,
-                          const SheetEdges& edges, const KeptFacets& kept, bool releases_touching) {
-  return SheetMerger(cut, points, sheets, edges, kept, releases_touching).run();
+                          const SheetEdges& edges, const KeptFacets& kept,
+                          const MergeOptions& options) {
+  return SheetMerger(cut, points, sheets, edges, kept, options).run();
 }
 
 }  // namespace meshrepair::internal

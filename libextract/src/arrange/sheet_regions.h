@@ -17,12 +17,18 @@ struct SheetRegions {
   std::vector<char> needed;
 };
 
-// Facets of one cut triangle are merged, and those of one plane, if none of the triangles is whole.
-// A point goes that is inside a region, or inside a straight part of the outlines of all regions
-// that meet there; where solids touch, only if `releases_touching`, after which two of them may
-// have both ends of an edge in common.
+struct MergeOptions {
+  // Whether points may go where solids touch, after which two of them may have both ends of an edge
+  // in common.
+  bool releases_touching = true;
+  bool merges_triangles = true;  // ExtractOptions has it
+};
+
+// Facets of one cut triangle are merged, and those of one plane, if that may be and none of the
+// triangles is whole. A point goes that is inside a region, or inside a straight part of the
+// outlines of all regions that meet there.
 [[nodiscard]] SheetRegions merge_sheets(const CutSet& cut, const ArrangedPoints& points,
                                         const Sheets& sheets, const SheetEdges& edges,
-                                        const KeptFacets& kept, bool releases_touching);
+                                        const KeptFacets& kept, const MergeOptions& options);
 
 }  // namespace meshrepair::internal

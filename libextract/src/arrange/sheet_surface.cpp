@@ -333,13 +333,15 @@ class SheetSurfaceMaker {
 
 std::optional<Surface> make_sheet_surface(const CutSet& cut, const ArrangedPoints& points,
                                           const Sheets& sheets, const SheetEdges& edges,
-                                          const KeptFacets& kept, ArrangeReport& report,
-                                          ProgressObserver* progress) {
+                                          const KeptFacets& kept, const ExtractOptions& options,
+                                          ArrangeReport& report) {
   for (const bool releases_touching : {true, false}) {
     report.regions = 0;
-    SheetRegions regions = merge_sheets(cut, points, sheets, edges, kept, releases_touching);
+    SheetRegions regions = merge_sheets(cut, points, sheets, edges, kept,
+                                        {releases_touching, options.merges_triangles});
     std::optional<Surface> surface =
-        SheetSurfaceMaker(cut, points, sheets, kept, std::move(regions), report, progress).run();
+        SheetSurfaceMaker(cut, points, sheets, kept, std::move(regions), report, options.progress)
+            .run();
     if (surface || kept.singular_edges == 0) return surface;
   }
   return std::nullopt;

@@ -15,6 +15,6 @@ namespace meshrepair::internal {
 // Sets report.regions. Nothing if the result is no manifold, which may be where solids touch.
 [[nodiscard]] std::optional<Surface> make_sheet_surface(
     const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets, const SheetEdges& edges,
-    const KeptFacets& kept, ArrangeReport& report, ProgressObserver* progress);
+    const KeptFacets& kept, const ExtractOptions& options, ArrangeReport& report);
 
 }  // namespace meshrepair::internal

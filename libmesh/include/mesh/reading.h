@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <mesh/attributes.h>
 #include <mesh/soup.h>
 
 namespace meshrepair {
@@ -33,12 +34,15 @@ struct ReadReport {
 
 struct ReadResult {
   TriangleSoup soup;
+  Attributes attributes;  // empty unless asked for
   ReadReport report;
 };
 
 struct ReadOptions {
   // More throw LimitError, as soon as it is known; polygons count as what they will become.
   std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
+  // Read texture coordinates, normals, colours, materials and groups, too. OBJ has them.
+  bool attributes = false;
   // A file that holds no points and no faces, and promises none, is no error.
   bool may_be_empty = false;
   ProgressObserver* progress = nullptr;

@@ -48,6 +48,8 @@ struct WriteOptions {
   // For PLY alone, not owned: one number for each triangle, written as the property
   // `source_triangle` of its face, with all ones as -1. Empty: no such property.
   std::span<const std::uint32_t> sources = {};
+  // For OBJ alone, not owned: of the triangles. Null: none.
+  const Attributes* attributes = nullptr;
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
 };
 
@@ -64,11 +66,12 @@ struct WriteOptions {
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 
-// The bytes of the file, with comments and sources as in WriteOptions. Coordinates are rounded to
+// The bytes of the file, with what WriteOptions has. Coordinates are rounded to
 // float32 for binary STL alone.
 [[nodiscard]] std::string format_soup(const TriangleSoup& soup, SoupFormat format,
                                       const std::vector<std::string>& comments = {},
-                                      std::span<const std::uint32_t> sources = {});
+                                      std::span<const std::uint32_t> sources = {},
+                                      const Attributes* attributes = nullptr);
 
 // The soup that a reader gets back from a file in this format: STL has no indices, so corners with
 // equal coordinates become one point, and binary STL rounds coordinates to float32 before. For the

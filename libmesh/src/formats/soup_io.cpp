@@ -81,13 +81,14 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
     throw UsageError(path.string() +
                      ": no mesh format has this extension (.stl, .obj, .off, .ply)");
   }
-  write_file_atomically(path, format_soup(soup, *format, options.comments, options.sources),
-                        options.progress);
+  write_file_atomically(
+      path, format_soup(soup, *format, options.comments, options.sources, options.attributes),
+      options.progress);
 }
 
 std::string format_soup(const TriangleSoup& soup, SoupFormat format,
                         const std::vector<std::string>& comments,
-                        std::span<const std::uint32_t> sources) {
+                        std::span<const std::uint32_t> sources, const Attributes* attributes) {
   if (!sources.empty() && !is_ply(format)) {
     throw UsageError(std::string(format_name(format)) + " cannot hold the sources of triangles");
   }
@@ -97,7 +98,7 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
     case SoupFormat::stl_ascii:
       return format_stl_ascii(soup);
     case SoupFormat::obj:
-      return format_obj(soup, comments);
+      return format_obj(soup, comments, attributes);
     case SoupFormat::off:
       return format_off(soup, comments);
     case SoupFormat::ply_binary:

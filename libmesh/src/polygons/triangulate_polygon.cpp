@@ -19,20 +19,33 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 // crossed by whatever crosses the polygon.
 constexpr std::size_t kFewCorners = 32;
 
+// Positions in `corners`.
 std::vector<std::uint32_t> without_repetitions(std::span<const std::uint32_t> corners) {
   std::vector<std::uint32_t> kept;
   kept.reserve(corners.size());
   std::size_t droppable = corners.size() - 3;
-  for (const std::uint32_t corner : corners) {
-    const bool repeated = !kept.empty() && kept.back() == corner;
+  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    const bool repeated = !kept.empty() && corners[kept.back()] == corners[i];
     if (repeated && droppable > 0) {
       --droppable;
     } else {
-      kept.push_back(corner);
+      kept.push_back(i);
     }
   }
-  for (; droppable > 0 && kept.back() == kept.front(); --droppable) kept.pop_back();
+  while (droppable > 0 && corners[kept.back()] == corners[kept.front()]) {
+    kept.pop_back();
+    --droppable;
+  }
   return kept;
+}
+
+std::vector<Vec3d> places_of(const std::vector<Vec3d>& points,
+                             std::span<const std::uint32_t> corners,
+                             std::span<const std::uint32_t> ring) {
+  std::vector<Vec3d> places;
+  places.reserve(ring.size());
+  for (const std::uint32_t i : ring) places.push_back(points[corners[i]]);
+  return places;
 }
 
 void append_fan(std::span<const std::uint32_t> corners, Triangles& triangles) {
@@ -42,28 +55,25 @@ void append_fan(std::span<const std::uint32_t> corners, Triangles& triangles) {
 }
 
 // Twice the vector area (Newell), about the first corner.
-Vec3d area_vector(const std::vector<Vec3d>& points, std::span<const std::uint32_t> corners) {
-  const Vec3d& origin = points[corners[0]];
+Vec3d area_vector(std::span<const Vec3d> polygon) {
   Vec3d sum = Vec3d::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    sum += (points[corners[i - 1]] - origin).cross(points[corners[i]] - origin);
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
   }
   return sum;
 }
 
 // The corners without the coordinate in which the area vector is largest, mirrored where needed so
 // that the polygon turns to the left.
-std::vector<Flat> flatten(const std::vector<Vec3d>& points, std::span<const std::uint32_t> corners,
-                          const Vec3d& area) {
+std::vector<Flat> flatten(std::span<const Vec3d> polygon, const Vec3d& area) {
   Eigen::Index drop = 0;
   area.cwiseAbs().maxCoeff(&drop);
   Eigen::Index u = (drop + 1) % 3;
   Eigen::Index v = (drop + 2) % 3;
   if (area[drop] < 0) std::swap(u, v);
   std::vector<Flat> flat;
-  flat.reserve(corners.size());
-  for (const std::uint32_t corner : corners)
-    flat.emplace_back(points[corner][u], points[corner][v]);
+  flat.reserve(polygon.size());
+  for (const Vec3d& corner : polygon) flat.emplace_back(corner[u], corner[v]);
   return flat;
 }
 
@@ -100,9 +110,10 @@ void triangulate_polygon(const std::vector<Vec3d>& points, std::span<const std::
                          Triangles& triangles) {
   const std::vector<std::uint32_t> ring = without_repetitions(corners);
   if (ring.size() == 3) return append_fan(ring, triangles);
-  const Vec3d area = area_vector(points, ring);
+  const std::vector<Vec3d> polygon = places_of(points, corners, ring);
+  const Vec3d area = area_vector(polygon);
   if (!area.allFinite() || area.isZero(0)) return append_fan(ring, triangles);
-  const std::vector<Flat> flat = flatten(points, ring, area);
+  const std::vector<Flat> flat = flatten(polygon, area);
   if (ring.size() <= kFewCorners && is_star_shaped_from_first(flat)) {
     return append_fan(ring, triangles);
   }

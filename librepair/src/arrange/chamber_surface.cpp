@@ -118,8 +118,10 @@ class ChamberSurface {
 std::optional<Surface> boundary_of_chambers(const CleanSoup& soup, const Arrangement& arrangement,
                                             const std::vector<char>& solid,
                                             const RepairOptions& options, RepairReport& report) {
+  ExtractOptions extract = options.extract;
+  extract.progress = options.progress;
   std::optional<Arrangement::Boundary> boundary =
-      arrangement.boundary(solid, options.extract.touching, report.arrange, options.progress);
+      arrangement.boundary(solid, extract, report.arrange);
   if (!boundary || boundary->surface.mesh.triangles.empty()) return std::nullopt;
   if (has_slits(soup, boundary->surface, options)) return std::nullopt;
   report.parts = find_part_fates(soup, boundary->places);

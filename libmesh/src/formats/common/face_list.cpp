@@ -5,6 +5,7 @@
 #include <string>
 
 #include <base/error.h>
+#include <mesh/edge_table.h>
 #include <mesh/mesh_source.h>
 
 #include "polygons/triangulate_polygon.h"
@@ -47,16 +48,19 @@ void FaceList::drop_face() {
     --size_;
     triangles_ -= triangles_of(stream_[last_]);
   }
+  corners_ -= stream_.size() - last_ - 1;
   stream_.resize(last_);
 }
 
-void FaceList::append_to(ReadResult& result, ProgressObserver* progress) {
+void FaceList::append_to(ReadResult& result, ProgressObserver* progress,
+                         std::vector<Origin>* origins) {
   CancelCheck cancel(progress);
   TriangleSoup& soup = result.soup;
   Dropped out_of_range;
   Dropped too_small;
   soup.triangles.reserve(soup.triangles.size() + size_);
   std::size_t at = 0;
+  std::vector<IndexTriangle> pieces;  // positions in the face
   for (std::size_t face = 0; face < size_; ++face) {
     const std::span<const std::uint32_t> corners(stream_.data() + at + 1, stream_[at]);
     at += 1 + corners.size();
@@ -66,11 +70,20 @@ void FaceList::append_to(ReadResult& result, ProgressObserver* progress) {
       out_of_range.add(face);
     } else if (corners.size() < 3) {
       too_small.add(face);
-    } else if (corners.size() == 3) {
-      soup.triangles.push_back({corners[0], corners[1], corners[2]});
     } else {
-      ++result.report.polygons;
-      triangulate_polygon(soup.points, corners, soup.triangles);
+      pieces.assign(1, {0, 1, 2});
+      if (corners.size() > 3) {
+        ++result.report.polygons;
+        pieces.clear();
+        triangulate_polygon(soup.points, corners, pieces);
+      }
+      const std::uint64_t first_corner = at - corners.size() - 1 - face;
+      for (const auto& [a, b, c] : pieces) {
+        soup.triangles.push_back({corners[a], corners[b], corners[c]});
+        if (origins == nullptr) continue;
+        origins->push_back({static_cast<std::uint32_t>(face),
+                            {first_corner + a, first_corner + b, first_corner + c}});
+      }
     }
   }
   out_of_range.report(result.report, "they name points that do not exist");

@@ -2,6 +2,7 @@
 // because the points may come later in the file.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,10 +28,20 @@ class FaceList {
   // That the faces will become, if none is a bad one.
   [[nodiscard]] std::size_t triangles() const { return triangles_; }
 
+  // Of all faces that are there, in their order.
+  [[nodiscard]] std::size_t corners() const { return corners_; }
+
+  // What a triangle was made of.
+  struct Origin {
+    std::uint32_t face;
+    std::array<std::uint64_t, 3> corners;  // among those of all faces
+  };
+
   // Moves the faces into the soup, triangulated. Those with an index out of range or with fewer
   // than three corners are left out, counted and mentioned in the report. `progress` is asked
-  // whether to go on.
-  void append_to(ReadResult& result, ProgressObserver* progress);
+  // whether to go on. `origins`, if not null, gets one for each triangle.
+  void append_to(ReadResult& result, ProgressObserver* progress,
+                 std::vector<Origin>* origins = nullptr);
 
  private:
   static constexpr std::uint32_t kBadIndex = std::numeric_limits<std::uint32_t>::max();
@@ -39,6 +50,7 @@ class FaceList {
   std::size_t last_ = 0;               // where the last face begins in the stream
   std::size_t size_ = 0;               // faces ended
   std::size_t triangles_ = 0;          // of them
+  std::size_t corners_ = 0;            // of them, and of the one that is not ended
   bool open_ = false;                  // the last face is not ended
 };
 
@@ -51,6 +63,7 @@ inline void FaceList::begin_face() {
 inline void FaceList::add_corner(std::int64_t index) {
   const bool fits = index >= 0 && index < kBadIndex;
   stream_.push_back(fits ? static_cast<std::uint32_t>(index) : kBadIndex);
+  ++corners_;
 }
 
 }  // namespace meshrepair

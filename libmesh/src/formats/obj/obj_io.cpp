@@ -8,6 +8,7 @@
 #include "formats/common/face_list.h"
 #include "formats/common/text_scanner.h"
 #include "formats/common/text_writer.h"
+#include "obj_attributes.h"
 
 namespace meshrepair {
 namespace {
@@ -30,35 +31,50 @@ class ObjReader {
         read_point();
       } else if (word == "f" || word == "fo") {  // fo: face outline of old versions
         read_face();
+      } else if (wants_attributes()) {
+        attributes_.read_line(word, text_);
       }
       text_.skip_line();
     }
     guard_.step(faces_.triangles(), source_.bytes.size());
     warn_of_bad(result_.report, source_, first_bad_, "face", "corners that are not numbers");
-    faces_.append_to(result_, source_.options.progress);
+    if (wants_attributes()) {
+      std::vector<FaceList::Origin> origins;
+      faces_.append_to(result_, source_.options.progress, &origins);
+      result_.attributes = attributes_.take(origins, result_.soup.triangles);
+    } else {
+      faces_.append_to(result_, source_.options.progress);
+    }
     return std::move(result_);
   }
 
  private:
+  [[nodiscard]] bool wants_attributes() const { return source_.options.attributes; }
+
   void read_point() {
     Vec3d point = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
     bool good = true;
     for (int i = 0; i < 3; ++i) good = text_.next_on_line() && text_.read_real(point[i]) && good;
     if (!good && result_.report.bad_points++ == 0) first_bad_.point = line_at_;
     result_.soup.points.push_back(point);
+    if (wants_attributes()) attributes_.read_colour(text_, result_.soup.points.size());
   }
 
   void read_face() {
     faces_.begin_face();
     while (text_.next_on_line()) {
       std::int64_t number = 0;
+      if (wants_attributes()) attributes_.add_corner(text_.peek_token());
       if (!text_.read_integer(number, '/')) {
         if (result_.report.bad_faces++ == 0) first_bad_.face = line_at_;
-        return faces_.drop_face();
+        faces_.drop_face();
+        if (wants_attributes()) attributes_.keep_corners(faces_.corners());
+        return;
       }
       faces_.add_corner(index_of(number));
     }
     faces_.end_face();
+    if (wants_attributes()) attributes_.end_face();
   }
 
   [[nodiscard]] std::int64_t index_of(std::int64_t number) const {
@@ -71,6 +87,7 @@ class ObjReader {
   TextScanner text_;
   ReadResult result_;
   FaceList faces_;
+  ObjAttributes attributes_;
   ReadGuard guard_;
   std::size_t line_at_ = 0;
   FirstBad first_bad_;
@@ -80,9 +97,14 @@ class ObjReader {
 
 ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); }
 
-std::string format_obj(const TriangleSoup& soup, const std::vector<std::string>& comments) {
+std::string format_obj(const TriangleSoup& soup, const std::vector<std::string>& comments,
+                       const Attributes* attributes) {
   std::string out;
   for (const std::string& comment : comments) out += "# " + comment + "\n";
+  if (attributes != nullptr && !attributes->empty()) {
+    append_obj(out, soup, *attributes);
+    return out;
+  }
   append_lines(out, soup.points.size(), [&](std::string& lines, std::size_t p) {
     lines += "v ";
     append_triple(lines, soup.points[p]);

@@ -17,8 +17,10 @@ namespace meshrepair {
 // them. Lines may be continued by a backslash. No file named inside (mtllib, call) is opened.
 [[nodiscard]] ReadResult read_obj(const MeshSource& source);
 
+// `attributes` may be null.
 [[nodiscard]] std::string format_obj(const TriangleSoup& soup,
-                                     const std::vector<std::string>& comments);
+                                     const std::vector<std::string>& comments,
+                                     const Attributes* attributes);
 
 // The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to
 // 1; `vn` a normal. Normals belong to the points in order, and are none of theirs where there are

@@ -86,7 +86,12 @@ class AsciiStlReader {
   void close_face() {
     if (corners_.size() < 3) return drop_face();
     if (corners_.size() > 3) ++result_.report.polygons;
-    triangulate_polygon(result_.soup.points, corners_, result_.soup.triangles);
+    auto& triangles = result_.soup.triangles;
+    const std::size_t before = triangles.size();
+    triangulate_polygon(result_.soup.points, corners_, triangles);
+    for (std::size_t t = before; t < triangles.size(); ++t) {
+      for (std::uint32_t& corner : triangles[t]) corner = corners_[corner];
+    }
     corners_.clear();
   }
 

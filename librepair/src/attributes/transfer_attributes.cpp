@@ -1,0 +1,224 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <base/first_equal.h>
+#include <base/ids.h>
+#include <base/parallel.h>
+#include <mesh/edge_table.h>
+#include <repair/transfer_attributes.h>
+
+namespace meshrepair {
+namespace {
+
+using Places = std::array<Vec3d, 3>;
+
+Places places_of(const TriangleSoup& soup, std::size_t t) {
+  const IndexTriangle& c = soup.triangles[t];
+  return {soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]};
+}
+
+// How a point is made of the corners of a triangle, in whose plane it lies: seen along the axis
+// along which the triangle is largest, as that needs no lengths. Nothing where it has no area.
+std::optional<std::array<double, 3>> shares_of(const Vec3d& p, const Places& triangle) {
+  const auto& [a, b, c] = triangle;
+  const Vec3d normal = (b - a).cross(c - a);
+  Eigen::Index axis = 0;
+  const double largest = normal.cwiseAbs().maxCoeff(&axis);
+  if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
+  const Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const auto area = [&](const Vec3d& q, const Vec3d& r) {
+    return (q[u] - p[u]) * (r[v] - p[v]) - (q[v] - p[v]) * (r[u] - p[u]);
+  };
+  const double of_a = area(b, c) / normal[axis], of_b = area(c, a) / normal[axis];
+  return std::array{of_a, of_b, 1 - of_a - of_b};
+}
+
+// Values of one kind, of all corners of the result.
+class ValueTransfer {
+ public:
+  ValueTransfer(const TriangleSoup& input, const CornerAttribute& given, const Surface& surface)
+      : input_(input), given_(given), surface_(surface) {}
+
+  CornerAttribute run() {
+    const std::size_t corners = 3 * surface_.mesh.triangles.size();
+    CornerAttribute result{given_.kind, given_.components, given_.values, {}};
+    result.of_corner.resize(corners);
+    std::vector<double> made = make(result.of_corner);
+    number(made, result);
+    return drop_unused(std::move(result));
+  }
+
+ private:
+  // Of a corner whose value is still to be numbered.
+  static constexpr std::uint32_t kMade = kNone - 1;
+
+  // What is no value of the input, in the order of the corners that have kMade then.
+  std::vector<double> make(std::vector<std::uint32_t>& of_corner) const {
+    constexpr std::size_t kTrianglesPerTask = 4096;
+    const auto make_some = [&](std::size_t first, std::size_t last) {
+      std::vector<double> made;
+      for (std::size_t t = first; t < last; ++t) {
+        make_corners(t, std::span(of_corner).subspan(3 * t, 3), made);
+      }
+      return made;
+    };
+    return parallel_reduce(surface_.mesh.triangles.size(), kTrianglesPerTask, make_some,
+                           [](std::vector<double>& all, const std::vector<double>& some) {
+                             all.insert(all.end(), some.begin(), some.end());
+                           });
+  }
+
+  void make_corners(std::size_t t, std::span<std::uint32_t> of_corner,
+                    std::vector<double>& made) const {
+    const std::uint32_t source = surface_.source[t];
+    std::fill(of_corner.begin(), of_corner.end(), kNone);
+    if (source == Surface::kNoSource) return;
+    const Places from = places_of(input_, source), to = places_of(surface_.mesh, t);
+    const std::uint32_t* const given = given_.of_corner.data() + 3 * std::size_t{source};
+    const bool turned = is_turned(from, to);
+    const bool stays = given_.kind != CornerAttribute::Kind::normal || !turned;
+    const bool is_full = std::none_of(given, given + 3, [](std::uint32_t v) { return v == kNone; });
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto same =
+          static_cast<std::size_t>(std::find(from.begin(), from.end(), to[k]) - from.begin());
+      if (same < 3 && stays) {
+        of_corner[k] = given[same];
+        continue;
+      }
+      const auto shares = is_full ? shares_of(to[k], from) : std::nullopt;
+      if (!shares) continue;
+      of_corner[k] = kMade;
+      append_mixed(given, *shares, turned, made);
+    }
+  }
+
+  [[nodiscard]] static bool is_turned(const Places& from, const Places& to) {
+    const Vec3d before = (from[1] - from[0]).cross(from[2] - from[0]);
+    const Vec3d after = (to[1] - to[0]).cross(to[2] - to[0]);
+    return before.dot(after) < 0;
+  }
+
+  void append_mixed(const std::uint32_t* given, const std::array<double, 3>& shares, bool turned,
+                    std::vector<double>& made) const {
+    const std::size_t first = made.size();
+    for (std::size_t i = 0; i < given_.components; ++i) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        sum += shares[k] * given_.values[given_.components * given[k] + i];
+      }
+      made.push_back(sum);
+    }
+    if (given_.kind != CornerAttribute::Kind::normal) return;
+    double squares = 0;
+    for (std::size_t i = first; i < made.size(); ++i) squares += made[i] * made[i];
+    if (!(squares > 0)) return;
+    const double scale = (turned ? -1 : 1) / std::sqrt(squares);
+    for (std::size_t i = first; i < made.size(); ++i) made[i] *= scale;
+  }
+
+  // Appends what was made to the values, each once.
+  void number(const std::vector<double>& made, CornerAttribute& result) const {
+    const std::size_t n = given_.components;
+    const std::size_t count = made.size() / n;
+    const auto hash_of = [&](std::size_t i) {
+      std::uint64_t hash = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        hash = internal::hash_mix(hash, std::bit_cast<std::uint64_t>(made[n * i + k]));
+      }
+      return hash;
+    };
+    const auto same = [&](std::size_t i, std::size_t j) {
+      return std::equal(made.begin() + static_cast<std::ptrdiff_t>(n * i),
+                        made.begin() + static_cast<std::ptrdiff_t>(n * (i + 1)),
+                        made.begin() + static_cast<std::ptrdiff_t>(n * j));
+    };
+    const std::vector<std::uint32_t> first = first_equal(count, hash_of, same);
+    std::vector<std::uint32_t> number_of(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      number_of[i] = number_of[first[i]];
+      if (first[i] != i) continue;
+      number_of[i] = static_cast<std::uint32_t>(result.count());
+      result.values.insert(result.values.end(), made.begin() + static_cast<std::ptrdiff_t>(n * i),
+                           made.begin() + static_cast<std::ptrdiff_t>(n * (i + 1)));
+    }
+    std::size_t next = 0;
+    for (std::uint32_t& value : result.of_corner) {
+      if (value == kMade) value = number_of[next++];
+    }
+  }
+
+  // Those in use keep their order.
+  static CornerAttribute drop_unused(CornerAttribute all) {
+    std::vector<std::uint32_t> number(all.count(), kNone);
+    for (const std::uint32_t value : all.of_corner) {
+      if (value != kNone) number[value] = 0;
+    }
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < number.size(); ++i) {
+      if (number[i] == kNone) continue;
+      number[i] = count++;
+      std::copy_n(all.values.begin() + static_cast<std::ptrdiff_t>(all.components * i),
+                  all.components,
+                  all.values.begin() + static_cast<std::ptrdiff_t>(all.components * number[i]));
+    }
+    all.values.resize(all.components * count);
+    for (std::uint32_t& value : all.of_corner) {
+      if (value != kNone) value = number[value];
+    }
+    return all;
+  }
+
+  const TriangleSoup& input_;
+  const CornerAttribute& given_;
+  const Surface& surface_;
+};
+
+TriangleLabels transfer_labels(const TriangleLabels& given, const Surface& surface) {
+  if (given.empty()) return {};
+  TriangleLabels labels{given.names, {}};
+  labels.of_triangle.reserve(surface.source.size());
+  for (const std::uint32_t source : surface.source) {
+    labels.of_triangle.push_back(source == Surface::kNoSource ? kNone : given.of_triangle[source]);
+  }
+  return labels;
+}
+
+void name_patches(const Surface& surface, TriangleLabels& materials) {
+  if (materials.empty()) return;
+  const auto patch = static_cast<std::uint32_t>(materials.names.size());
+  bool any = false;
+  for (std::size_t t = 0; t < surface.source.size(); ++t) {
+    if (surface.source[t] != Surface::kNoSource) continue;
+    materials.of_triangle[t] = patch;
+    any = true;
+  }
+  if (any) materials.names.emplace_back(kPatchMaterial);
+}
+
+}  // namespace
+
+Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attributes,
+                               const Surface& surface) {
+  Attributes result;
+  for (const CornerAttribute& given : attributes.corners) {
+    result.corners.push_back(ValueTransfer(input, given, surface).run());
+  }
+  result.materials = transfer_labels(attributes.materials, surface);
+  name_patches(surface, result.materials);
+  result.groups = transfer_labels(attributes.groups, surface);
+  result.objects = transfer_labels(attributes.objects, surface);
+  result.smoothing = transfer_labels(attributes.smoothing, surface);
+  result.libraries = attributes.libraries;
+  return result;
+}
+
+}  // namespace meshrepair
