@@ -45,7 +45,10 @@ class CallOrder {
   CallOrder() { tell_before(this); }
   CallOrder(const CallOrder&) = delete;
   CallOrder& operator=(const CallOrder&) = delete;
-  ~CallOrder() { tell_after(this); }
+  ~CallOrder() { end(); }
+
+  // The bodies are done, and what one of them threw may be looked at.
+  void end() { tell_after(this); }
 };
 
 // oneTBB has no type for it.
@@ -53,14 +56,16 @@ bool is_lack_of_threads(const std::runtime_error& error) {
   return std::string_view(error.what()).find("pthread_create") != std::string_view::npos;
 }
 
-// Calls work(context). The context is the call's own: one that is bound to that of a body around it
-// would be stopped half done by an exception of another body, and return as if all were done.
+// Calls work(context), which is the call of this order. The context is the call's own: one that is
+// bound to that of a body around it would be stopped half done by an exception of another body, and
+// return as if all were done.
 template <class Work>
-void run(const Work& work) {
+void run(CallOrder& order, const Work& work) {
   tbb::task_group_context context(tbb::task_group_context::isolated);
   try {
     work(context);
   } catch (const std::runtime_error& error) {
+    order.end();
     if (is_lack_of_threads(error)) throw OutOfThreads();
     throw;
   }
@@ -79,7 +84,8 @@ void run_ranges(std::size_t count, const std::function<void(std::size_t, std::si
     const CallOrder::Body inside(order);
     range(part.begin(), part.end());
   };
-  run([&](tbb::task_group_context& context) { tbb::parallel_for(Range(0, count), body, context); });
+  run(order,
+      [&](tbb::task_group_context& context) { tbb::parallel_for(Range(0, count), body, context); });
 }
 
 void run_both(const std::function<void()>& one, const std::function<void()>& other) {
@@ -95,7 +101,7 @@ void run_both(const std::function<void()>& one, const std::function<void()>& oth
       work();
     };
   };
-  run([&](tbb::task_group_context& context) {
+  run(order, [&](tbb::task_group_context& context) {
     tbb::parallel_invoke(body_of(one), body_of(other), context);
   });
 }

@@ -40,6 +40,7 @@ NOT_RUN = {
     "scripts/setup.sh": "installs packages",
     "scripts/fuzz.sh": "builds with clang, and runs for minutes",
     "bench/compare.py": "takes minutes",
+    "build/release/bin/work_and_span": "is not built with sanitizers",
     "cmake": "builds and installs",
     "ctest": "runs this test",
 }

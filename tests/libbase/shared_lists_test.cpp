@@ -26,7 +26,8 @@ std::vector<std::uint32_t> random_values(std::size_t count, std::uint32_t below,
   Random random(seed);
   std::vector<std::uint32_t> values;
   for (std::size_t i = 0; i < count; ++i) {
-    values.push_back(static_cast<std::uint32_t>(random.integer(0, below - 1)));
+    values.push_back(
+        static_cast<std::uint32_t>(random.integer(0, static_cast<std::int32_t>(below) - 1)));
   }
   return values;
 }

@@ -34,11 +34,11 @@ std::vector<std::uint32_t> first_equal(std::size_t count, const HashOf& hash_of,
     const auto entries = buckets[bucket];
     internal::HashIndex index(entries.size());
     for (std::uint32_t e = 0; e < entries.size(); ++e) {
-      const auto [item, hash] = entries[e];
-      const std::uint32_t found = index.find_or_insert(hash, e, [&](std::uint32_t other) {
-        return entries[other].hash == hash && same(entries[other].item, item);
+      const Entry& entry = entries[e];
+      const std::uint32_t found = index.find_or_insert(entry.hash, e, [&](std::uint32_t other) {
+        return entries[other].hash == entry.hash && same(entries[other].item, entry.item);
       });
-      first[item] = entries[found].item;
+      first[entry.item] = entries[found].item;
     }
   });
   return first;

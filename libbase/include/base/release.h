@@ -3,7 +3,8 @@
 
 namespace meshrepair {
 
-// The container is empty afterwards, and without room. Assigning {} to a std::vector keeps its room.
+// The container is empty afterwards, and without room. Assigning {} to a std::vector keeps its
+// room.
 template <class Container>
 void release(Container& container) {
   Container().swap(container);

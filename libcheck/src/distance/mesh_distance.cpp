@@ -32,7 +32,7 @@ using internal::Nearest;
 using internal::NearestTriangle;
 
 constexpr std::size_t kPointsPerTask = 2048;
-constexpr std::size_t kTrianglesPerTask = 8192;
+constexpr std::size_t kMeasuredPerTask = 8192;
 
 // A number in [0, 1) for each seed and position: the mixing function splitmix64 of both.
 double random_share(std::uint64_t seed, std::uint64_t position) {
@@ -85,7 +85,7 @@ void measure_triangles(FiniteMesh& mesh) {
     }
     return box;
   };
-  mesh.box = parallel_reduce(count, kTrianglesPerTask, measure,
+  mesh.box = parallel_reduce(count, kMeasuredPerTask, measure,
                              [](Box& all, const Box& some) { all.add(some); });
   std::partial_sum(mesh.area_up_to.begin(), mesh.area_up_to.end(), mesh.area_up_to.begin());
 }

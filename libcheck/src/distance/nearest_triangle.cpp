@@ -9,7 +9,7 @@
 namespace meshrepair::internal {
 namespace {
 
-constexpr std::size_t kTrianglesPerTask = 8192;
+constexpr std::size_t kBoxedPerTask = 8192;
 
 double squared_distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
@@ -30,7 +30,7 @@ double squared_distance_to_box(const Vec3d& p, const Box& box) {
 
 RawVector<Box> boxes_of(std::span<const Corners> triangles) {
   RawVector<Box> boxes(triangles.size());
-  parallel_tasks(boxes.size(), kTrianglesPerTask,
+  parallel_tasks(boxes.size(), kBoxedPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t t = first; t < last; ++t) {
                      boxes[t] = Box();
@@ -63,7 +63,7 @@ double squared_distance(const Vec3d& p, const Corners& triangle) {
 
 NearestTriangle::NearestTriangle(std::span<const Corners> triangles)
     : tree_(boxes_of(triangles)), triangles_(triangles.size()) {
-  parallel_tasks(triangles.size(), kTrianglesPerTask,
+  parallel_tasks(triangles.size(), kBoxedPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t t = first; t < last; ++t) {
                      triangles_[t] = triangles[tree_.order()[t]];

@@ -26,7 +26,7 @@ SelfIntersections compare_nearby(const TriangleSoup& mesh, const std::vector<std
   return result;
 }
 
-constexpr std::size_t kTrianglesPerTask = 16384;
+constexpr std::size_t kPlacesPerTask = 16384;
 // Of lowest corners, for sorting.
 constexpr std::size_t kMostBuckets = 512, kFewestCorners = 1024;
 
@@ -34,7 +34,7 @@ constexpr std::size_t kMostBuckets = 512, kFewestCorners = 1024;
 std::vector<IndexTriangle> places_of(const SoupCorners& corners) {
   const auto& soup = corners.soup();
   std::vector<IndexTriangle> triangles(soup.triangles.size());
-  parallel_tasks(triangles.size(), kTrianglesPerTask,
+  parallel_tasks(triangles.size(), kPlacesPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t t = first; t < last; ++t) {
                      for (std::size_t k = 0; k < 3; ++k) {
@@ -88,7 +88,7 @@ SelfIntersections KnownIntersections::compare(const SoupCorners& corners) const 
 std::vector<std::uint32_t> KnownIntersections::find_fresh(
     const std::vector<IndexTriangle>& triangles) const {
   std::vector<std::size_t> known(triangles.size());
-  parallel_tasks(triangles.size(), kTrianglesPerTask,
+  parallel_tasks(triangles.size(), kPlacesPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t t = first; t < last; ++t) known[t] = find_known(triangles[t]);
                  });

@@ -13,7 +13,7 @@ namespace {
 
 // Enough that all threads end at about the same time.
 constexpr std::size_t kTasks = 1024;
-constexpr std::size_t kTrianglesPerTask = 4096;
+constexpr std::size_t kSortedPerTask = 4096;
 // A few hundred microseconds of work.
 constexpr std::size_t kStepsPerQuestion = 4096;
 
@@ -136,7 +136,7 @@ SortedTriangles::SortedTriangles(TriangleList&& list, const BoxTree& box_tree) :
 
 void SortedTriangles::sort_boxes(const TriangleList& list) {
   boxes.resize(list.size());
-  parallel_tasks(list.size(), kTrianglesPerTask,
+  parallel_tasks(list.size(), kSortedPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t i = first; i < last; ++i) {
                      boxes[i] = list.boxes()[tree.order()[i]];
@@ -147,7 +147,7 @@ void SortedTriangles::sort_boxes(const TriangleList& list) {
 void SortedTriangles::sort_triangles(const TriangleList& list) {
   triangles.resize(list.size());
   ids.resize(list.size());
-  parallel_tasks(list.size(), kTrianglesPerTask,
+  parallel_tasks(list.size(), kSortedPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t i = first; i < last; ++i) {
                      triangles[i] = list.triangle(tree.order()[i]);

@@ -9,7 +9,7 @@ namespace meshrepair::internal {
 namespace {
 
 // A millisecond of work.
-constexpr std::size_t kTrianglesPerTask = 8192;
+constexpr std::size_t kFetchesPerTask = 8192;
 
 }  // namespace
 
@@ -63,8 +63,8 @@ void TriangleList::add(std::size_t count, const IdOf& id_of) {
     std::size_t usable = 0, degenerate = 0, not_finite = 0;
   };
   RawVector<Fetched> state(count);
-  std::vector<Found> before(tasks_of(count, kTrianglesPerTask));  // first of each task alone
-  parallel_tasks(count, kTrianglesPerTask,
+  std::vector<Found> before(tasks_of(count, kFetchesPerTask));  // first of each task alone
+  parallel_tasks(count, kFetchesPerTask,
                  [&](std::size_t task, std::size_t first, std::size_t last) {
                    CornerTriangle triangle;
                    Found& found = before[task];
@@ -83,7 +83,7 @@ void TriangleList::add(std::size_t count, const IdOf& id_of) {
   }
   boxes_.resize(usable);
   ids_.resize(usable);
-  parallel_tasks(count, kTrianglesPerTask,
+  parallel_tasks(count, kFetchesPerTask,
                  [&](std::size_t task, std::size_t first, std::size_t last) {
                    std::size_t place = before[task].usable;
                    for (std::size_t i = first; i < last; ++i) {

@@ -22,7 +22,7 @@ namespace {
 // For each triangle; of more, nearly all triangles meet nearly all others.
 constexpr std::size_t kPairsEach = 64;
 
-constexpr std::size_t kFacetsPerTask = 4096;
+constexpr std::size_t kMeasuresPerTask = 4096;
 
 // All that meet in more than corners and edges that they share, unless these are too many.
 std::optional<std::vector<internal::CutSet::Pair>> find_pairs(const CleanSoup& soup,
@@ -67,7 +67,7 @@ struct Arrangement::Parts {
   template <class Measure>
   [[nodiscard]] std::vector<double> measures(const Measure& measure) const {
     std::vector<double> all(sheets.size());
-    parallel_tasks(all.size(), kFacetsPerTask,
+    parallel_tasks(all.size(), kMeasuresPerTask,
                    [&](std::size_t, std::size_t first, std::size_t last) {
                      for (std::size_t f = first; f < last; ++f) {
                        const auto [a, b, c] = places(static_cast<std::uint32_t>(f));
