@@ -180,7 +180,7 @@ ExitCode write_mesh_result(const Surface& surface, const WriteOptions& format,
   if (surface.mesh.triangles.empty()) {
     write_nothing(format, run, findings);
   } else {
-    write_mesh_stage(surface, format, options.step, run, findings);
+    write_mesh_stage(surface, {}, format, options.step, run, findings);
   }
   if (!findings.withheld) print_result(options, findings.repair, what_was_written(surface), run);
   return verdict(run, findings);

@@ -10,7 +10,7 @@ void extract(const StepOptions& options, Run& run, Findings& findings) {
   const Tree tree = read_tree_stage(run, findings);
   const Surface surface =
       extract_mesh(tree, certified_for(*format.format, options.repair), findings.repair);
-  write_mesh_stage(surface, format, options, run, findings);
+  write_mesh_stage(surface, {}, format, options, run, findings);
 }
 
 }  // namespace

@@ -7,22 +7,19 @@
 namespace meshrepair {
 namespace {
 
-Attributes attributes_of(const AnySoup& input, const Surface& surface) {
-  if (input.attributes.empty()) return {};
-  return transfer_attributes(input.soup, input.attributes, surface);
-}
-
 void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
   const WriteOptions format = mesh_format(options);
-  const bool attributes = options.attributes && holds_attributes(*format.format);
-  const AnySoup input = read_any_stage(points, attributes, run, findings);
+  const bool wants_attributes = options.attributes && holds_attributes(*format.format);
+  const AnySoup input = read_any_stage(points, wants_attributes, run, findings);
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   repair_options.extract.merges_triangles = input.attributes.empty();
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
   const Surface surface = repair_any(input, points, repair_options, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
-  write_mesh_stage(surface, attributes_of(input, surface), format, options, run, findings);
+  const Attributes attributes =
+      transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
+  write_mesh_stage(surface, attributes, format, options, run, findings);
 }
 
 }  // namespace

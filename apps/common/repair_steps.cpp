@@ -103,7 +103,7 @@ void run_named(const std::string& name, const std::function<void()>& work) {
 // What counts is the file: in STL, welding and rounding may join what the surface keeps apart.
 void look_at_file(const Surface& surface, SoupFormat format, Findings& findings) {
   findings.output_points = surface.mesh.points.size();
-  if (!is_stl(format)) return;
+  if (!welds_points(format)) return;
   const TriangleSoup back = as_read_back(surface.mesh, format);
   findings.output_points = back.points.size();
   findings.repair.output = examine_topology(back.triangles, back.points.size());
@@ -115,8 +115,9 @@ std::string missing_guarantees(const Findings& findings, SoupFormat format) {
   if (!surface.closed()) missing += ", not closed";
   if (!surface.manifold()) missing += ", not manifold";
   if (!surface.oriented()) missing += ", not consistently oriented";
-  if (!missing.empty() && is_stl(format)) {
-    missing += " once STL has rounded and joined its corners (OBJ, OFF and PLY keep them)";
+  if (!missing.empty() && welds_points(format)) {
+    missing += " once " + std::string(format_name(format)) +
+               " has rounded and joined its corners (OBJ, OFF and PLY keep them)";
   }
   const CertifyReport& certified = findings.repair.certify;
   if (certified.pairs > 0) {
@@ -236,10 +237,10 @@ WriteOptions mesh_format(const StepOptions& options) {
   if (!format.format) {
     throw UsageError(output == "-" ? "standard output has no name that tells a format: use --format"
                                    : output +
-                                         ": no mesh format has this extension (.stl, .obj, "
-                                         ".off, .ply): use --format");
+                                         ": no mesh format has this extension (" +
+                                         std::string(known_extensions()) + "): use --format");
   }
-  if (options.sources && !is_ply(*format.format)) {
+  if (options.sources && !holds_sources(*format.format)) {
     throw UsageError("--sources: " + std::string(format_name(*format.format)) +
                      " cannot hold them, only PLY can");
   }
@@ -247,8 +248,8 @@ WriteOptions mesh_format(const StepOptions& options) {
 }
 
 RepairOptions certified_for(SoupFormat format, RepairOptions options) {
-  if (format == SoupFormat::stl_binary) options.certify.precision = Precision::float32;
-  options.certify.welded = is_stl(format);
+  if (is_single(format)) options.certify.precision = Precision::float32;
+  options.certify.welded = welds_points(format);
   return options;
 }
 
@@ -289,8 +290,16 @@ void measure_distance_stage(const TriangleSoup& input, const Surface& surface, P
   findings.fidelity = measure_fidelity(input, surface, {precision, &run.progress});
 }
 
-void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOptions& options,
-                      Run& run, Findings& findings) {
+Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes& attributes,
+                                     const Surface& surface, Run& run, Findings& findings) {
+  if (attributes.empty()) return {};
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("attributes");
+  return transfer_attributes(input, attributes, surface);
+}
+
+void write_mesh_stage(const Surface& surface, const Attributes& attributes, WriteOptions format,
+                      const StepOptions& options, Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
   look_at_file(surface, *format.format, findings);
@@ -298,6 +307,7 @@ void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOpt
   findings.withheld = options.strict && !findings.missing_guarantees.empty();
   if (findings.withheld) return;
   if (options.sources) format.sources = surface.source;
+  if (!attributes.empty()) format.attributes = &attributes;
   format.progress = &run.progress;
   write_soup(surface.mesh, findings.output, format);
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});

@@ -16,6 +16,7 @@
 #include <points/scan_base.h>
 #include <repair/fidelity.h>
 #include <repair/repair.h>
+#include <repair/transfer_attributes.h>
 
 #include "common/program.h"
 
@@ -119,11 +120,16 @@ void log_warnings(const std::string& name, const std::vector<std::string>& warni
 // it cannot fail once there is an output. The surface is as repair() leaves it, at this precision.
 void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
                             Run& run, Findings& findings);
+// Stage "attributes", where there are any: of the soup, brought onto what became of it.
+[[nodiscard]] Attributes transfer_attributes_stage(const TriangleSoup& input,
+                                                   const Attributes& attributes,
+                                                   const Surface& surface, Run& run,
+                                                   Findings& findings);
 // Stage "write".
 // Finds which guarantees the file would not hold; if options.strict and there are any, writes
-// nothing. `format` is that of mesh_format(options).
-void write_mesh_stage(const Surface& surface, WriteOptions format, const StepOptions& options,
-                      Run& run, Findings& findings);
+// nothing. `format` is that of mesh_format(options), `attributes` those of the surface.
+void write_mesh_stage(const Surface& surface, const Attributes& attributes, WriteOptions format,
+                      const StepOptions& options, Run& run, Findings& findings);
 // Of triangles that need be no surface.
 void write_soup_stage(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings);
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings);

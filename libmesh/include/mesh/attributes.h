@@ -2,10 +2,14 @@
 // materials, groups.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include <base/ids.h>
 
 namespace meshrepair {
 
@@ -13,11 +17,23 @@ namespace meshrepair {
 // there two triangles have different numbers at one point.
 struct CornerAttribute {
   enum class Kind {
-    texture,  // coordinates in a texture, two or three
+    texture,  // coordinates in a texture, two or three; v grows upwards
     normal,   // of length 1
-    colour,   // red, green, blue
+    tangent,  // of length 1, and a fourth number that is the sign of the bitangent
+    colour,   // red, green, blue, and perhaps opacity, from 0 to 1
+    other,    // any numbers, which `name` tells apart
   };
+  // What files can have values for. Writers do the same where their format can, as long as it says
+  // all.
+  enum class Place { corner, point, triangle };
+  // As what the file held the values: others would not hold them bit for bit. A byte is a share of
+  // 255.
+  enum class Storage { real64, real32, byte };
+
   Kind kind = Kind::texture;
+  std::string name;  // of the set, where the file has one
+  Place place = Place::corner;
+  Storage storage = Storage::real64;
   std::size_t components = 2;
   std::vector<double> values;            // one after the other, `components` each
   std::vector<std::uint32_t> of_corner;  // of corner k of triangle t at 3 t + k; kNone: it has none
@@ -33,19 +49,48 @@ struct TriangleLabels {
   [[nodiscard]] bool empty() const { return of_triangle.empty(); }
 };
 
+// A picture. It is never looked into.
+struct Image {
+  std::string name;                          // of the file, without folders; may be empty
+  std::string media_type;                    // "image/png"; may be empty
+  std::string path;                          // of the file, if it is one, as this process finds it
+  std::shared_ptr<const std::string> bytes;  // if it is none
+};
+
+// What all formats that have materials can say of one.
+struct Material {
+  std::array<double, 4> colour = {1, 1, 1, 1};  // red, green, blue, opacity
+  std::uint32_t image = kNone;                  // of Attributes::images: times the colour
+};
+
+// What else a file held and another of its format can hold again. Its reader and writer alone know
+// what it is.
+struct Keepsake {
+  Keepsake() = default;
+  Keepsake(const Keepsake&) = delete;
+  Keepsake& operator=(const Keepsake&) = delete;
+  virtual ~Keepsake() = default;
+};
+
 // Of a soup, not owned: all lists have an entry for each of its triangles or corners, or are empty.
 struct Attributes {
-  std::vector<CornerAttribute> corners;  // at most one of each kind, in the order of the kinds
+  std::vector<CornerAttribute> corners;  // in the order of the kinds; of one kind as in the file
   TriangleLabels materials;
+  std::vector<Material> looks;  // of the materials, in their order; empty: not known
+  std::vector<Image> images;
   TriangleLabels groups;
   TriangleLabels objects;
   TriangleLabels smoothing;
-  std::vector<std::string> libraries;  // files that say what the materials are
+  std::shared_ptr<const Keepsake> keepsake;  // may be null
 
   [[nodiscard]] bool empty() const {
     return corners.empty() && materials.empty() && groups.empty() && objects.empty() &&
-           smoothing.empty() && libraries.empty();
+           smoothing.empty() && !keepsake;
   }
 };
+
+// The first of a kind, or null.
+[[nodiscard]] const CornerAttribute* find_kind(const Attributes& attributes,
+                                               CornerAttribute::Kind kind);
 
 }  // namespace meshrepair

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +15,9 @@ struct MeshSource {
   std::string_view bytes;
   std::string name;
   ReadOptions options = {};
+  // Of the file, where what it names may be looked for: see named_files.h. Nothing if it came
+  // from elsewhere.
+  std::optional<std::filesystem::path> folder = std::nullopt;
 
   // 1-based number of the line that holds the byte at `position`; LF, CRLF and CR end lines.
   // Linear.

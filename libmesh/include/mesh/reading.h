@@ -9,10 +9,9 @@
 #include <base/progress.h>
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
+#include <mesh/soup_format.h>
 
 namespace meshrepair {
-
-enum class SoupFormat { stl_binary, stl_ascii, obj, off, ply_binary, ply_ascii };
 
 // What a reader passed over. A count of 0 everywhere means that the file was read in full.
 struct ReadReport {

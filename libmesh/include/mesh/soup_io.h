@@ -27,9 +27,6 @@
 
 namespace meshrepair {
 
-// "binary STL", "OBJ", ...: for messages.
-[[nodiscard]] std::string_view format_name(SoupFormat format);
-
 // Reads a file; "-" is standard input. Throws InputError (one line that names the file and the
 // place) when it cannot be opened, is empty, or holds no format that is known, or no readable
 // triangle at all, unless that may be; LimitError.
@@ -41,7 +38,7 @@ namespace meshrepair {
                                    const ReadOptions& options = {});
 
 struct WriteOptions {
-  // Empty: told by the extension (.stl is binary, .ply is binary little endian).
+  // Empty: told by the extension.
   std::optional<SoupFormat> format;
   // Comment lines for formats that have them; no newlines inside.
   std::vector<std::string> comments;
@@ -52,13 +49,6 @@ struct WriteOptions {
   const Attributes* attributes = nullptr;
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
 };
-
-// The format that an extension stands for, if any. Case does not matter.
-[[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
-
-// Formats without indices, whose readers weld points with equal coordinates.
-[[nodiscard]] bool is_stl(SoupFormat format);
-[[nodiscard]] bool is_ply(SoupFormat format);
 
 // Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format
 // can be told, or there are sources and it is not PLY; OutputError when anything cannot be written

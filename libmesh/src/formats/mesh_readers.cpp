@@ -27,7 +27,7 @@ void require_triangles(const MeshSource& source, const ReadResult& result) {
   std::string what = "holds no triangles";
   if (report.bad_faces > 0) {
     what = "holds no readable faces";
-  } else if (!is_stl(report.format) && !result.soup.points.empty()) {
+  } else if (!welds_points(report.format) && !result.soup.points.empty()) {
     what = "holds " + counted(result.soup.points.size(), "point") + " but no faces";
   }
   if (!report.warnings.empty()) what += " (" + report.warnings.front() + ")";

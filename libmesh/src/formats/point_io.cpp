@@ -80,10 +80,30 @@ PointReadResult read_source(const MeshSource& source, const PointReadOptions& op
   return result;
 }
 
-MeshSource source_of(std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  MeshSource source = {without_byte_order_mark(bytes), name, options};
+MeshSource source_of(std::string_view bytes, const std::string& name, const ReadOptions& options,
+                     std::optional<std::filesystem::path> folder = std::nullopt) {
+  MeshSource source = {without_byte_order_mark(bytes), name, options, std::move(folder)};
   if (source.bytes.empty()) source.fail("is empty");
   return source;
+}
+
+MeshOrPoints read_any_of(const MeshSource& source) {
+  PointReadOptions point_options;
+  point_options.progress = source.options.progress;
+  MeshOrPoints result;
+  if (is_point_cloud(source)) {
+    result.points = read_source(source, point_options);
+    return result;
+  }
+  ReadResult mesh = read_mesh_as(recognize_mesh(source), source);
+  if (is_without_faces(mesh)) {
+    result.points = read_source(source, point_options);
+    return result;
+  }
+  mesh.report.bytes = source.bytes.size();
+  require_mesh(source, mesh);
+  result.mesh = std::move(mesh);
+  return result;
 }
 
 std::string name_of(const std::filesystem::path& path) {
@@ -113,28 +133,13 @@ PointReadResult read_points(std::string_view bytes, const std::string& name,
 
 MeshOrPoints read_mesh_or_points(const std::filesystem::path& path, const ReadOptions& options) {
   const FileBytes file(path, options.progress);
-  return read_mesh_or_points(file.bytes(), name_of(path), options);
+  if (path == "-") return read_any_of(source_of(file.bytes(), name_of(path), options));
+  return read_any_of(source_of(file.bytes(), path.string(), options, path.parent_path()));
 }
 
 MeshOrPoints read_mesh_or_points(std::string_view bytes, const std::string& name,
                                  const ReadOptions& options) {
-  const MeshSource source = source_of(bytes, name, options);
-  PointReadOptions point_options;
-  point_options.progress = options.progress;
-  MeshOrPoints result;
-  if (is_point_cloud(source)) {
-    result.points = read_source(source, point_options);
-    return result;
-  }
-  ReadResult mesh = read_mesh_as(recognize_mesh(source), source);
-  if (is_without_faces(mesh)) {
-    result.points = read_source(source, point_options);
-    return result;
-  }
-  mesh.report.bytes = bytes.size();
-  require_mesh(source, mesh);
-  result.mesh = std::move(mesh);
-  return result;
+  return read_any_of(source_of(bytes, name, options));
 }
 
 }  // namespace meshrepair

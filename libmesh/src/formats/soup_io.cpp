@@ -1,6 +1,6 @@
 // The facade: calls the reader or writer of a format.
 #include <algorithm>
-#include <array>
+#include <system_error>
 #include <utility>
 
 #include <base/atomic_file.h>
@@ -11,7 +11,7 @@
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 
-#include "formats/common/text_scanner.h"
+#include "formats/obj/material_library.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"
@@ -19,46 +19,10 @@
 #include "mesh_readers.h"
 
 namespace meshrepair {
+namespace {
 
-std::string_view format_name(SoupFormat format) {
-  switch (format) {
-    case SoupFormat::stl_binary:
-      return "binary STL";
-    case SoupFormat::stl_ascii:
-      return "ASCII STL";
-    case SoupFormat::obj:
-      return "OBJ";
-    case SoupFormat::off:
-      return "OFF";
-    case SoupFormat::ply_binary:
-      return "binary PLY";
-    case SoupFormat::ply_ascii:
-      break;
-  }
-  return "ASCII PLY";
-}
-
-std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
-  constexpr std::array<std::pair<std::string_view, SoupFormat>, 4> kExtensions = {{
-      {".stl", SoupFormat::stl_binary},
-      {".obj", SoupFormat::obj},
-      {".off", SoupFormat::off},
-      {".ply", SoupFormat::ply_binary},
-  }};
-  const std::string extension = path.extension().string();
-  for (const auto& [name, format] : kExtensions) {
-    if (equals_ignoring_case(extension, name)) return format;
-  }
-  return std::nullopt;
-}
-
-ReadResult read_soup(const std::filesystem::path& path, const ReadOptions& options) {
-  const FileBytes file(path, options.progress);
-  return read_soup(file.bytes(), path == "-" ? "standard input" : path.string(), options);
-}
-
-ReadResult read_soup(std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  const MeshSource source = {without_byte_order_mark(bytes), name, options};
+ReadResult read_from(std::string_view bytes, MeshSource source) {
+  source.bytes = without_byte_order_mark(bytes);
   if (source.bytes.empty()) source.fail("is empty");
   ReadResult result = read_mesh_as(recognize_mesh(source), source);
   result.report.bytes = bytes.size();
@@ -66,20 +30,52 @@ ReadResult read_soup(std::string_view bytes, const std::string& name, const Read
   return result;
 }
 
-bool is_stl(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
+// Files that are new go again if one cannot be written.
+void write_together(const std::vector<SideFile>& files, ProgressObserver* progress) {
+  std::vector<std::filesystem::path> fresh;
+  try {
+    for (const SideFile& file : files) {
+      const bool is_fresh = !std::filesystem::exists(file.path);
+      write_file_atomically(file.path, file.bytes, progress);
+      if (is_fresh) fresh.push_back(file.path);
+    }
+  } catch (...) {
+    std::error_code ignored;
+    for (const auto& path : fresh) std::filesystem::remove(path, ignored);
+    throw;
+  }
 }
 
-bool is_ply(SoupFormat format) {
-  return format == SoupFormat::ply_binary || format == SoupFormat::ply_ascii;
+// The mesh comes last, so that what it names is there.
+void write_obj(const TriangleSoup& soup, const std::filesystem::path& path,
+               const WriteOptions& options) {
+  std::vector<SideFile> files = material_files(path, *options.attributes);
+  const std::string library = files.empty() ? "" : files.back().path.filename().string();
+  files.push_back({path, format_obj(soup, options.comments, options.attributes, library)});
+  write_together(files, options.progress);
+}
+
+}  // namespace
+
+ReadResult read_soup(const std::filesystem::path& path, const ReadOptions& options) {
+  const FileBytes file(path, options.progress);
+  if (path == "-") return read_soup(file.bytes(), "standard input", options);
+  return read_from(file.bytes(), {{}, path.string(), options, path.parent_path()});
+}
+
+ReadResult read_soup(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  return read_from(bytes, {{}, name, options});
 }
 
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                 const WriteOptions& options) {
   const auto format = options.format ? options.format : format_of_extension(path);
   if (!format) {
-    throw UsageError(path.string() +
-                     ": no mesh format has this extension (.stl, .obj, .off, .ply)");
+    throw UsageError(path.string() + ": no mesh format has this extension (" +
+                     std::string(known_extensions()) + ")");
+  }
+  if (*format == SoupFormat::obj && options.attributes != nullptr && path != "-") {
+    return write_obj(soup, path, options);
   }
   write_file_atomically(
       path, format_soup(soup, *format, options.comments, options.sources, options.attributes),
@@ -89,7 +85,7 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
 std::string format_soup(const TriangleSoup& soup, SoupFormat format,
                         const std::vector<std::string>& comments,
                         std::span<const std::uint32_t> sources, const Attributes* attributes) {
-  if (!sources.empty() && !is_ply(format)) {
+  if (!sources.empty() && !holds_sources(format)) {
     throw UsageError(std::string(format_name(format)) + " cannot hold the sources of triangles");
   }
   switch (format) {
@@ -98,7 +94,7 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
     case SoupFormat::stl_ascii:
       return format_stl_ascii(soup);
     case SoupFormat::obj:
-      return format_obj(soup, comments, attributes);
+      return format_obj(soup, comments, attributes, "");
     case SoupFormat::off:
       return format_off(soup, comments);
     case SoupFormat::ply_binary:
@@ -110,13 +106,13 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {
-  if (!is_stl(format)) return soup;
+  if (!welds_points(format)) return soup;
   TriangleSoup welded;
   PointWelder welder(welded.points, soup.points.size());
   std::vector<std::uint32_t> index;
   index.reserve(soup.points.size());
   for (const Vec3d& p : soup.points) {
-    index.push_back(welder.index_of(format == SoupFormat::stl_binary ? rounded_to_float32(p) : p));
+    index.push_back(welder.index_of(is_single(format) ? rounded_to_float32(p) : p));
   }
   welded.triangles.reserve(soup.triangles.size());
   for (const auto& t : soup.triangles) {

@@ -50,8 +50,8 @@ class ValueTransfer {
 
   CornerAttribute run() {
     const std::size_t corners = 3 * surface_.mesh.triangles.size();
-    CornerAttribute result{given_.kind, given_.components, given_.values, {}};
-    result.of_corner.resize(corners);
+    CornerAttribute result = given_;
+    result.of_corner.assign(corners, kNone);
     std::vector<double> made = make(result.of_corner);
     number(made, result);
     return drop_unused(std::move(result));
@@ -192,7 +192,8 @@ TriangleLabels transfer_labels(const TriangleLabels& given, const Surface& surfa
   return labels;
 }
 
-void name_patches(const Surface& surface, TriangleLabels& materials) {
+void name_patches(const Surface& surface, Attributes& attributes) {
+  TriangleLabels& materials = attributes.materials;
   if (materials.empty()) return;
   const auto patch = static_cast<std::uint32_t>(materials.names.size());
   bool any = false;
@@ -201,7 +202,9 @@ void name_patches(const Surface& surface, TriangleLabels& materials) {
     materials.of_triangle[t] = patch;
     any = true;
   }
-  if (any) materials.names.emplace_back(kPatchMaterial);
+  if (!any) return;
+  materials.names.emplace_back(kPatchMaterial);
+  if (!attributes.looks.empty()) attributes.looks.emplace_back();
 }
 
 }  // namespace
@@ -213,11 +216,13 @@ Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attr
     result.corners.push_back(ValueTransfer(input, given, surface).run());
   }
   result.materials = transfer_labels(attributes.materials, surface);
-  name_patches(surface, result.materials);
+  result.looks = attributes.looks;
+  result.images = attributes.images;
+  name_patches(surface, result);
   result.groups = transfer_labels(attributes.groups, surface);
   result.objects = transfer_labels(attributes.objects, surface);
   result.smoothing = transfer_labels(attributes.smoothing, surface);
-  result.libraries = attributes.libraries;
+  result.keepsake = attributes.keepsake;
   return result;
 }
 

@@ -47,13 +47,6 @@ std::int64_t position_of(std::optional<std::int64_t> index, std::size_t count) {
   return *index > 0 ? *index - 1 : static_cast<std::int64_t>(count) + *index;
 }
 
-const CornerAttribute* find_kind(const Attributes& attributes, CornerAttribute::Kind kind) {
-  const auto found =
-      std::find_if(attributes.corners.begin(), attributes.corners.end(),
-                   [&](const CornerAttribute& attribute) { return attribute.kind == kind; });
-  return found == attributes.corners.end() ? nullptr : &*found;
-}
-
 void append_values(std::string& text, std::string_view word, const CornerAttribute* attribute) {
   if (attribute == nullptr) return;
   append_lines(text, attribute->count(), [&](std::string& lines, std::size_t i) {
@@ -135,7 +128,6 @@ void append_obj(std::string& text, const TriangleSoup& soup, const Attributes& a
   using Kind = CornerAttribute::Kind;
   const CornerAttribute* const texture = find_kind(attributes, Kind::texture);
   const CornerAttribute* const normal = find_kind(attributes, Kind::normal);
-  for (const std::string& library : attributes.libraries) text += "mtllib " + library + "\n";
   append_points(text, soup, find_kind(attributes, Kind::colour));
   append_values(text, "vt", texture);
   append_values(text, "vn", normal);
@@ -183,7 +175,10 @@ void ObjAttributes::Corners::add(TextScanner& text, std::size_t most) {
 
 CornerAttribute ObjAttributes::Corners::take(CornerAttribute::Kind kind,
                                              const std::vector<FaceList::Origin>& origins) {
-  CornerAttribute taken{kind, components, std::move(values), {}};
+  CornerAttribute taken;
+  taken.kind = kind;
+  taken.components = components;
+  taken.values = std::move(values);
   const auto count = static_cast<std::int64_t>(taken.count());
   taken.of_corner.reserve(3 * origins.size());
   for (const FaceList::Origin& origin : origins) {
@@ -260,7 +255,11 @@ Attributes ObjAttributes::take(const std::vector<FaceList::Origin>& origins,
     attributes.corners.push_back(normals_.take(Kind::normal, origins));
   }
   if (!colours_.empty()) {
-    CornerAttribute colours{Kind::colour, 3, std::move(colours_), {}};
+    CornerAttribute colours;
+    colours.kind = Kind::colour;
+    colours.place = CornerAttribute::Place::point;
+    colours.components = 3;
+    colours.values = std::move(colours_);
     for (const auto& triangle : triangles) {
       for (const std::uint32_t p : triangle) {
         const bool has_one = p < colours.count() && !std::isnan(colours.values[3 * p]);
@@ -273,7 +272,6 @@ Attributes ObjAttributes::take(const std::vector<FaceList::Origin>& origins,
   attributes.groups = groups_.take(origins);
   attributes.objects = objects_.take(origins);
   attributes.smoothing = smoothing_.take(origins);
-  attributes.libraries = std::move(libraries_);
   return attributes;
 }
 

@@ -29,6 +29,9 @@ class ObjAttributes {
   void keep_corners(std::size_t corners);
   void end_face();
 
+  // Of files that say what the materials are, as the lines name them.
+  [[nodiscard]] const std::vector<std::string>& libraries() const { return libraries_; }
+
   // For triangles with these origins, and corners at these points.
   [[nodiscard]] Attributes take(const std::vector<FaceList::Origin>& origins,
                                 const std::vector<std::array<std::uint32_t, 3>>& triangles);

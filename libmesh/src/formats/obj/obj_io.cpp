@@ -8,6 +8,7 @@
 #include "formats/common/face_list.h"
 #include "formats/common/text_scanner.h"
 #include "formats/common/text_writer.h"
+#include "material_library.h"
 #include "obj_attributes.h"
 
 namespace meshrepair {
@@ -42,6 +43,7 @@ class ObjReader {
       std::vector<FaceList::Origin> origins;
       faces_.append_to(result_, source_.options.progress, &origins);
       result_.attributes = attributes_.take(origins, result_.soup.triangles);
+      read_material_libraries(source_, attributes_.libraries(), result_.attributes, result_.report);
     } else {
       faces_.append_to(result_, source_.options.progress);
     }
@@ -98,10 +100,12 @@ class ObjReader {
 ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); }
 
 std::string format_obj(const TriangleSoup& soup, const std::vector<std::string>& comments,
-                       const Attributes* attributes) {
+                       const Attributes* attributes, const std::string& library) {
   std::string out;
   for (const std::string& comment : comments) out += "# " + comment + "\n";
   if (attributes != nullptr && !attributes->empty()) {
+    out += library.empty() ? std::string() : "mtllib " + library + "\n";
+    out += unread_libraries(*attributes);
     append_obj(out, soup, *attributes);
     return out;
   }

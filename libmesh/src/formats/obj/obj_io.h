@@ -14,13 +14,15 @@ namespace meshrepair {
 // are not numbers, or fewer than three, is kept as NaN and counted as bad, so that the numbers of
 // the others hold. `f` gives a face of any number of corners, `i`, `i/t`, `i/t/n` or `i//n`,
 // counted from 1, or from the last point if negative; points may come after the faces that use
-// them. Lines may be continued by a backslash. No file named inside (mtllib, call) is opened.
+// them. Lines may be continued by a backslash. Of the files named inside
+// only libraries of materials are opened, if attributes are asked for.
 [[nodiscard]] ReadResult read_obj(const MeshSource& source);
 
-// `attributes` may be null.
+// `attributes` may be null. `library` is the name of the file that has their materials; empty: there
+// is none.
 [[nodiscard]] std::string format_obj(const TriangleSoup& soup,
                                      const std::vector<std::string>& comments,
-                                     const Attributes* attributes);
+                                     const Attributes* attributes, const std::string& library);
 
 // The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to
 // 1; `vn` a normal. Normals belong to the points in order, and are none of theirs where there are

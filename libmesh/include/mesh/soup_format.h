@@ -1,0 +1,35 @@
+// The formats of triangle soups, and what each can hold.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace meshrepair {
+
+enum class SoupFormat { stl_binary, stl_ascii, obj, off, ply_binary, ply_ascii };
+
+// "binary STL", "OBJ", ...: for messages.
+[[nodiscard]] std::string_view format_name(SoupFormat format);
+
+// The format that an extension stands for, if any (.stl is binary, .ply is binary little endian).
+// Case does not matter.
+[[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
+
+// ".stl, .obj, .off, .ply": for messages.
+[[nodiscard]] std::string_view known_extensions();
+
+// Whether readers weld points with equal coordinates, as the format has no indices, or splits
+// points where their attributes differ.
+[[nodiscard]] bool welds_points(SoupFormat format);
+
+// Whether coordinates are single precision.
+[[nodiscard]] bool is_single(SoupFormat format);
+
+// Whether it can say of a face which triangle of the input it lies in.
+[[nodiscard]] bool holds_sources(SoupFormat format);
+
+// Whether it holds any of what Attributes has.
+[[nodiscard]] bool holds_attributes(SoupFormat format);
+
+}  // namespace meshrepair

@@ -1,0 +1,35 @@
+#include "named_files.h"
+
+#include <system_error>
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool leads_out(const fs::path& path) {
+  return path.empty() || path.has_root_path() || *path.begin() == "..";
+}
+
+}  // namespace
+
+std::optional<fs::path> path_of_named(const MeshSource& source, std::string_view name) {
+  if (!source.folder || name.find('\0') != std::string_view::npos) return std::nullopt;
+  const fs::path path = fs::path(name).lexically_normal();
+  if (leads_out(path)) return std::nullopt;
+  return (*source.folder / path).lexically_normal();
+}
+
+std::optional<fs::path> find_named(const MeshSource& source, std::string_view name) {
+  const std::optional<fs::path> path = path_of_named(source, name);
+  if (!path) return std::nullopt;
+  std::error_code error;
+  if (!fs::is_regular_file(*path, error)) return std::nullopt;
+  const fs::path folder = fs::canonical(source.folder->empty() ? "." : *source.folder, error);
+  if (error) return std::nullopt;
+  const fs::path real = fs::canonical(*path, error);
+  if (error || leads_out(real.lexically_relative(folder))) return std::nullopt;
+  return path;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,353 @@
+#include "material_library.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include <base/error.h>
+#include <base/file_bytes.h>
+
+#include "formats/common/named_files.h"
+#include "formats/common/text_scanner.h"
+#include "formats/common/text_writer.h"
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr TextDialect kMtlText = {.comment = '#'};
+
+struct Line {
+  std::string_view key, rest;  // its first word, and what follows without the blanks around it
+};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+Line split(std::string_view text) {
+  text = trimmed(text);
+  const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+  return {text.substr(0, end), trimmed(text.substr(end))};
+}
+
+// Calls visit(text of the line) for each, without its end.
+template <class Visit>
+void visit_lines(std::string_view text, const Visit& visit) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    visit(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+bool names_picture(std::string_view key) {
+  constexpr std::array<std::string_view, 6> kKeys = {"bump", "disp", "decal",
+                                                     "refl", "norm", "map_"};
+  return std::any_of(kKeys.begin(), kKeys.end(), [&](std::string_view known) {
+    return known.back() == '_' ? equals_ignoring_case(key.substr(0, known.size()), known)
+                               : equals_ignoring_case(key, known);
+  });
+}
+
+bool is_number(std::string_view word) {
+  double value = 0;
+  TextScanner text(word);
+  return text.next_on_line() && text.read_real(value);
+}
+
+// How many words an option of a map takes at most, and whether they are numbers. Of -o, -s and -t
+// the last two may be missing.
+struct MapOption {
+  std::string_view name;
+  int words;
+  bool numbers;
+};
+
+// Behind the options "-clamp on -s 1 1 1" of a map: the name of the picture, which may have blanks.
+std::string_view picture_of(std::string_view rest) {
+  constexpr std::array<MapOption, 12> kOptions = {{{"-blendu", 1, false},
+                                                   {"-blendv", 1, false},
+                                                   {"-boost", 1, true},
+                                                   {"-mm", 2, true},
+                                                   {"-o", 3, true},
+                                                   {"-s", 3, true},
+                                                   {"-t", 3, true},
+                                                   {"-texres", 1, true},
+                                                   {"-clamp", 1, false},
+                                                   {"-bm", 1, true},
+                                                   {"-imfchan", 1, false},
+                                                   {"-type", 1, false}}};
+  while (true) {
+    const Line first = split(rest);
+    const auto* const option =
+        std::find_if(kOptions.begin(), kOptions.end(),
+                     [&](const MapOption& known) { return known.name == first.key; });
+    if (option == kOptions.end()) return rest;
+    rest = first.rest;
+    for (int i = 0; i < option->words; ++i) {
+      const Line word = split(rest);
+      if (word.rest.empty() || (option->numbers && !is_number(word.key))) break;
+      rest = word.rest;
+    }
+  }
+}
+
+std::string with_slashes(std::string_view name) {
+  std::string path(name);
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
+
+std::optional<std::array<double, 3>> numbers_of(std::string_view rest) {
+  TextScanner text(rest);
+  std::array<double, 3> values{};
+  for (double& value : values) {
+    if (!text.next_on_line() || !text.read_real(value)) return std::nullopt;
+  }
+  return values;
+}
+
+// Reads one library.
+class LibraryReader {
+ public:
+  LibraryReader(const std::unordered_map<std::string_view, std::uint32_t>& numbers,
+                const MaterialLibraries::Library& library, Attributes& attributes)
+      : numbers_(numbers), library_(library), attributes_(attributes) {}
+
+  void run() {
+    visit_lines(library_.text, [&](std::string_view text) { read(split(text)); });
+  }
+
+ private:
+  void read(const Line& line) {
+    if (line.key == "newmtl") {
+      const auto found = numbers_.find(line.rest);
+      look_ = found == numbers_.end() ? nullptr : &attributes_.looks[found->second];
+    } else if (look_ == nullptr) {
+      return;
+    } else if (line.key == "Kd") {
+      if (const auto colour = numbers_of(line.rest)) {
+        std::copy(colour->begin(), colour->end(), look_->colour.begin());
+      }
+    } else if (line.key == "d" || line.key == "Tr") {
+      double value = 0;
+      TextScanner text(line.rest);
+      if (!text.next_on_line() || !text.read_real(value)) return;
+      look_->colour[3] = std::clamp(line.key == "d" ? value : 1 - value, 0.0, 1.0);
+    } else if (equals_ignoring_case(line.key, "map_Kd")) {
+      look_->image = image_of(with_slashes(picture_of(line.rest)));
+    }
+  }
+
+  std::uint32_t image_of(const std::string& name) {
+    const std::string path = (library_.folder / name).lexically_normal().string();
+    const auto same = std::find_if(attributes_.images.begin(), attributes_.images.end(),
+                                   [&](const Image& image) { return image.path == path; });
+    if (same == attributes_.images.end()) {
+      attributes_.images.push_back({fs::path(name).filename().string(), {}, path, nullptr});
+      return static_cast<std::uint32_t>(attributes_.images.size() - 1);
+    }
+    return static_cast<std::uint32_t>(same - attributes_.images.begin());
+  }
+
+  const std::unordered_map<std::string_view, std::uint32_t>& numbers_;
+  const MaterialLibraries::Library& library_;
+  Attributes& attributes_;
+  Material* look_ = nullptr;
+};
+
+// A text in which pictures have names relative to another folder.
+class LibraryMover {
+ public:
+  LibraryMover(const MaterialLibraries::Library& library, const fs::path& folder)
+      : library_(library), folder_(fs::absolute(folder).lexically_normal()) {}
+
+  std::string run() {
+    if (fs::absolute(library_.folder).lexically_normal() == folder_) return library_.text;
+    std::string moved;
+    visit_lines(library_.text, [&](std::string_view text) {
+      const Line line = split(text);
+      if (!names_picture(line.key)) {
+        moved += text;
+      } else {
+        const std::string_view name = picture_of(line.rest);
+        moved += text.substr(0, static_cast<std::size_t>(name.data() - text.data()));
+        moved += moved_name(name);
+      }
+      moved += '\n';
+    });
+    return moved;
+  }
+
+ private:
+  // What is no way within the library's folder stays: nobody knows what it means elsewhere.
+  [[nodiscard]] std::string moved_name(std::string_view name) const {
+    const fs::path path = fs::path(with_slashes(name)).lexically_normal();
+    if (path.empty() || path.has_root_path() || *path.begin() == "..") return std::string(name);
+    return fs::absolute(library_.folder / path)
+        .lexically_normal()
+        .lexically_relative(folder_)
+        .generic_string();
+  }
+
+  const MaterialLibraries::Library& library_;
+  fs::path folder_;
+};
+
+std::unordered_set<std::string> materials_in(std::string_view text) {
+  std::unordered_set<std::string> names;
+  visit_lines(text, [&](std::string_view line) {
+    const Line split_line = split(line);
+    if (split_line.key == "newmtl") names.emplace(split_line.rest);
+  });
+  return names;
+}
+
+std::string extension_of(const Image& image) {
+  if (image.media_type == "image/png") return ".png";
+  if (image.media_type == "image/jpeg") return ".jpg";
+  if (image.media_type == "image/webp") return ".webp";
+  return fs::path(image.name).extension().string();
+}
+
+// Makes the files of one mesh.
+class MaterialFiles {
+ public:
+  MaterialFiles(const fs::path& path, const Attributes& attributes)
+      : path_(path), attributes_(attributes) {}
+
+  std::vector<SideFile> run() {
+    const auto* const known = dynamic_cast<const MaterialLibraries*>(attributes_.keepsake.get());
+    std::string text;
+    if (known != nullptr) {
+      for (const MaterialLibraries::Library& library : known->libraries) {
+        text += LibraryMover(library, path_.parent_path()).run();
+        if (!text.empty() && text.back() != '\n') text += '\n';
+      }
+    }
+    const bool is_read = !text.empty();
+    append_others(text);
+    if (text.empty() || (!is_read && attributes_.looks.empty())) return {};
+    files_.push_back({library_path(known, text), std::move(text)});
+    return std::move(files_);
+  }
+
+ private:
+  // Materials that no library has.
+  void append_others(std::string& text) {
+    const std::unordered_set<std::string> known = materials_in(text);
+    for (std::size_t m = 0; m < attributes_.materials.names.size(); ++m) {
+      const std::string& name = attributes_.materials.names[m];
+      if (known.contains(name)) continue;
+      const Material look = m < attributes_.looks.size() ? attributes_.looks[m] : Material();
+      text += "newmtl " + name + "\nKd ";
+      append_triple(text, look.colour.data());
+      text += '\n';
+      if (look.colour[3] < 1) {
+        text += "d ";
+        append_number(text, look.colour[3]);
+        text += '\n';
+      }
+      if (look.image != kNone) text += "map_Kd " + name_of_image(look.image) + '\n';
+    }
+  }
+
+  std::string name_of_image(std::uint32_t number) {
+    const Image& image = attributes_.images[number];
+    const fs::path folder = fs::absolute(path_.parent_path()).lexically_normal();
+    if (!image.bytes) {
+      return fs::absolute(image.path)
+          .lexically_normal()
+          .lexically_relative(folder)
+          .generic_string();
+    }
+    const std::string name =
+        path_.stem().string() + "_" + std::to_string(number) + extension_of(image);
+    if (written_.insert(number).second) {
+      files_.push_back({path_.parent_path() / name, *image.bytes});
+    }
+    return name;
+  }
+
+  // Never over a library of the input that is another now.
+  [[nodiscard]] fs::path library_path(const MaterialLibraries* known,
+                                      const std::string& text) const {
+    fs::path path = path_;
+    path.replace_extension(".mtl");
+    const auto is_in_use = [&] {
+      return known != nullptr &&
+             std::any_of(known->libraries.begin(), known->libraries.end(),
+                         [&](const MaterialLibraries::Library& library) {
+                           std::error_code error;
+                           return !library.path.empty() && library.text != text &&
+                                  fs::equivalent(path, library.path, error);
+                         });
+    };
+    for (int i = 1; is_in_use(); ++i) {
+      path.replace_filename(path_.stem().string() + "_" + std::to_string(i) + ".mtl");
+    }
+    return path;
+  }
+
+  const fs::path& path_;
+  const Attributes& attributes_;
+  std::vector<SideFile> files_;
+  std::unordered_set<std::uint32_t> written_;
+};
+
+}  // namespace
+
+void read_material_libraries(const MeshSource& source, const std::vector<std::string>& names,
+                             Attributes& attributes, ReadReport& report) {
+  if (names.empty()) return;
+  auto kept = std::make_shared<MaterialLibraries>();
+  for (const std::string& name : names) {
+    MaterialLibraries::Library library{name, {}, {}, {}};
+    if (const auto path = find_named(source, with_slashes(name))) {
+      library.text = FileBytes(*path, source.options.progress).bytes();
+      library.path = *path;
+      library.folder = path->parent_path();
+    } else if (source.folder) {
+      report.warnings.push_back("the library of materials " + printable(name) +
+                                " is not in its folder");
+    }
+    kept->libraries.push_back(std::move(library));
+  }
+  std::unordered_map<std::string_view, std::uint32_t> numbers;
+  for (std::uint32_t m = 0; m < attributes.materials.names.size(); ++m) {
+    numbers.emplace(attributes.materials.names[m], m);
+  }
+  attributes.looks.resize(attributes.materials.names.size());
+  for (const MaterialLibraries::Library& library : kept->libraries) {
+    LibraryReader(numbers, library, attributes).run();
+  }
+  attributes.keepsake = std::move(kept);
+}
+
+std::vector<SideFile> material_files(const fs::path& path, const Attributes& attributes) {
+  return MaterialFiles(path, attributes).run();
+}
+
+std::string unread_libraries(const Attributes& attributes) {
+  std::string lines;
+  const auto* const known = dynamic_cast<const MaterialLibraries*>(attributes.keepsake.get());
+  if (known == nullptr) return lines;
+  for (const MaterialLibraries::Library& library : known->libraries) {
+    if (library.path.empty()) lines += "mtllib " + library.name + "\n";
+  }
+  return lines;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,46 @@
+// The .mtl files that an OBJ file names.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <mesh/attributes.h>
+#include <mesh/mesh_source.h>
+
+namespace meshrepair {
+
+// Their text, for other OBJ files.
+struct MaterialLibraries final : Keepsake {
+  struct Library {
+    std::string name;              // as the OBJ file has it
+    std::filesystem::path path;    // empty: it was not found
+    std::filesystem::path folder;  // which names of pictures are relative to
+    std::string text;
+  };
+  std::vector<Library> libraries;
+};
+
+// Reads the libraries with these names, as far as they lie in the source's folder or below it: the
+// looks of the attributes' materials, their images, and the keepsake. Warns of others.
+void read_material_libraries(const MeshSource& source, const std::vector<std::string>& names,
+                             Attributes& attributes, ReadReport& report);
+
+// A file to be written beside the mesh.
+struct SideFile {
+  std::filesystem::path path;
+  std::string bytes;
+};
+
+// What a mesh at `path` that is written as OBJ needs beside it: one library for all materials, in
+// which names of pictures are relative to its folder, and the pictures that are no files yet. The
+// library comes last. Nothing where nothing is known of the materials. No file that the libraries
+// were read from is among them, unless its text stays as it is.
+[[nodiscard]] std::vector<SideFile> material_files(const std::filesystem::path& path,
+                                                   const Attributes& attributes);
+
+// Lines that name libraries that could not be read, as they were.
+[[nodiscard]] std::string unread_libraries(const Attributes& attributes);
+
+}  // namespace meshrepair

@@ -1,0 +1,57 @@
+#include <array>
+#include <string>
+#include <utility>
+
+#include <mesh/soup_format.h>
+
+#include "formats/common/text_scanner.h"
+
+namespace meshrepair {
+
+std::string_view format_name(SoupFormat format) {
+  switch (format) {
+    case SoupFormat::stl_binary:
+      return "binary STL";
+    case SoupFormat::stl_ascii:
+      return "ASCII STL";
+    case SoupFormat::obj:
+      return "OBJ";
+    case SoupFormat::off:
+      return "OFF";
+    case SoupFormat::ply_binary:
+      return "binary PLY";
+    case SoupFormat::ply_ascii:
+      break;
+  }
+  return "ASCII PLY";
+}
+
+std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
+  constexpr std::array<std::pair<std::string_view, SoupFormat>, 4> kExtensions = {{
+      {".stl", SoupFormat::stl_binary},
+      {".obj", SoupFormat::obj},
+      {".off", SoupFormat::off},
+      {".ply", SoupFormat::ply_binary},
+  }};
+  const std::string extension = path.extension().string();
+  for (const auto& [name, format] : kExtensions) {
+    if (equals_ignoring_case(extension, name)) return format;
+  }
+  return std::nullopt;
+}
+
+std::string_view known_extensions() { return ".stl, .obj, .off, .ply"; }
+
+bool welds_points(SoupFormat format) {
+  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
+}
+
+bool is_single(SoupFormat format) { return format == SoupFormat::stl_binary; }
+
+bool holds_sources(SoupFormat format) {
+  return format == SoupFormat::ply_binary || format == SoupFormat::ply_ascii;
+}
+
+bool holds_attributes(SoupFormat format) { return format == SoupFormat::obj || holds_sources(format); }
+
+}  // namespace meshrepair
