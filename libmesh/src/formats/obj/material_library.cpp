@@ -23,7 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr TextDialect kMtlText = {.comment = '#'};
+// With all folders; an empty path is this folder.
+fs::path full(const fs::path& path) {
+  return fs::absolute(path.empty() ? "." : path).lexically_normal();
+}
 
 struct Line {
   std::string_view key, rest;  // its first word, and what follows without the blanks around it
@@ -172,10 +175,10 @@ class LibraryReader {
 class LibraryMover {
  public:
   LibraryMover(const MaterialLibraries::Library& library, const fs::path& folder)
-      : library_(library), folder_(fs::absolute(folder).lexically_normal()) {}
+      : library_(library), folder_(full(folder)) {}
 
   std::string run() {
-    if (fs::absolute(library_.folder).lexically_normal() == folder_) return library_.text;
+    if (full(library_.folder) == folder_) return library_.text;
     std::string moved;
     visit_lines(library_.text, [&](std::string_view text) {
       const Line line = split(text);
@@ -196,10 +199,7 @@ class LibraryMover {
   [[nodiscard]] std::string moved_name(std::string_view name) const {
     const fs::path path = fs::path(with_slashes(name)).lexically_normal();
     if (path.empty() || path.has_root_path() || *path.begin() == "..") return std::string(name);
-    return fs::absolute(library_.folder / path)
-        .lexically_normal()
-        .lexically_relative(folder_)
-        .generic_string();
+    return full(library_.folder / path).lexically_relative(folder_).generic_string();
   }
 
   const MaterialLibraries::Library& library_;
@@ -266,12 +266,8 @@ class MaterialFiles {
 
   std::string name_of_image(std::uint32_t number) {
     const Image& image = attributes_.images[number];
-    const fs::path folder = fs::absolute(path_.parent_path()).lexically_normal();
     if (!image.bytes) {
-      return fs::absolute(image.path)
-          .lexically_normal()
-          .lexically_relative(folder)
-          .generic_string();
+      return full(image.path).lexically_relative(full(path_.parent_path())).generic_string();
     }
     const std::string name =
         path_.stem().string() + "_" + std::to_string(number) + extension_of(image);
