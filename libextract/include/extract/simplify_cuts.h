@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <base/progress.h>
@@ -13,6 +14,9 @@ namespace meshrepair {
 struct SimplifyOptions {
   // How far the new surface may be from the one before, anywhere; in the mesh's units. 0: as it is.
   double within = 0;
+  // Where triangles carry more than their places: of each triangle of the input, how far a point in
+  // which its result meets that of others may move over it. Not owned. Empty: as far as `within`.
+  std::span<const double> reach = {};
   ProgressObserver* progress = nullptr;  // not owned; no stage is begun
 };
 
@@ -35,7 +39,8 @@ struct SimplifyReport {
 // its thickness. There are no new points and no degenerate triangles. The surface stays closed and
 // manifold, of the same genus; changed triangles meet no others (exactly tested, with equal points
 // as one); no part faces another way, or changes its volume by over a tenth. Sources and flags of
-// points go along. Returns nothing where nothing can go, or where all that takes too many rounds.
+// points go along. With SimplifyOptions::reach, a line where two sources meet, and a point where
+// three do, moves by no more than the least of these. Returns nothing where nothing can go, or where all that takes too many rounds.
 // Throws Cancelled. n log n; stars of very many triangles stay.
 [[nodiscard]] std::optional<Surface> simplify_cuts(const Surface& surface, std::vector<char>& stays,
                                                    const SimplifyOptions& options,

@@ -42,10 +42,12 @@ bool CutSimplifier::Move::operator<(const Move& other) const {
 }
 
 CutSimplifier::CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays,
-                             const std::vector<double>& within, ProgressObserver* progress)
+                             const std::vector<double>& within, const Carried& carried,
+                             ProgressObserver* progress)
     : points_(mesh.points),
       stays_(stays),
       within_(within),
+      carried_(carried),
       cancel_(progress),
       mesh_(mesh.triangles, mesh.points.size()),
       version_(mesh.points.size(), 0),
@@ -98,7 +100,8 @@ void CutSimplifier::consider(std::uint32_t point) {
   best.point = point;
   best.version = version_[point];
   if (!mesh_.find_star(point, star_)) return;
-  const double within = within_[point];
+  find_borders();
+  const double within = std::min(within_[point], reach_of_star());
   double before = 0;
   for (const std::uint32_t t : star_.triangles) before = std::max(before, distance_[t]);
   link_.clear();
@@ -109,7 +112,8 @@ void CutSimplifier::consider(std::uint32_t point) {
     Move move = best;
     move.target = star_.link[i];
     move.length = (link_[i] - points_[point]).stableNorm();
-    move.distance = before + std::min(star_distance_.bound(i, within - before), move.length);
+    const double distance = std::min(star_distance_.bound(i, within - before), move.length);
+    move.distance = before + std::max(distance, border_shift(i));
     if (!(move.distance <= within)) continue;
     move.cost = std::max(move.distance, kSmallShare * within);
     if (!(best < move)) continue;
@@ -117,6 +121,40 @@ void CutSimplifier::consider(std::uint32_t point) {
     if (may_move(i, least_height)) best = move;
   }
   if (best.target != kNone) queue_.push(best);
+}
+
+void CutSimplifier::find_borders() {
+  borders_.clear();
+  if (carried_.reach.empty()) return;
+  const auto source_at = [&](std::size_t i) { return carried_.source[star_.triangles[i]]; };
+  for (std::size_t i = 0; i < star_.triangles.size(); ++i) {
+    if (source_at(star_.before(i)) != source_at(i)) borders_.push_back(i);
+  }
+}
+
+double CutSimplifier::reach_of_star() const {
+  double reach = kInfinite;
+  for (const std::size_t i : borders_) {
+    const std::uint32_t source = carried_.source[star_.triangles[i]];
+    if (source != kNone) reach = std::min(reach, carried_.reach[source]);
+  }
+  return reach;
+}
+
+// How far a move brings the line where two sources meet from where it was, or the point where
+// more do.
+double CutSimplifier::border_shift(std::size_t to) const {
+  if (borders_.empty()) return 0;
+  const Vec3d& point = points_[star_.point];
+  if (borders_.size() > 2 || (to != borders_[0] && to != borders_[1])) {
+    return (link_[to] - point).stableNorm();
+  }
+  const Vec3d from_start = point - link_[borders_[0]];
+  const Vec3d line = link_[borders_[1]] - link_[borders_[0]];
+  const double length = line.stableNorm();
+  if (!(length > 0)) return from_start.stableNorm();
+  const double along = std::clamp(from_start.dot(line / length), 0.0, length);
+  return (from_start - along * (line / length)).stableNorm();
 }
 
 void CutSimplifier::postpone(std::uint32_t point) {

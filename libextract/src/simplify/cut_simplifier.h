@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <queue>
+#include <span>
 #include <vector>
 
 #include <base/progress.h>
@@ -19,10 +20,17 @@ class CutSimplifier {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  // `stays` has a flag for each point, `within` how far the surface around it may be moved; the
-  // three are not owned.
+  // What triangles carry, which is another function of the place in each source.
+  struct Carried {
+    std::span<const std::uint32_t> source;  // of each triangle of the mesh
+    std::span<const double> reach;          // SimplifyOptions has it
+  };
+
+  // `stays` has a flag for each point, `within` how far the surface around it may be moved; nothing
+  // is owned.
   CutSimplifier(const TriangleSoup& mesh, const std::vector<char>& stays,
-                const std::vector<double>& within, ProgressObserver* progress);
+                const std::vector<double>& within, const Carried& carried,
+                ProgressObserver* progress);
 
   // Until nothing can be moved any more. Throws Cancelled.
   void run();
@@ -76,6 +84,9 @@ class CutSimplifier {
   void postpone(std::uint32_t point);
   [[nodiscard]] bool may_move(std::size_t to, double least_height);
   [[nodiscard]] double height_to_keep(double within) const;
+  void find_borders();
+  [[nodiscard]] double reach_of_star() const;
+  [[nodiscard]] double border_shift(std::size_t to) const;
   void make(const Move& move);
   void remember(const Move& move, std::size_t to);
   void look_again(std::uint32_t point);
@@ -86,6 +97,7 @@ class CutSimplifier {
   const std::vector<Vec3d>& points_;
   const std::vector<char>& stays_;
   const std::vector<double>& within_;
+  const Carried carried_;
   CancelCheck cancel_;
   CollapsibleMesh mesh_;
   std::vector<std::uint32_t> version_;
@@ -100,6 +112,7 @@ class CutSimplifier {
   std::vector<std::uint32_t> to_consider_;  // when running starts
   PointStar star_;
   std::vector<Vec3d> link_;
+  std::vector<std::size_t> borders_;  // in the link, where sources meet in the star
   std::vector<std::uint32_t> around_;
   StarDistance star_distance_;
 };

@@ -255,7 +255,8 @@ std::optional<Surface> simplify_cuts(const Surface& surface, std::vector<char>& 
   keep_contacts(surface.mesh, stays);
   const std::size_t to_stay = count_of(stays);
   MeetingTest meeting(surface.mesh, options);
-  CutSimplifier simplifier(surface.mesh, stays, within, options.progress);
+  CutSimplifier simplifier(surface.mesh, stays, within, {surface.source, options.reach},
+                           options.progress);
   Candidate candidate;
   candidate.mesh.points = surface.mesh.points;
   while (report.rounds < kMostRounds) {

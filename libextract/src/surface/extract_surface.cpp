@@ -346,8 +346,10 @@ Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cove
   if (complex.loose) {
     return LooseExtractor(complex, cover, solid, std::move(parts)).run(report, options.progress);
   }
-  parts.merged =
-      merge_facets(complex, cover, solid, parts.boundary, parts.corners, {}, options.whole);
+  std::vector<char> all;
+  if (!options.merges_triangles) all.assign(complex.soup().triangles.size(), 1);
+  parts.merged = merge_facets(complex, cover, solid, parts.boundary, parts.corners, {},
+                              options.merges_triangles ? options.whole : all);
   parts.middles = separate_common_edges(complex, parts.boundary, parts.corners);
   const InputPoints input_points(complex.soup());
   SurfaceExtractor extractor(complex, cover, solid, parts, input_points);

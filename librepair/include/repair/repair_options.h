@@ -32,6 +32,9 @@ struct RepairOptions {
   // How far the surface may move to have fewer triangles where it was cut, as a share of the
   // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
   double simplify = 0;
+  // Of each triangle of the soup, SimplifyOptions::reach, where triangles carry more than their
+  // places: keep_attributes() finds it. Empty: they do not.
+  std::vector<double> reach;
   // Slits and fins thinner than two steps of the working grid are filled and dropped where
   // triangles are cut; in single precision also those thinner than so many steps of its numbers, as
   // their sheets would cross once they are written, and wider ones, up to 16 times, where few

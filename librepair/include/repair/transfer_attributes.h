@@ -7,11 +7,18 @@
 #include <extract/surface.h>
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
+#include <repair/repair_options.h>
 
 namespace meshrepair {
 
 // The material of triangles that close a gap, where others have materials.
 inline constexpr std::string_view kPatchMaterial = "meshrepair_patch";
+
+// Has the repair of the soup with these attributes leave each triangle of the result in one of the
+// input, and simplify only as far as attributes change by no more than options.simplify, as a share
+// of their extent: sets options.extract and options.reach. Linear.
+void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
+                     RepairOptions& options);
 
 // By Surface::source. A corner of the result that lies in one of its source triangle has the value
 // of that, bit for bit. Any other has the affine function of the source triangle's values at its

@@ -163,12 +163,12 @@ bool Certification::may_go_on() const {
          vain_rounds_ < kMostVain && current_.surface.mesh.triangles.size() <= most_triangles_;
 }
 
-const TriangleSoup& Certification::begin_round() {
+const Surface& Certification::begin_round() {
   ++report_.rounds;
   faults_before_ = best_.faults();
   report_.snapped_points = snap_concerned(current_.surface.mesh, current_.found, round_step_);
   snap_cut_triangles();
-  return current_.surface.mesh;
+  return current_.surface;
 }
 
 void Certification::end_round(Surface again) {

@@ -45,7 +45,7 @@ class Certification {
   // Whether another round may be of use.
   [[nodiscard]] bool may_go_on() const;
   // The mesh with the corners at fault on a coarser grid: its sheets may cross there.
-  [[nodiscard]] const TriangleSoup& begin_round();
+  [[nodiscard]] const Surface& begin_round();
   // With what repairing it again gave, whose sources are triangles of that mesh.
   void end_round(Surface again);
 

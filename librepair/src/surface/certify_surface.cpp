@@ -1,6 +1,9 @@
 #include "certify_surface.h"
 
+#include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include <base/error.h>
 #include <base/stage_meter.h>
@@ -33,18 +36,31 @@ RepairOptions options_of_again(const RepairOptions& options, ProgressObserver& q
   return again;
 }
 
-// A soup that is a solid already but for places where its sheets cross.
-Surface repair_again(const TriangleSoup& soup, const RepairOptions& options) {
+// Of the triangles of the surface, which are the input from now on.
+std::vector<double> reach_of_triangles(const Surface& surface, const std::vector<double>& reach) {
+  std::vector<double> of_triangle;
+  if (reach.empty()) return of_triangle;
+  of_triangle.reserve(surface.source.size());
+  for (const std::uint32_t source : surface.source) {
+    of_triangle.push_back(source == Surface::kNoSource ? std::numeric_limits<double>::infinity()
+                                                       : reach[source]);
+  }
+  return of_triangle;
+}
+
+// A surface that is a solid already but for places where its sheets cross.
+Surface repair_again(const Surface& surface, const RepairOptions& options) {
   CancelOnly quiet(options.progress);
-  const RepairOptions again = options_of_again(options, quiet);
+  RepairOptions again = options_of_again(options, quiet);
+  again.reach = reach_of_triangles(surface, options.reach);
   RepairReport report;
   StageMeter meter(report.stages, again.progress);
-  CleanSoup clean = close_soup(soup, again, report, meter);
+  CleanSoup clean = close_soup(surface.mesh, again, report, meter);
   const Orientation orientation = orient_soup(clean, again, report, meter);
   // In single precision slits have to be filled, or rounding makes sheets cross again and again.
   if (again.keep_valid && again.slit_steps == 0) {
-    auto surface = surface_by_chambers(clean, orientation, again, report, meter);
-    if (surface) return std::move(*surface);
+    auto mended = surface_by_chambers(clean, orientation, again, report, meter);
+    if (mended) return std::move(*mended);
   }
   return surface_by_cells(std::move(clean), orientation, again, report, meter);
 }
@@ -75,7 +91,7 @@ Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplif
   }
   certification.mend_in_place();
   while (certification.may_go_on()) {
-    const TriangleSoup& coarser = certification.begin_round();
+    const Surface& coarser = certification.begin_round();
     try {
       certification.end_round(repair_again(coarser, options));
     } catch (const NoSolidError&) {

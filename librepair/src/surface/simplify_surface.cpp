@@ -19,6 +19,7 @@ std::optional<Surface> Simplifier::simplified(const Surface& surface) {
   for (const Vec3d& p : surface.mesh.points) box.extend(p);
   SimplifyOptions simplify_options;
   simplify_options.within = options_.simplify * (box.max() - box.min()).stableNorm();
+  simplify_options.reach = options_.reach;
   simplify_options.progress = options_.progress;
   const SimplifyReport before = report_;
   std::optional<Surface> simpler = simplify_cuts(surface, stays_, simplify_options, report_);

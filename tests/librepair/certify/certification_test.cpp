@@ -41,7 +41,7 @@ Surface certified(const Surface& surface, const CertifyOptions& options, RepairA
   if (certification.may_settle()) certification.settle();
   certification.mend_in_place();
   while (certification.may_go_on()) {
-    certification.end_round(repair_again(certification.begin_round()));
+    certification.end_round(repair_again(certification.begin_round().mesh));
   }
   return certification.result();
 }
