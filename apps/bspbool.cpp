@@ -155,7 +155,7 @@ void print_result(const BoolOptions& options, const RepairReport& repair,
 
 // Nothing is a solid, too, though no surface. The comment keeps an OBJ file from being empty.
 void write_nothing(WriteOptions format, Run& run, const Findings& findings) {
-  format.comments.emplace_back("nothing is solid");
+  format.extras.comments.emplace_back("nothing is solid");
   write_soup({}, findings.output, format);
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
   run.report.set_section("result",

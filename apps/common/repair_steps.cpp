@@ -236,8 +236,7 @@ WriteOptions mesh_format(const StepOptions& options) {
   format.format = options.format ? options.format : format_of_extension(output);
   if (!format.format) {
     throw UsageError(output == "-" ? "standard output has no name that tells a format: use --format"
-                                   : output +
-                                         ": no mesh format has this extension (" +
+                                   : output + ": no mesh format has this extension (" +
                                          std::string(known_extensions()) + "): use --format");
   }
   if (options.sources && !holds_sources(*format.format)) {
@@ -306,8 +305,8 @@ void write_mesh_stage(const Surface& surface, const Attributes& attributes, Writ
   findings.missing_guarantees = missing_guarantees(findings, *format.format);
   findings.withheld = options.strict && !findings.missing_guarantees.empty();
   if (findings.withheld) return;
-  if (options.sources) format.sources = surface.source;
-  if (!attributes.empty()) format.attributes = &attributes;
+  if (options.sources) format.extras.sources = surface.source;
+  if (!attributes.empty()) format.extras.attributes = &attributes;
   format.progress = &run.progress;
   write_soup(surface.mesh, findings.output, format);
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <base/ids.h>
+#include <mesh/soup.h>
 
 namespace meshrepair {
 
@@ -28,7 +30,7 @@ struct CornerAttribute {
   enum class Place { corner, point, triangle };
   // As what the file held the values: others would not hold them bit for bit. A byte is a share of
   // 255.
-  enum class Storage { real64, real32, byte };
+  enum class Storage { real64, real32, byte, integer };
 
   Kind kind = Kind::texture;
   std::string name;  // of the set, where the file has one
@@ -92,5 +94,23 @@ struct Attributes {
 // The first of a kind, or null.
 [[nodiscard]] const CornerAttribute* find_kind(const Attributes& attributes,
                                                CornerAttribute::Kind kind);
+
+// Makes values that are equal bit for bit one, and drops those that no corner has; the others keep
+// their order. Linear; on several threads.
+void share_values(CornerAttribute& attribute);
+
+// Of each point the one value that all its corners have, or kNone; nothing where corners of one
+// point have different ones.
+[[nodiscard]] std::optional<std::vector<std::uint32_t>> values_by_point(
+    const TriangleSoup& soup, const CornerAttribute& attribute);
+
+// The same of the first of its corners that has one, whatever the others have.
+[[nodiscard]] std::vector<std::uint32_t> first_values_by_point(const TriangleSoup& soup,
+                                                               const CornerAttribute& attribute);
+
+// Of each triangle the one value that all its corners have, or kNone; nothing where some have
+// different ones.
+[[nodiscard]] std::optional<std::vector<std::uint32_t>> values_by_triangle(
+    const CornerAttribute& attribute);
 
 }  // namespace meshrepair

@@ -37,16 +37,23 @@ namespace meshrepair {
 [[nodiscard]] ReadResult read_soup(std::string_view bytes, const std::string& name,
                                    const ReadOptions& options = {});
 
+// What a file holds besides points and triangles, as far as its format can. Not owned.
+struct SoupExtras {
+  // Lines of a comment; no newlines inside.
+  std::vector<std::string> comments = {};
+  // For PLY alone: one number for each triangle, written as the property `source_triangle` of its
+  // face, with all ones as -1. Empty: no such property.
+  std::span<const std::uint32_t> sources = {};
+  // Of the triangles. Null: none.
+  const Attributes* attributes = nullptr;
+  // Which names of other files are relative to.
+  std::filesystem::path folder = {};
+};
+
 struct WriteOptions {
   // Empty: told by the extension.
-  std::optional<SoupFormat> format;
-  // Comment lines for formats that have them; no newlines inside.
-  std::vector<std::string> comments;
-  // For PLY alone, not owned: one number for each triangle, written as the property
-  // `source_triangle` of its face, with all ones as -1. Empty: no such property.
-  std::span<const std::uint32_t> sources = {};
-  // For OBJ alone, not owned: of the triangles. Null: none.
-  const Attributes* attributes = nullptr;
+  std::optional<SoupFormat> format = std::nullopt;
+  SoupExtras extras = {};                // the folder is that of the file
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
 };
 
@@ -56,12 +63,9 @@ struct WriteOptions {
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 
-// The bytes of the file, with what WriteOptions has. Coordinates are rounded to
-// float32 for binary STL alone.
+// The bytes of the file. Coordinates are rounded to float32 where is_single(format).
 [[nodiscard]] std::string format_soup(const TriangleSoup& soup, SoupFormat format,
-                                      const std::vector<std::string>& comments = {},
-                                      std::span<const std::uint32_t> sources = {},
-                                      const Attributes* attributes = nullptr);
+                                      const SoupExtras& extras = {});
 
 // The soup that a reader gets back from a file in this format: STL has no indices, so corners with
 // equal coordinates become one point, and binary STL rounds coordinates to float32 before. For the

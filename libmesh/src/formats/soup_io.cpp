@@ -14,7 +14,7 @@
 #include "formats/obj/material_library.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
-#include "formats/ply/ply_io.h"
+#include "formats/ply/ply_writer.h"
 #include "formats/stl/stl_io.h"
 #include "mesh_readers.h"
 
@@ -48,11 +48,11 @@ void write_together(const std::vector<SideFile>& files, ProgressObserver* progre
 
 // The mesh comes last, so that what it names is there.
 void write_obj(const TriangleSoup& soup, const std::filesystem::path& path,
-               const WriteOptions& options) {
-  std::vector<SideFile> files = material_files(path, *options.attributes);
+               const SoupExtras& extras, ProgressObserver* progress) {
+  std::vector<SideFile> files = material_files(path, *extras.attributes);
   const std::string library = files.empty() ? "" : files.back().path.filename().string();
-  files.push_back({path, format_obj(soup, options.comments, options.attributes, library)});
-  write_together(files, options.progress);
+  files.push_back({path, format_obj(soup, extras, library)});
+  write_together(files, progress);
 }
 
 }  // namespace
@@ -74,18 +74,16 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
     throw UsageError(path.string() + ": no mesh format has this extension (" +
                      std::string(known_extensions()) + ")");
   }
-  if (*format == SoupFormat::obj && options.attributes != nullptr && path != "-") {
-    return write_obj(soup, path, options);
+  SoupExtras extras = options.extras;
+  extras.folder = path.parent_path();
+  if (*format == SoupFormat::obj && extras.attributes != nullptr && path != "-") {
+    return write_obj(soup, path, extras, options.progress);
   }
-  write_file_atomically(
-      path, format_soup(soup, *format, options.comments, options.sources, options.attributes),
-      options.progress);
+  write_file_atomically(path, format_soup(soup, *format, extras), options.progress);
 }
 
-std::string format_soup(const TriangleSoup& soup, SoupFormat format,
-                        const std::vector<std::string>& comments,
-                        std::span<const std::uint32_t> sources, const Attributes* attributes) {
-  if (!sources.empty() && !holds_sources(format)) {
+std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupExtras& extras) {
+  if (!extras.sources.empty() && !holds_sources(format)) {
     throw UsageError(std::string(format_name(format)) + " cannot hold the sources of triangles");
   }
   switch (format) {
@@ -94,15 +92,15 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
     case SoupFormat::stl_ascii:
       return format_stl_ascii(soup);
     case SoupFormat::obj:
-      return format_obj(soup, comments, attributes, "");
+      return format_obj(soup, extras, "");
     case SoupFormat::off:
-      return format_off(soup, comments);
+      return format_off(soup, extras.comments);
     case SoupFormat::ply_binary:
-      return format_ply_binary(soup, comments, sources);
+      return format_ply_binary(soup, extras);
     case SoupFormat::ply_ascii:
       break;
   }
-  return format_ply_ascii(soup, comments, sources);
+  return format_ply_ascii(soup, extras);
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {

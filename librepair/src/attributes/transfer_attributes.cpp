@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -10,10 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include <base/first_equal.h>
 #include <base/ids.h>
 #include <base/parallel.h>
-#include <mesh/edge_table.h>
 #include <repair/transfer_attributes.h>
 
 namespace meshrepair {
@@ -22,7 +19,7 @@ namespace {
 using Places = std::array<Vec3d, 3>;
 
 Places places_of(const TriangleSoup& soup, std::size_t t) {
-  const IndexTriangle& c = soup.triangles[t];
+  const std::array<std::uint32_t, 3>& c = soup.triangles[t];
   return {soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]};
 }
 
@@ -54,7 +51,7 @@ class ValueTransfer {
     result.of_corner.assign(corners, kNone);
     std::vector<double> made = make(result.of_corner);
     number(made, result);
-    return drop_unused(std::move(result));
+    return result;
   }
 
  private:
@@ -86,6 +83,8 @@ class ValueTransfer {
     const std::uint32_t* const given = given_.of_corner.data() + 3 * std::size_t{source};
     const bool turned = is_turned(from, to);
     const bool stays = given_.kind != CornerAttribute::Kind::normal || !turned;
+    const bool is_constant = stays && given[0] == given[1] && given[1] == given[2];
+    if (is_constant) return void(std::fill(of_corner.begin(), of_corner.end(), given[0]));
     const bool is_full = std::none_of(given, given + 3, [](std::uint32_t v) { return v == kNone; });
     for (std::size_t k = 0; k < 3; ++k) {
       const auto same =
@@ -115,7 +114,7 @@ class ValueTransfer {
       for (std::size_t k = 0; k < 3; ++k) {
         sum += shares[k] * given_.values[given_.components * given[k] + i];
       }
-      made.push_back(sum);
+      made.push_back(given_.storage == CornerAttribute::Storage::integer ? std::round(sum) : sum);
     }
     if (given_.kind != CornerAttribute::Kind::normal) return;
     double squares = 0;
@@ -125,56 +124,14 @@ class ValueTransfer {
     for (std::size_t i = first; i < made.size(); ++i) made[i] *= scale;
   }
 
-  // Appends what was made to the values, each once.
-  void number(const std::vector<double>& made, CornerAttribute& result) const {
-    const std::size_t n = given_.components;
-    const std::size_t count = made.size() / n;
-    const auto hash_of = [&](std::size_t i) {
-      std::uint64_t hash = 0;
-      for (std::size_t k = 0; k < n; ++k) {
-        hash = internal::hash_mix(hash, std::bit_cast<std::uint64_t>(made[n * i + k]));
-      }
-      return hash;
-    };
-    const auto same = [&](std::size_t i, std::size_t j) {
-      return std::equal(made.begin() + static_cast<std::ptrdiff_t>(n * i),
-                        made.begin() + static_cast<std::ptrdiff_t>(n * (i + 1)),
-                        made.begin() + static_cast<std::ptrdiff_t>(n * j));
-    };
-    const std::vector<std::uint32_t> first = first_equal(count, hash_of, same);
-    std::vector<std::uint32_t> number_of(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      number_of[i] = number_of[first[i]];
-      if (first[i] != i) continue;
-      number_of[i] = static_cast<std::uint32_t>(result.count());
-      result.values.insert(result.values.end(), made.begin() + static_cast<std::ptrdiff_t>(n * i),
-                           made.begin() + static_cast<std::ptrdiff_t>(n * (i + 1)));
-    }
-    std::size_t next = 0;
+  // Appends what was made to the values.
+  static void number(const std::vector<double>& made, CornerAttribute& result) {
+    auto next = static_cast<std::uint32_t>(result.count());
+    result.values.insert(result.values.end(), made.begin(), made.end());
     for (std::uint32_t& value : result.of_corner) {
-      if (value == kMade) value = number_of[next++];
+      if (value == kMade) value = next++;
     }
-  }
-
-  // Those in use keep their order.
-  static CornerAttribute drop_unused(CornerAttribute all) {
-    std::vector<std::uint32_t> number(all.count(), kNone);
-    for (const std::uint32_t value : all.of_corner) {
-      if (value != kNone) number[value] = 0;
-    }
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < number.size(); ++i) {
-      if (number[i] == kNone) continue;
-      number[i] = count++;
-      std::copy_n(all.values.begin() + static_cast<std::ptrdiff_t>(all.components * i),
-                  all.components,
-                  all.values.begin() + static_cast<std::ptrdiff_t>(all.components * number[i]));
-    }
-    all.values.resize(all.components * count);
-    for (std::uint32_t& value : all.of_corner) {
-      if (value != kNone) value = number[value];
-    }
-    return all;
+    share_values(result);
   }
 
   const TriangleSoup& input_;

@@ -57,13 +57,13 @@ TEST_P(SoupFormats, ContentIsStrongerThanExtension) {
 }
 
 TEST_P(SoupFormats, CommentsDoNotDisturb) {
-  const std::string bytes = format_soup(tetrahedron(), GetParam(), {"one", "face 99", ""});
+  const std::string bytes = format_soup(tetrahedron(), GetParam(), {{"one", "face 99", ""}});
   EXPECT_EQ(corner_bits(read_text(bytes, "a").soup), corner_bits(tetrahedron()));
 }
 
 TEST_P(SoupFormats, FileComesBack) {
   const TemporaryFolder folder;
-  write_soup(tetrahedron(), folder.path() / "mesh", {.format = GetParam(), .comments = {}});
+  write_soup(tetrahedron(), folder.path() / "mesh", {.format = GetParam(), .extras = {}});
   const ReadResult result = read_soup(folder.path() / "mesh");
   EXPECT_EQ(result.report.format, GetParam());
   EXPECT_EQ(result.report.bytes, std::filesystem::file_size(folder.path() / "mesh"));

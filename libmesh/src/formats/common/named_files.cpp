@@ -32,4 +32,11 @@ std::optional<fs::path> find_named(const MeshSource& source, std::string_view na
   return path;
 }
 
+std::string name_seen_from(const fs::path& folder, const fs::path& path) {
+  const auto full = [](const fs::path& p) {
+    return fs::absolute(p.empty() ? "." : p).lexically_normal();
+  };
+  return full(path).lexically_relative(full(folder)).generic_string();
+}
+
 }  // namespace meshrepair

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <mesh/mesh_source.h>
@@ -18,5 +19,9 @@ namespace meshrepair {
 // The same, for a file that is there. No link leads out of the folder, either.
 [[nodiscard]] std::optional<std::filesystem::path> find_named(const MeshSource& source,
                                                               std::string_view name);
+
+// The name of the file at `path` as seen from a folder; both as this process finds them.
+[[nodiscard]] std::string name_seen_from(const std::filesystem::path& folder,
+                                         const std::filesystem::path& path);
 
 }  // namespace meshrepair

@@ -102,6 +102,17 @@ bool TextScanner::skip_continuation() {
   return true;
 }
 
+std::string_view TextScanner::rest_of_line() {
+  if (!next_on_line()) return {};
+  const char* const first = at_;
+  const char* end = at_;
+  while (next_on_line()) {
+    skip_token();
+    end = at_;
+  }
+  return {first, static_cast<std::size_t>(end - first)};
+}
+
 std::size_t TextScanner::tokens_on_line() const {
   TextScanner ahead = *this;
   std::size_t count = 0;

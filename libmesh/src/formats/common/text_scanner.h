@@ -55,6 +55,9 @@ class TextScanner {
   [[nodiscard]] char peek() const { return *at_; }
   [[nodiscard]] std::string_view peek_token() const;
 
+  // What is left of the line, without the blanks around it; goes to its end.
+  std::string_view rest_of_line();
+
   // Number of tokens from here to the end of the line.
   [[nodiscard]] std::size_t tokens_on_line() const;
 

@@ -16,7 +16,7 @@ template <class Number>
 void append_number(std::string& text, Number value) {
   std::array<char, 32> digits;
   const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  text.append(digits.data(), end);
+  text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
 // Three numbers with blanks between, as they stand in an Eigen vector or a std::array.

@@ -149,7 +149,7 @@ class LibraryReader {
       TextScanner text(line.rest);
       if (!text.next_on_line() || !text.read_real(value)) return;
       look_->colour[3] = std::clamp(line.key == "d" ? value : 1 - value, 0.0, 1.0);
-    } else if (equals_ignoring_case(line.key, "map_Kd")) {
+    } else if (equals_ignoring_case(line.key, "map_kd")) {
       look_->image = image_of(with_slashes(picture_of(line.rest)));
     }
   }
@@ -199,7 +199,7 @@ class LibraryMover {
   [[nodiscard]] std::string moved_name(std::string_view name) const {
     const fs::path path = fs::path(with_slashes(name)).lexically_normal();
     if (path.empty() || path.has_root_path() || *path.begin() == "..") return std::string(name);
-    return full(library_.folder / path).lexically_relative(folder_).generic_string();
+    return name_seen_from(folder_, library_.folder / path);
   }
 
   const MaterialLibraries::Library& library_;
@@ -267,7 +267,7 @@ class MaterialFiles {
   std::string name_of_image(std::uint32_t number) {
     const Image& image = attributes_.images[number];
     if (!image.bytes) {
-      return full(image.path).lexically_relative(full(path_.parent_path())).generic_string();
+      return name_seen_from(path_.parent_path(), image.path);
     }
     const std::string name =
         path_.stem().string() + "_" + std::to_string(number) + extension_of(image);
@@ -283,13 +283,13 @@ class MaterialFiles {
     fs::path path = path_;
     path.replace_extension(".mtl");
     const auto is_in_use = [&] {
-      return known != nullptr &&
-             std::any_of(known->libraries.begin(), known->libraries.end(),
-                         [&](const MaterialLibraries::Library& library) {
-                           std::error_code error;
-                           return !library.path.empty() && library.text != text &&
-                                  fs::equivalent(path, library.path, error);
-                         });
+      return known != nullptr && std::any_of(known->libraries.begin(), known->libraries.end(),
+                                             [&](const MaterialLibraries::Library& library) {
+                                               std::error_code error;
+                                               return !library.path.empty() &&
+                                                      library.text != text &&
+                                                      fs::equivalent(path, library.path, error);
+                                             });
     };
     for (int i = 1; is_in_use(); ++i) {
       path.replace_filename(path_.stem().string() + "_" + std::to_string(i) + ".mtl");

@@ -17,19 +17,6 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-// What is left of the line, without the blanks around it.
-std::string_view rest_of_line(TextScanner& text) {
-  if (!text.next_on_line()) return {};
-  const std::string_view first = text.peek_token();
-  const char* end = first.data() + first.size();
-  while (text.next_on_line()) {
-    const std::string_view word = text.peek_token();
-    end = word.data() + word.size();
-    text.skip_token();
-  }
-  return {first.data(), static_cast<std::size_t>(end - first.data())};
-}
-
 // The number at the start of `text`, which goes on behind it and the slash that follows.
 std::optional<std::int64_t> next_index(std::string_view& text) {
   std::int64_t number = 0;
@@ -59,26 +46,15 @@ void append_values(std::string& text, std::string_view word, const CornerAttribu
   });
 }
 
-// Of each point the colour of one of its corners, as OBJ has them for points alone.
-std::vector<std::uint32_t> colours_of_points(const TriangleSoup& soup,
-                                             const CornerAttribute& colours) {
-  std::vector<std::uint32_t> of_point(soup.points.size(), kNone);
-  for (std::size_t i = 0; i < colours.of_corner.size(); ++i) {
-    std::uint32_t& colour = of_point[soup.triangles[i / 3][i % 3]];
-    if (colour == kNone) colour = colours.of_corner[i];
-  }
-  return of_point;
-}
-
 void append_points(std::string& text, const TriangleSoup& soup, const CornerAttribute* colours) {
   std::vector<std::uint32_t> colour_of;
-  if (colours != nullptr) colour_of = colours_of_points(soup, *colours);
+  if (colours != nullptr) colour_of = first_values_by_point(soup, *colours);
   append_lines(text, soup.points.size(), [&](std::string& lines, std::size_t p) {
     lines += "v ";
     append_triple(lines, soup.points[p]);
     if (!colour_of.empty() && colour_of[p] != kNone) {
       lines += ' ';
-      append_triple(lines, colours->values.data() + 3 * std::size_t{colour_of[p]});
+      append_triple(lines, colours->values.data() + colours->components * colour_of[p]);
     }
     lines += '\n';
   });
@@ -198,15 +174,15 @@ bool ObjAttributes::read_line(std::string_view word, TextScanner& text) {
     normals_.components = 3;
     normals_.add(text, 3);
   } else if (word == "usemtl") {
-    materials_.choose(rest_of_line(text));
+    materials_.choose(text.rest_of_line());
   } else if (word == "g") {
-    groups_.choose(rest_of_line(text));
+    groups_.choose(text.rest_of_line());
   } else if (word == "o") {
-    objects_.choose(rest_of_line(text));
+    objects_.choose(text.rest_of_line());
   } else if (word == "s") {
-    smoothing_.choose(rest_of_line(text));
+    smoothing_.choose(text.rest_of_line());
   } else if (word == "mtllib") {
-    libraries_.emplace_back(rest_of_line(text));
+    libraries_.emplace_back(text.rest_of_line());
   } else {
     return false;
   }

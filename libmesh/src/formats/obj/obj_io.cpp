@@ -99,14 +99,14 @@ class ObjReader {
 
 ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); }
 
-std::string format_obj(const TriangleSoup& soup, const std::vector<std::string>& comments,
-                       const Attributes* attributes, const std::string& library) {
+std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras,
+                       const std::string& library) {
   std::string out;
-  for (const std::string& comment : comments) out += "# " + comment + "\n";
-  if (attributes != nullptr && !attributes->empty()) {
+  for (const std::string& comment : extras.comments) out += "# " + comment + "\n";
+  if (extras.attributes != nullptr && !extras.attributes->empty()) {
     out += library.empty() ? std::string() : "mtllib " + library + "\n";
-    out += unread_libraries(*attributes);
-    append_obj(out, soup, *attributes);
+    out += unread_libraries(*extras.attributes);
+    append_obj(out, soup, *extras.attributes);
     return out;
   }
   append_lines(out, soup.points.size(), [&](std::string& lines, std::size_t p) {

@@ -7,6 +7,7 @@
 #include <mesh/mesh_source.h>
 #include <mesh/point_reading.h>
 #include <mesh/reading.h>
+#include <mesh/soup_io.h>
 
 namespace meshrepair {
 
@@ -18,11 +19,9 @@ namespace meshrepair {
 // only libraries of materials are opened, if attributes are asked for.
 [[nodiscard]] ReadResult read_obj(const MeshSource& source);
 
-// `attributes` may be null. `library` is the name of the file that has their materials; empty: there
-// is none.
-[[nodiscard]] std::string format_obj(const TriangleSoup& soup,
-                                     const std::vector<std::string>& comments,
-                                     const Attributes* attributes, const std::string& library);
+// `library` is the name of the file that has the materials; empty: there is none.
+[[nodiscard]] std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras,
+                                     const std::string& library);
 
 // The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to
 // 1; `vn` a normal. Normals belong to the points in order, and are none of theirs where there are

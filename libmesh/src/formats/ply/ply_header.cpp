@@ -58,7 +58,9 @@ class PlyHeaderReader {
         if (!has_format) source_.fail("the PLY header does not say which format");
         end_header();
         return std::move(header_);
-      } else if (word != "comment" && word != "obj_info") {
+      } else if (word == "comment") {
+        header_.comments.emplace_back(text_.rest_of_line());
+      } else if (word != "obj_info") {
         fail("unknown word '" + printable(word) + "' in the PLY header");
       }
       text_.skip_line();

@@ -36,7 +36,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;
-  std::size_t data_at = 0;  // position of the first byte behind the header
+  std::vector<std::string> comments;  // without the word and the blanks around
+  std::size_t data_at = 0;            // position of the first byte behind the header
 };
 
 // Needs begins_with_ply(). Throws InputError, with the line, for a header that cannot be understood

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include <base/assert.h>
 #include <mesh/read_guard.h>
 
 #include "formats/common/face_list.h"
-#include "formats/common/text_writer.h"
+#include "ply_attributes.h"
 #include "ply_cursor.h"
 #include "ply_header.h"
 
@@ -51,12 +51,14 @@ class PlyBody {
   PlyBody(const MeshSource& source, const PlyHeader& header, SoupFormat format)
       : source_(source), header_(header), cursor_(source.bytes, header), guard_(source) {
     result_.report.format = format;
+    if (source.options.attributes) attributes_.emplace(source, header);
   }
 
   ReadResult run() {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;
       cursor_.begin_element(element);
+      if (attributes_) attributes_->begin_element(element);
       if (element.name == "vertex") {
         read_points(element);
       } else if (element.name == "face") {
@@ -69,7 +71,13 @@ class PlyBody {
     }
     guard_.step(faces_.triangles(), source_.bytes.size());
     report_losses();
-    faces_.append_to(result_, source_.options.progress);
+    if (attributes_) {
+      std::vector<FaceList::Origin> origins;
+      faces_.append_to(result_, source_.options.progress, &origins);
+      result_.attributes = attributes_->take(origins, result_.soup.triangles, !has_strips_);
+    } else {
+      faces_.append_to(result_, source_.options.progress);
+    }
     return std::move(result_);
   }
 
@@ -103,6 +111,18 @@ class PlyBody {
         [&](const PlyProperty& property) { return pass_over_property(cursor_, property); });
   }
 
+  // But for what it says of attributes, if these are wanted.
+  bool pass_over(const PlyProperty& property, std::size_t number) {
+    if (!attributes_) return pass_over_property(cursor_, property);
+    std::size_t length = 1;
+    if (property.is_list && !read_length(cursor_, property, length)) return false;
+    for (double value = 0; length > 0; --length) {
+      if (!cursor_.read(property.type, value)) return false;
+      attributes_->add(number, value);
+    }
+    return true;
+  }
+
   void read_points(const PlyElement& element) {
     std::vector<int> axes(element.properties.size(), -1);
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,10 +142,10 @@ class PlyBody {
     bool whole = true;
     for (std::size_t i = 0; i < axes.size() && whole; ++i) {
       const PlyProperty& property = element.properties[i];
-      whole = axes[i] < 0 ? pass_over_property(cursor_, property)
-                          : cursor_.read(property.type, point[axes[i]]);
+      whole = axes[i] < 0 ? pass_over(property, i) : cursor_.read(property.type, point[axes[i]]);
     }
     if (!whole && !Cursor::kCanResume) return false;
+    if (attributes_) attributes_->end_point();
     if ((!whole || cursor_.garbage()) && !point.allFinite()) ++result_.report.bad_points;
     result_.soup.points.push_back(point);
     return whole;
@@ -138,7 +158,7 @@ class PlyBody {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (i != wanted) {
-        if (!pass_over_property(cursor_, property)) return false;
+        if (!pass_over(property, i)) return false;
         continue;
       }
       std::size_t length = 0;
@@ -162,9 +182,10 @@ class PlyBody {
       const bool whole = read_list_item(element, indices, add);
       ends_file = whole && cursor_.remaining() == 0;
       if (whole) {
-        faces_.end_face();
+        end_face();
       } else {
         faces_.drop_face();
+        if (attributes_) attributes_->forget_item();
         ++unreadable;
       }
       return whole;
@@ -175,9 +196,17 @@ class PlyBody {
     // The last number of a cut text may be cut too.
     if (ends_file && found < element.count) {
       faces_.drop_face();
+      if (attributes_) attributes_->drop_face(faces_.corners());
       ++unreadable;
     }
     report_unreadable(unreadable);
+  }
+
+  void end_face() {
+    const std::size_t before = corners_;
+    faces_.end_face();
+    corners_ = faces_.corners();
+    if (attributes_) attributes_->end_face(corners_ - before);
   }
 
   void report_unreadable(std::size_t count) {
@@ -191,6 +220,7 @@ class PlyBody {
   // of these is turned round. A negative value ends the strip and begins another.
   void read_strips(const PlyElement& element) {
     const std::size_t indices = find_indices(element);
+    has_strips_ = true;
     if (indices == kNoProperty) source_.fail("the strips of the PLY file have no vertex_indices");
     read_items(element, [&] {
       std::array<std::int64_t, 2> before = {};
@@ -236,21 +266,11 @@ class PlyBody {
   ReadResult result_;
   FaceList faces_;
   ReadGuard guard_;
+  std::optional<PlyAttributes> attributes_;  // if they are wanted
+  std::size_t corners_ = 0;                  // of faces that have ended
+  bool has_strips_ = false;
   bool stopped_ = false;  // what follows cannot be read
 };
-
-std::string format_header(const TriangleSoup& soup, std::string_view format,
-                          const std::vector<std::string>& comments,
-                          std::span<const std::uint32_t> sources) {
-  MESHREPAIR_ASSERT(sources.empty() || sources.size() == soup.triangles.size());
-  std::string out = "ply\nformat " + std::string(format) + " 1.0\n";
-  for (const std::string& comment : comments) out += "comment " + comment + "\n";
-  out += "element vertex " + std::to_string(soup.points.size()) +
-         "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-         std::to_string(soup.triangles.size()) + "\nproperty list uchar uint vertex_indices\n";
-  if (!sources.empty()) out += "property int source_triangle\n";
-  return out + "end_header\n";
-}
 
 }  // namespace
 
@@ -273,31 +293,6 @@ ReadResult read_ply(const MeshSource& source) {
       break;
   }
   return PlyBody<PlyBinaryCursor<std::endian::big>>(source, header, SoupFormat::ply_binary).run();
-}
-
-std::string format_ply_binary(const TriangleSoup& soup, const std::vector<std::string>& comments,
-                              std::span<const std::uint32_t> sources) {
-  static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
-  std::string out = format_header(soup, "binary_little_endian", comments, sources);
-  out.reserve(out.size() + 24 * soup.points.size() + 13 * soup.triangles.size() +
-              sources.size_bytes());
-  for (const Vec3d& point : soup.points) {
-    out.append(reinterpret_cast<const char*>(point.data()), 3 * sizeof(double));
-  }
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    out += '\3';
-    out.append(reinterpret_cast<const char*>(soup.triangles[t].data()), sizeof soup.triangles[t]);
-    // As an int all ones are -1.
-    if (!sources.empty()) out.append(reinterpret_cast<const char*>(&sources[t]), sizeof sources[t]);
-  }
-  return out;
-}
-
-std::string format_ply_ascii(const TriangleSoup& soup, const std::vector<std::string>& comments,
-                             std::span<const std::uint32_t> sources) {
-  std::string out = format_header(soup, "ascii", comments, sources);
-  append_mesh_lines(out, soup, sources);
-  return out;
 }
 
 }  // namespace meshrepair

@@ -24,15 +24,6 @@ namespace meshrepair {
 // read behind it.
 [[nodiscard]] ReadResult read_ply(const MeshSource& source);
 
-// Coordinates in double. `sources` has a number for each triangle, written as the property
-// `int source_triangle` of its face, with all ones as -1; if it is empty there is no such property.
-[[nodiscard]] std::string format_ply_binary(const TriangleSoup& soup,
-                                            const std::vector<std::string>& comments,
-                                            std::span<const std::uint32_t> sources);
-[[nodiscard]] std::string format_ply_ascii(const TriangleSoup& soup,
-                                           const std::vector<std::string>& comments,
-                                           std::span<const std::uint32_t> sources);
-
 // Whether the file begins as a PLY whose header promises points and no faces. A header that cannot
 // be understood promises nothing.
 [[nodiscard]] bool is_ply_of_points(const MeshSource& source);

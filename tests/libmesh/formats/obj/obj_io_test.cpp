@@ -98,7 +98,7 @@ TEST(ReadObj, PointsWithoutFacesAreRefused) {
 }
 
 TEST(WriteObj, CommentsComeFirst) {
-  EXPECT_EQ(format_soup({{{0.1, 0, -0.0}}, {}}, SoupFormat::obj, {"one", "two"}),
+  EXPECT_EQ(format_soup({{{0.1, 0, -0.0}}, {}}, SoupFormat::obj, {{"one", "two"}}),
             "# one\n# two\nv 0.1 0 -0\n");
 }
 

@@ -228,11 +228,11 @@ TEST(WritePly, SourcesAreAPropertyThatReadersPassOver) {
   soup.points = kExpectedPoints;
   soup.triangles = kTriangles;
   const std::vector<std::uint32_t> sources = {7, ~std::uint32_t{0}};
-  const std::string ascii = format_soup(soup, SoupFormat::ply_ascii, {}, sources);
+  const std::string ascii = format_soup(soup, SoupFormat::ply_ascii, {{}, sources});
   expect_both_triangles(ascii);
   EXPECT_THAT(ascii, HasSubstr("vertex_indices\nproperty int source_triangle\nend_header\n"));
   EXPECT_TRUE(ascii.ends_with("\n3 0 1 2 7\n3 2 1 0 -1\n"));
-  const std::string binary = format_soup(soup, SoupFormat::ply_binary, {}, sources);
+  const std::string binary = format_soup(soup, SoupFormat::ply_binary, {{}, sources});
   expect_both_triangles(binary);
   EXPECT_TRUE(binary.ends_with(raw(std::int32_t{-1}, false)));
   EXPECT_EQ(binary.substr(binary.size() - 21, 4), raw(std::int32_t{7}, false));
@@ -243,7 +243,7 @@ TEST(WritePly, SourcesNeedPly) {
   const std::vector<std::uint32_t> sources = {0, 1, 2, 3};
   for (const SoupFormat format :
        {SoupFormat::stl_binary, SoupFormat::stl_ascii, SoupFormat::obj, SoupFormat::off}) {
-    EXPECT_THROW(static_cast<void>(format_soup(soup, format, {}, sources)), UsageError);
+    EXPECT_THROW(static_cast<void>(format_soup(soup, format, {{}, sources})), UsageError);
   }
 }
 

@@ -1,0 +1,248 @@
+// Attributes come back bit for bit from every format that holds them.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <mesh/soup_io.h>
+
+#include "soup_fixtures.h"
+#include "temporary_folder.h"
+#include "textured.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+using Kind = CornerAttribute::Kind;
+
+ReadResult read_with_attributes(const std::filesystem::path& path) {
+  ReadOptions options;
+  options.attributes = true;
+  return read_soup(path, options);
+}
+
+ReadResult parse_with_attributes(const std::string& bytes) {
+  ReadOptions options;
+  options.attributes = true;
+  return read_soup(bytes, "mesh", options);
+}
+
+// Triangles of random points, each with values of its own or its neighbours'.
+TexturedSoup random_textured(unsigned seed) {
+  TexturedSoup result{random_soup(seed, true), {}};
+  std::mt19937 random(seed);
+  const std::size_t triangles = result.soup.triangles.size();
+  std::uniform_real_distribution<float> unit(-1, 2);
+  CornerAttribute texture;
+  texture.storage = CornerAttribute::Storage::real32;
+  for (std::size_t i = 0; i < 2 * triangles + 2; ++i) {
+    texture.values.push_back(static_cast<double>(unit(random)));
+  }
+  for (std::size_t i = 0; i < 3 * triangles; ++i) {
+    texture.of_corner.push_back(static_cast<std::uint32_t>(random() % texture.count()));
+  }
+  result.attributes.corners = {texture, normals_of(result.soup), colours_of(result.soup)};
+  result.attributes.materials.names = {"red", "the blue one", "3"};
+  for (std::size_t t = 0; t < triangles; ++t) {
+    result.attributes.materials.of_triangle.push_back(static_cast<std::uint32_t>(random() % 3));
+  }
+  return result;
+}
+
+void expect_same(const Attributes& made, const Attributes& given) {
+  ASSERT_EQ(made.corners.size(), given.corners.size());
+  for (std::size_t i = 0; i < given.corners.size(); ++i) {
+    EXPECT_EQ(made.corners[i].kind, given.corners[i].kind);
+    EXPECT_EQ(value_bits(made.corners[i]), value_bits(given.corners[i])) << "attribute " << i;
+  }
+  EXPECT_EQ(names_of(made.materials), names_of(given.materials));
+}
+
+class AttributesOf : public ::testing::TestWithParam<SoupFormat> {};
+
+TEST_P(AttributesOf, RandomSoupComeBackBitForBit) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    const TexturedSoup given = random_textured(seed);
+    const std::string bytes =
+        format_soup(given.soup, GetParam(), {.attributes = &given.attributes});
+    const ReadResult result = parse_with_attributes(bytes);
+    EXPECT_TRUE(result.report.warnings.empty());
+    ASSERT_EQ(corner_bits(result.soup), corner_bits(given.soup));
+    expect_same(result.attributes, given.attributes);
+  }
+}
+
+// What a file is made of again is the file.
+TEST_P(AttributesOf, FileIsTheSameAgain) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const TexturedSoup given = random_textured(seed);
+    const std::string bytes =
+        format_soup(given.soup, GetParam(), {.attributes = &given.attributes});
+    const ReadResult once = parse_with_attributes(bytes);
+    const std::string again = format_soup(once.soup, GetParam(), {.attributes = &once.attributes});
+    const ReadResult twice = parse_with_attributes(again);
+    EXPECT_EQ(format_soup(twice.soup, GetParam(), {.attributes = &twice.attributes}), again);
+  }
+}
+
+TEST_P(AttributesOf, AreNotReadUnlessAskedFor) {
+  const TexturedSoup given = random_textured(1);
+  const std::string bytes = format_soup(given.soup, GetParam(), {.attributes = &given.attributes});
+  EXPECT_TRUE(read_soup(bytes, "mesh").attributes.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, AttributesOf,
+                         ::testing::Values(SoupFormat::obj, SoupFormat::ply_binary,
+                                           SoupFormat::ply_ascii));
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+constexpr const char* kObj = R"(mtllib lib/cube.mtl
+o Thing
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1 0.5 0.25 1
+vt 0 0
+vt 1 0
+vt 0.5 1
+vn 0 0 -1
+g bottom
+usemtl wood
+s 1
+f 1/1/1 3/3/1 2/2/1
+g sides
+usemtl steel plate
+s off
+f 1/1 2/2 4/3
+f 2 3 4
+f -4//-1 -1//-1 -2//-1
+)";
+
+TEST(ObjAttributes, AreReadAsTheFileSays) {
+  const ReadResult result = parse_with_attributes(kObj);
+  ASSERT_EQ(result.soup.triangles.size(), 4u);
+  const Attributes& attributes = result.attributes;
+  ASSERT_EQ(attributes.corners.size(), 3u);
+  const CornerAttribute& texture = attributes.corners[0];
+  EXPECT_EQ(texture.of_corner, (std::vector<std::uint32_t>{0, 2, 1, 0, 1, 2, kNone, kNone, kNone,
+                                                           kNone, kNone, kNone}));
+  EXPECT_EQ(texture.values, (std::vector<double>{0, 0, 1, 0, 0.5, 1}));
+  const CornerAttribute& normals = attributes.corners[1];
+  EXPECT_EQ(normals.of_corner[2], 0u);
+  EXPECT_EQ(normals.of_corner[3], kNone);
+  EXPECT_EQ(normals.of_corner[9], 0u);
+  const CornerAttribute& colours = attributes.corners[2];
+  EXPECT_EQ(colours.of_corner[0], kNone);
+  EXPECT_EQ(colours.values[3 * colours.of_corner[5] + 1], 0.25);
+  EXPECT_EQ(names_of(attributes.materials),
+            (std::vector<std::string>{"wood", "steel plate", "steel plate", "steel plate"}));
+  EXPECT_EQ(names_of(attributes.groups),
+            (std::vector<std::string>{"bottom", "sides", "sides", "sides"}));
+  EXPECT_EQ(names_of(attributes.objects),
+            (std::vector<std::string>{"Thing", "Thing", "Thing", "Thing"}));
+  EXPECT_EQ(names_of(attributes.smoothing), (std::vector<std::string>{"1", "off", "off", "off"}));
+}
+
+TEST(ObjAttributes, CornersOfPolygonsKeepTheirValues) {
+  const ReadResult result = parse_with_attributes(
+      "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nvt 1 0\nvt 2 0\nvt 3 0\nvt 4 0\nvt 5 0\n"
+      "f 1/1 2/2 3/3 4/4 5/5\nf 1/1 2/2 x\nf 1/5 2/4 3/3\n");
+  ASSERT_EQ(result.soup.triangles.size(), 4u);
+  const CornerAttribute& texture = result.attributes.corners.at(0);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(texture.values[2 * texture.of_corner[i]], 1 + result.soup.triangles[i / 3][i % 3]);
+  }
+  EXPECT_EQ(texture.values[2 * texture.of_corner[9]], 5);
+}
+
+TEST(ObjAttributes, IndicesOutsideLeaveCornersWithoutValues) {
+  const ReadResult result = parse_with_attributes(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/2 2/-2 3/0\nf 1/99999999999999999999 2/1x 3/1\n");
+  const CornerAttribute& texture = result.attributes.corners.at(0);
+  EXPECT_EQ(texture.of_corner, (std::vector<std::uint32_t>{kNone, kNone, kNone, kNone, 0, 0}));
+}
+
+// Of a file and its library, in folders.
+class ObjLibraries : public ::testing::Test {
+ protected:
+  ObjLibraries() {
+    std::filesystem::create_directories(folder_.path() / "in/lib");
+    std::filesystem::create_directories(folder_.path() / "out/deep");
+    write("in/cube.obj", kObj);
+    write("in/lib/cube.mtl",
+          "# of cubes\nnewmtl wood\n  Kd 0.5 0.25 0.125\nd 0.5\n"
+          "map_Kd -s 1 1 1 -o 0.5 textures\\wood grain.png\nbump ../secret.png\n"
+          "newmtl steel plate\nmap_Bump -bm 0.5 bump.png\n");
+  }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.path() / name) << text;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ObjLibraries, SayWhatMaterialsLookLike) {
+  const ReadResult result = read_with_attributes(folder_.path() / "in/cube.obj");
+  EXPECT_TRUE(result.report.warnings.empty());
+  ASSERT_EQ(result.attributes.looks.size(), 2u);
+  const Material& wood = result.attributes.looks[0];
+  EXPECT_EQ(wood.colour, (std::array<double, 4>{0.5, 0.25, 0.125, 0.5}));
+  ASSERT_EQ(wood.image, 0u);
+  EXPECT_EQ(result.attributes.images[0].path,
+            (folder_.path() / "in/lib/textures/wood grain.png").string());
+  EXPECT_EQ(result.attributes.looks[1].image, kNone);
+}
+
+TEST_F(ObjLibraries, AreWrittenBesideTheMeshWithNamesOfPicturesFromThere) {
+  const ReadResult result = read_with_attributes(folder_.path() / "in/cube.obj");
+  const auto out = folder_.path() / "out/deep/cube.obj";
+  write_soup(result.soup, out, {.extras = {.attributes = &result.attributes}});
+  EXPECT_TRUE(text_of(out).starts_with("mtllib cube.mtl\n"));
+  EXPECT_EQ(text_of(folder_.path() / "out/deep/cube.mtl"),
+            "# of cubes\nnewmtl wood\n  Kd 0.5 0.25 0.125\nd 0.5\n"
+            "map_Kd -s 1 1 1 -o 0.5 ../../in/lib/textures/wood grain.png\nbump ../secret.png\n"
+            "newmtl steel plate\nmap_Bump -bm 0.5 ../../in/lib/bump.png\n");
+}
+
+TEST_F(ObjLibraries, OfTheInputAreNotWrittenOver) {
+  const std::string library = "newmtl wood\n";
+  write("in/other.mtl", library);
+  write("in/mesh.obj", "mtllib other.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
+  ReadResult result = read_with_attributes(folder_.path() / "in/mesh.obj");
+  write_soup(result.soup, folder_.path() / "in/other.obj",
+             {.extras = {.attributes = &result.attributes}});
+  EXPECT_EQ(text_of(folder_.path() / "in/other.mtl"), library);
+  result.attributes.materials.names[0] = "another";
+  write_soup(result.soup, folder_.path() / "in/other.obj",
+             {.extras = {.attributes = &result.attributes}});
+  EXPECT_EQ(text_of(folder_.path() / "in/other.mtl"), library);
+  EXPECT_TRUE(text_of(folder_.path() / "in/other.obj").starts_with("mtllib other_1.mtl\n"));
+  EXPECT_NE(text_of(folder_.path() / "in/other_1.mtl").find("newmtl another\n"), std::string::npos);
+}
+
+TEST_F(ObjLibraries, OutsideTheFolderAreNotOpened) {
+  write("secret.mtl", "newmtl wood\nKd 1 0 0\n");
+  std::filesystem::create_symlink(folder_.path() / "secret.mtl", folder_.path() / "in/link.mtl");
+  const std::vector<std::string> names = {"../secret.mtl", "lib/../../secret.mtl", "link.mtl",
+                                          "missing.mtl",   "lib",
+                                          (folder_.path() / "secret.mtl").string()};
+  for (const std::string& name : names) {
+    write("in/mesh.obj", "mtllib " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
+    const ReadResult result = read_with_attributes(folder_.path() / "in/mesh.obj");
+    ASSERT_EQ(result.report.warnings.size(), 1u) << name;
+    EXPECT_EQ(result.attributes.looks.at(0).colour[1], 1) << name;
+  }
+}
+
+}  // namespace
+}  // namespace meshrepair
