@@ -11,7 +11,7 @@
 
 namespace meshrepair {
 
-// The material of triangles that close a gap, where others have materials.
+// The material of triangles that close a gap where several charts of a texture meet.
 inline constexpr std::string_view kPatchMaterial = "meshrepair_patch";
 
 // Has the repair of the soup with these attributes leave each triangle of the result in one of the
@@ -24,8 +24,13 @@ void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
 // of that, bit for bit. Any other has the affine function of the source triangle's values at its
 // place, found in doubles: right to a few units in the last place where it is in the triangle's
 // plane. Where simplification moved it from there by d, it is off by at most d times the steepness
-// of the function. Normals are of length 1 again, and turn with their triangle. Triangles without a
-// source have no values, no groups, and kPatchMaterial.
+// of the function. Normals are of length 1 again, and turn with their triangle. Of triangles in one
+// place the first of the input counts that faces as the result does, if there is such a one.
+//
+// Triangles without a source are patches. One whose rim is one chart of the texture has the rim's
+// coordinates, and within it those that make each point the mean of its neighbours; and the
+// material that most of the rim has. Any other has no coordinates, and kPatchMaterial. Colours and
+// other numbers are as coordinates are, whatever the charts; normals are the patch's own.
 //
 // `attributes` are of `input`, of which `surface` was made. Linear; on several threads.
 [[nodiscard]] Attributes transfer_attributes(const TriangleSoup& input,

@@ -13,6 +13,8 @@
 #include <base/parallel.h>
 #include <repair/transfer_attributes.h>
 
+#include "patch_attributes.h"
+
 namespace meshrepair {
 namespace {
 
@@ -149,21 +151,6 @@ TriangleLabels transfer_labels(const TriangleLabels& given, const Surface& surfa
   return labels;
 }
 
-void name_patches(const Surface& surface, Attributes& attributes) {
-  TriangleLabels& materials = attributes.materials;
-  if (materials.empty()) return;
-  const auto patch = static_cast<std::uint32_t>(materials.names.size());
-  bool any = false;
-  for (std::size_t t = 0; t < surface.source.size(); ++t) {
-    if (surface.source[t] != Surface::kNoSource) continue;
-    materials.of_triangle[t] = patch;
-    any = true;
-  }
-  if (!any) return;
-  materials.names.emplace_back(kPatchMaterial);
-  if (!attributes.looks.empty()) attributes.looks.emplace_back();
-}
-
 }  // namespace
 
 Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attributes,
@@ -175,11 +162,11 @@ Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attr
   result.materials = transfer_labels(attributes.materials, surface);
   result.looks = attributes.looks;
   result.images = attributes.images;
-  name_patches(surface, result);
   result.groups = transfer_labels(attributes.groups, surface);
   result.objects = transfer_labels(attributes.objects, surface);
   result.smoothing = transfer_labels(attributes.smoothing, surface);
   result.keepsake = attributes.keepsake;
+  internal::fill_patches(surface, result);
   return result;
 }
 

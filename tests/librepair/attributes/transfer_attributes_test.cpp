@@ -186,6 +186,67 @@ TEST(TransferAttributes, NormalsHaveLengthOneAndTurnWithTheirTriangles) {
   }
 }
 
+// Without some triangles around a point.
+TexturedSoup with_hole(TexturedSoup input, const Vec3d& around, double radius) {
+  Attributes& attributes = input.attributes;
+  TexturedSoup result;
+  result.soup.points = input.soup.points;
+  result.attributes = attributes;
+  result.attributes.materials.of_triangle.clear();
+  result.attributes.groups.of_triangle.clear();
+  for (CornerAttribute& attribute : result.attributes.corners) attribute.of_corner.clear();
+  for (std::size_t t = 0; t < input.soup.triangles.size(); ++t) {
+    const auto& c = input.soup.triangles[t];
+    if ((input.soup.points[c[0]] - around).norm() < radius) continue;
+    result.soup.triangles.push_back(c);
+    result.attributes.materials.of_triangle.push_back(attributes.materials.of_triangle[t]);
+    result.attributes.groups.of_triangle.push_back(attributes.groups.of_triangle[t]);
+    for (std::size_t a = 0; a < attributes.corners.size(); ++a) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        result.attributes.corners[a].of_corner.push_back(
+            attributes.corners[a].of_corner[3 * t + k]);
+      }
+    }
+  }
+  return result;
+}
+
+TEST(TransferAttributes, PatchWithinOneChartContinuesIt) {
+  const TexturedSoup whole = textured({sphere(2000)});
+  const Repaired result = repaired(with_hole(whole, Vec3d(1, 1, 0).normalized(), 0.3));
+  std::size_t patches = 0;
+  const CornerAttribute& texture = result.attributes.corners[0];
+  for (std::size_t t = 0; t < result.surface.source.size(); ++t) {
+    if (result.surface.source[t] != Surface::kNoSource) continue;
+    ++patches;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d at = result.surface.mesh.points[result.surface.mesh.triangles[t][k]];
+      const std::uint32_t value = texture.of_corner[3 * t + k];
+      ASSERT_NE(value, kNone);
+      EXPECT_NEAR(texture.values[2 * value], 0.75 + 0.1 * std::sin(at.x()) + 0.05 * at.z(), 0.01);
+      EXPECT_NEAR(texture.values[2 * value + 1], 0.1 * at.y() * at.y() + 0.1 * at.z(), 0.02);
+    }
+    EXPECT_EQ(names_of(result.attributes.materials)[t], "material 0");
+  }
+  EXPECT_GT(patches, 10u);
+}
+
+TEST(TransferAttributes, PatchWhereChartsMeetHasAMaterialOfItsOwn) {
+  const TexturedSoup whole = textured({sphere(2000)});
+  const Repaired result = repaired(with_hole(whole, {1, 0, 0}, 0.3));
+  std::size_t patches = 0;
+  for (std::size_t t = 0; t < result.surface.source.size(); ++t) {
+    const bool is_patch = result.surface.source[t] == Surface::kNoSource;
+    patches += is_patch ? 1 : 0;
+    EXPECT_EQ(names_of(result.attributes.materials)[t], is_patch ? kPatchMaterial : "material 0");
+    EXPECT_EQ(names_of(result.attributes.groups)[t], "material 0_group");
+    EXPECT_EQ(result.attributes.corners[0].of_corner[3 * t] == kNone, is_patch);
+    EXPECT_NE(result.attributes.corners[1].of_corner[3 * t], kNone);
+    EXPECT_NE(result.attributes.corners[2].of_corner[3 * t], kNone);
+  }
+  EXPECT_GT(patches, 10u);
+}
+
 TEST(TransferAttributes, OfMeshThatIsKeptAsItIs) {
   const TexturedSoup input = textured({sphere(300)});
   const Repaired result = repaired(input);
