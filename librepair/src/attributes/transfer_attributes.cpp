@@ -13,6 +13,7 @@
 #include <base/parallel.h>
 #include <repair/transfer_attributes.h>
 
+#include "facing_sources.h"
 #include "patch_attributes.h"
 
 namespace meshrepair {
@@ -26,7 +27,8 @@ Places places_of(const TriangleSoup& soup, std::size_t t) {
 }
 
 // How a point is made of the corners of a triangle, in whose plane it lies: seen along the axis
-// along which the triangle is largest, as that needs no lengths. Nothing where it has no area.
+// along which the triangle is largest, as that needs no lengths. What is beside the triangle, as
+// points may have been moved, is not far from it. Nothing where it has no area.
 std::optional<std::array<double, 3>> shares_of(const Vec3d& p, const Places& triangle) {
   const auto& [a, b, c] = triangle;
   const Vec3d normal = (b - a).cross(c - a);
@@ -37,15 +39,20 @@ std::optional<std::array<double, 3>> shares_of(const Vec3d& p, const Places& tri
   const auto area = [&](const Vec3d& q, const Vec3d& r) {
     return (q[u] - p[u]) * (r[v] - p[v]) - (q[v] - p[v]) * (r[u] - p[u]);
   };
-  const double of_a = area(b, c) / normal[axis], of_b = area(c, a) / normal[axis];
-  return std::array{of_a, of_b, 1 - of_a - of_b};
+  std::array<double, 3> shares = {area(b, c) / normal[axis], area(c, a) / normal[axis],
+                                  area(a, b) / normal[axis]};
+  for (double& share : shares) share = std::max(share, 0.0);
+  const double sum = shares[0] + shares[1] + shares[2];
+  for (double& share : shares) share /= sum;
+  return shares;
 }
 
 // Values of one kind, of all corners of the result.
 class ValueTransfer {
  public:
-  ValueTransfer(const TriangleSoup& input, const CornerAttribute& given, const Surface& surface)
-      : input_(input), given_(given), surface_(surface) {}
+  ValueTransfer(const TriangleSoup& input, const CornerAttribute& given, const Surface& surface,
+                const std::vector<std::uint32_t>& sources)
+      : input_(input), given_(given), surface_(surface), sources_(sources) {}
 
   CornerAttribute run() {
     const std::size_t corners = 3 * surface_.mesh.triangles.size();
@@ -78,7 +85,7 @@ class ValueTransfer {
 
   void make_corners(std::size_t t, std::span<std::uint32_t> of_corner,
                     std::vector<double>& made) const {
-    const std::uint32_t source = surface_.source[t];
+    const std::uint32_t source = sources_[t];
     std::fill(of_corner.begin(), of_corner.end(), kNone);
     if (source == Surface::kNoSource) return;
     const Places from = places_of(input_, source), to = places_of(surface_.mesh, t);
@@ -139,13 +146,15 @@ class ValueTransfer {
   const TriangleSoup& input_;
   const CornerAttribute& given_;
   const Surface& surface_;
+  const std::vector<std::uint32_t>& sources_;
 };
 
-TriangleLabels transfer_labels(const TriangleLabels& given, const Surface& surface) {
+TriangleLabels transfer_labels(const TriangleLabels& given,
+                               const std::vector<std::uint32_t>& sources) {
   if (given.empty()) return {};
   TriangleLabels labels{given.names, {}};
-  labels.of_triangle.reserve(surface.source.size());
-  for (const std::uint32_t source : surface.source) {
+  labels.of_triangle.reserve(sources.size());
+  for (const std::uint32_t source : sources) {
     labels.of_triangle.push_back(source == Surface::kNoSource ? kNone : given.of_triangle[source]);
   }
   return labels;
@@ -156,15 +165,16 @@ TriangleLabels transfer_labels(const TriangleLabels& given, const Surface& surfa
 Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attributes,
                                const Surface& surface) {
   Attributes result;
+  const std::vector<std::uint32_t> sources = internal::facing_sources(input, surface);
   for (const CornerAttribute& given : attributes.corners) {
-    result.corners.push_back(ValueTransfer(input, given, surface).run());
+    result.corners.push_back(ValueTransfer(input, given, surface, sources).run());
   }
-  result.materials = transfer_labels(attributes.materials, surface);
+  result.materials = transfer_labels(attributes.materials, sources);
   result.looks = attributes.looks;
   result.images = attributes.images;
-  result.groups = transfer_labels(attributes.groups, surface);
-  result.objects = transfer_labels(attributes.objects, surface);
-  result.smoothing = transfer_labels(attributes.smoothing, surface);
+  result.groups = transfer_labels(attributes.groups, sources);
+  result.objects = transfer_labels(attributes.objects, sources);
+  result.smoothing = transfer_labels(attributes.smoothing, sources);
   result.keepsake = attributes.keepsake;
   internal::fill_patches(surface, result);
   return result;

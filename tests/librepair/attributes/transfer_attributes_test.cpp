@@ -247,6 +247,19 @@ TEST(TransferAttributes, PatchWhereChartsMeetHasAMaterialOfItsOwn) {
   EXPECT_GT(patches, 10u);
 }
 
+TEST(TransferAttributes, OfTrianglesInOnePlaceTheOneThatFacesOutwardsCounts) {
+  const TexturedSoup input = textured({flipped(sphere(300)), sphere(300), sphere(300)});
+  for (const InsideRule rule : {InsideRule::automatic, InsideRule::solidity}) {
+    RepairOptions options;
+    options.inside.rule = rule;
+    const Repaired result = repaired(input, options);
+    ASSERT_EQ(result.surface.mesh.triangles.size(), sphere(300).triangles.size());
+    for (const std::string& name : names_of(result.attributes.materials)) {
+      ASSERT_EQ(name, "material 1");
+    }
+  }
+}
+
 TEST(TransferAttributes, OfMeshThatIsKeptAsItIs) {
   const TexturedSoup input = textured({sphere(300)});
   const Repaired result = repaired(input);
