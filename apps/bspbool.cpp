@@ -38,19 +38,29 @@ bool is_tree_name(const std::string& name) {
 
 struct Operand {
   TriangleSoup solid;
+  Attributes attributes;  // of its triangles
   bool as_given = false;  // was the boundary of a solid already
 };
 
-Operand read_mesh_operand(RepairOptions repair_options, Run& run, Findings& findings) {
-  TriangleSoup soup = read_mesh_stage(run, findings, true);
-  if (soup.triangles.empty()) return {{}, true};
+Operand read_mesh_operand(RepairOptions repair_options, bool wants_attributes, Run& run,
+                          Findings& findings) {
+  Attributes attributes;
+  TriangleSoup soup =
+      read_mesh_stage(run, findings, true, wants_attributes ? &attributes : nullptr);
+  if (soup.triangles.empty()) return {{}, {}, true};
+  if (!attributes.empty()) keep_attributes(soup, attributes, repair_options);
   {
     StageMeter meter(findings.repair.stages, &run.progress);
     meter.begin("validate");
-    if (auto kept = keep_valid(soup, repair_options)) return {std::move(kept->mesh), true};
+    if (auto kept = keep_valid(soup, repair_options)) {
+      attributes = attributes.empty() ? Attributes() : transfer_attributes(soup, attributes, *kept);
+      return {std::move(kept->mesh), std::move(attributes), true};
+    }
   }
   repair_options.keep_valid = true;
-  return {repair(soup, repair_options, findings.repair).mesh};
+  Surface solid = repair(soup, repair_options, findings.repair);
+  attributes = transfer_attributes_stage(soup, attributes, solid, run, findings);
+  return {std::move(solid.mesh), std::move(attributes)};
 }
 
 // A mesh that is no solid is repaired, a tree without labels gets some. One in which nothing is
@@ -59,14 +69,16 @@ Operand read_operand(const BoolOptions& options, Run& run, Findings& findings) {
   RepairOptions repair_options = options.step.repair;
   repair_options.certify.precision = Precision::float64;  // only what comes out is written
   repair_options.progress = &run.progress;
-  if (!is_tree_name(findings.input)) return read_mesh_operand(repair_options, run, findings);
+  if (!is_tree_name(findings.input)) {
+    return read_mesh_operand(repair_options, options.step.attributes, run, findings);
+  }
   Tree tree = read_tree_stage(run, findings);
   if (!findings.tree_read->labelled) {
     label_tree(tree, repair_options, findings.repair);
   } else if (findings.tree_read->solid_leaves == 0) {
     return {};
   }
-  return {extract_mesh(tree, repair_options, findings.repair).mesh};
+  return {extract_mesh(tree, repair_options, findings.repair).mesh, {}};
 }
 
 bool is_certified(const Operand& operand, const Findings& findings) {
@@ -85,8 +97,7 @@ Json facts_of_operand(const Operand& operand, const Findings& findings, const Js
   return facts;
 }
 
-TriangleSoup take_operand(const BoolOptions& options, const std::string& name, Run& run,
-                          Json& facts) {
+Operand take_operand(const BoolOptions& options, const std::string& name, Run& run, Json& facts) {
   Findings findings(name, "");
   Operand operand;
   (void)with_findings(run, findings, [&] {
@@ -101,8 +112,34 @@ TriangleSoup take_operand(const BoolOptions& options, const std::string& name, R
                  findings.input_name());
   }
   facts.push_back(facts_of_operand(operand, findings, run.report.take_sections()));
-  return std::move(operand.solid);
+  return operand;
 }
+
+// All solids, and what their triangles carry, one after the other.
+struct Operands {
+  std::vector<TriangleSoup> solids;
+  TriangleSoup joined;  // only where there are attributes
+  Attributes attributes;
+
+  void add(Operand operand) {
+    std::size_t triangles = 0;
+    for (const TriangleSoup& solid : solids) triangles += solid.triangles.size();
+    append_attributes(attributes, triangles, std::move(operand.attributes),
+                      operand.solid.triangles.size());
+    solids.push_back(std::move(operand.solid));
+  }
+
+  void join() {
+    if (attributes.empty()) return;
+    for (const TriangleSoup& solid : solids) {
+      const auto base = static_cast<std::uint32_t>(joined.points.size());
+      joined.points.insert(joined.points.end(), solid.points.begin(), solid.points.end());
+      for (const auto& [a, b, c] : solid.triangles) {
+        joined.triangles.push_back({a + base, b + base, c + base});
+      }
+    }
+  }
+};
 
 // Of the volume, from the rounding of points.
 constexpr double kTolerableChange = 0.01;
@@ -175,18 +212,21 @@ ExitCode write_tree_result(const Tree& tree, const BoolOptions& options, Run& ru
   return ExitCode::done;
 }
 
-ExitCode write_mesh_result(const Surface& surface, const WriteOptions& format,
-                           const BoolOptions& options, Run& run, Findings& findings) {
+ExitCode write_mesh_result(const Surface& surface, const Operands& operands,
+                           const WriteOptions& format, const BoolOptions& options, Run& run,
+                           Findings& findings) {
   if (surface.mesh.triangles.empty()) {
     write_nothing(format, run, findings);
   } else {
-    write_mesh_stage(surface, {}, format, options.step, run, findings);
+    const Attributes attributes =
+        transfer_attributes_stage(operands.joined, operands.attributes, surface, run, findings);
+    write_mesh_stage(surface, attributes, format, options.step, run, findings);
   }
   if (!findings.withheld) print_result(options, findings.repair, what_was_written(surface), run);
   return verdict(run, findings);
 }
 
-ExitCode combine_files(const BoolOptions& options, Run& run) {
+ExitCode combine_files(BoolOptions options, Run& run) {
   const bool to_tree = is_tree_name(options.step.output);
   BooleanOptions boolean_options;
   boolean_options.test = options.test;
@@ -198,26 +238,32 @@ ExitCode combine_files(const BoolOptions& options, Run& run) {
     format = mesh_format(options.step);
     boolean_options.repair = certified_for(*format.format, boolean_options.repair);
   }
-  Json operands = Json::array();
-  std::vector<TriangleSoup> solids;
+  options.step.attributes =
+      options.step.attributes && format.format && holds_attributes(*format.format);
+  Json facts = Json::array();
+  Operands operands;
   for (const std::string& name : options.inputs) {
-    solids.push_back(take_operand(options, name, run, operands));
+    operands.add(take_operand(options, name, run, facts));
   }
-  run.report.set_section("operands", std::move(operands));
+  run.report.set_section("operands", std::move(facts));
+  operands.join();
+  if (!operands.attributes.empty()) {
+    keep_attributes(operands.joined, operands.attributes, boolean_options.repair);
+  }
   Findings findings(all_names(options.inputs), options.step.output);
   return with_findings(run, findings, [&] {
     BooleanReport report;
     if (to_tree) {
-      const Tree tree = boolean_tree(solids, options.operation, boolean_options, report);
+      const Tree tree = boolean_tree(operands.solids, options.operation, boolean_options, report);
       run.report.set_section("boolean", merge_section(report, options.operation));
       warn_of_common_grid(options, report);
       return write_tree_result(tree, options, run, findings);
     }
-    const Surface surface = boolean(solids, options.operation, boolean_options, report);
+    const Surface surface = boolean(operands.solids, options.operation, boolean_options, report);
     run.report.set_section("boolean", merge_section(report, options.operation));
     warn_of_common_grid(options, report);
     findings.repair = report.result;
-    return write_mesh_result(surface, format, options, run, findings);
+    return write_mesh_result(surface, operands, format, options, run, findings);
   });
 }
 
@@ -255,7 +301,7 @@ void add_bool_options(CLI::App& app, BoolOptions& options) {
 
 // What is asked of a mesh to write says nothing about a tree.
 void refuse_mesh_options(const CLI::App& app) {
-  for (const char* name : {"--format", "--precision", "--strict"}) {
+  for (const char* name : {"--format", "--attributes", "--precision", "--strict"}) {
     if (app.get_option(name)->count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }
@@ -286,6 +332,7 @@ int main(int argc, char** argv) {
   add_bool_options(app, options);
   add_predicates_options(app, options.step.repair);
   add_format_option(app, options.step.format);
+  add_attributes_option(app, options.step.attributes);
   add_certify_options(app, options.step.repair.certify, options.step.strict);
   return program.run(argc, argv, [&](Run& run) {
     if (options.step.output.empty()) throw UsageError("the name of the output is empty");

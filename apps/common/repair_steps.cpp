@@ -262,14 +262,17 @@ int run_steps(Program& program, int argc, const char* const* argv, StepOptions& 
   });
 }
 
-TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty) {
+TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty,
+                             Attributes* attributes) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("read");
   ReadOptions options = read_options(run);
   options.may_be_empty = may_be_empty;
+  options.attributes = attributes != nullptr;
   ReadResult result = read_soup(findings.input, options);
   findings.mesh_read = std::move(result.report);
   log_warnings(findings.input_name(), findings.mesh_read->warnings);
+  if (attributes != nullptr) *attributes = std::move(result.attributes);
   return std::move(result.soup);
 }
 

@@ -114,7 +114,9 @@ void log_warnings(const std::string& name, const std::vector<std::string>& warni
 [[nodiscard]] ReadOptions read_options(Run& run);
 
 // Stage "read". What a reader passed over is logged as warnings.
-[[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty = false);
+// `attributes`, if not null, gets those of the mesh.
+[[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty = false,
+                                           Attributes* attributes = nullptr);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
 // Stage "distance", where there will be a report to say it in. It comes before the writing, so that
 // it cannot fail once there is an output. The surface is as repair() leaves it, at this precision.

@@ -33,6 +33,10 @@ std::vector<std::uint32_t> first_values(const CornerAttribute& attribute) {
 
 }  // namespace
 
+std::shared_ptr<const Keepsake> Keepsake::joined(const Keepsake& /*other*/) const {
+  return nullptr;
+}
+
 const CornerAttribute* find_kind(const Attributes& attributes, CornerAttribute::Kind kind) {
   const auto found =
       std::find_if(attributes.corners.begin(), attributes.corners.end(),

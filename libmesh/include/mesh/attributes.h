@@ -72,6 +72,9 @@ struct Keepsake {
   Keepsake(const Keepsake&) = delete;
   Keepsake& operator=(const Keepsake&) = delete;
   virtual ~Keepsake() = default;
+
+  // What two files held, for one; null: this alone, as nothing of the other can be kept.
+  [[nodiscard]] virtual std::shared_ptr<const Keepsake> joined(const Keepsake& other) const;
 };
 
 // Of a soup, not owned: all lists have an entry for each of its triangles or corners, or are empty.
@@ -94,6 +97,12 @@ struct Attributes {
 // The first of a kind, or null.
 [[nodiscard]] const CornerAttribute* find_kind(const Attributes& attributes,
                                                CornerAttribute::Kind kind);
+
+// Appends those of another soup, whose triangles come behind the so many that are there. Materials
+// of one name that look different get different names; of kinds that one of both lacks, corners have
+// no value there.
+void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
+                       std::size_t triangles_of_other);
 
 // Makes values that are equal bit for bit one, and drops those that no corner has; the others keep
 // their order. Linear; on several threads.

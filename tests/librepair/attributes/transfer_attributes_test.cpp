@@ -15,6 +15,7 @@
 
 #include "shapes.h"
 #include "textured.h"
+#include "textured_surface.h"
 
 namespace meshrepair {
 namespace {
@@ -22,115 +23,21 @@ namespace {
 using namespace testing;
 using Kind = CornerAttribute::Kind;
 
-struct Repaired {
-  Surface surface;
-  Attributes attributes;
-};
-
-Repaired repaired(const TexturedSoup& input, RepairOptions options = {}) {
+TexturedSurface repaired(const TexturedSoup& input, RepairOptions options = {}) {
   options.simplify = kDefaultSimplify;
   options.keep_valid = true;
   keep_attributes(input.soup, input.attributes, options);
   RepairReport report;
-  Repaired result;
+  TexturedSurface result;
   result.surface = repair(input.soup, options, report);
   EXPECT_TRUE(report.certify.passed());
   result.attributes = transfer_attributes(input.soup, input.attributes, result.surface);
   return result;
 }
 
-std::array<Vec3d, 3> corners_of(const TriangleSoup& soup, std::size_t t) {
-  const auto& c = soup.triangles[t];
-  return {soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]};
-}
-
-// Of the point of the triangle's plane that is nearest to a point that may be moved from there, as
-// simplification does; nothing of one that is farther from the triangle.
-std::optional<std::array<double, 3>> shares(const Vec3d& p, const std::array<Vec3d, 3>& t) {
-  constexpr double kMoved = 2e-6;
-  const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double area = normal.norm();
-  if (std::abs(normal.dot(p - t[0])) > kMoved * area) return std::nullopt;
-  std::array<double, 3> result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d &a = t[(k + 1) % 3], &b = t[(k + 2) % 3];
-    result[k] = (a - p).cross(b - p).dot(normal) / (area * area);
-    if (result[k] * area < -kMoved * (b - a).norm()) return std::nullopt;
-  }
-  return result;
-}
-
-std::vector<double> value_at(const CornerAttribute& attribute, std::size_t t,
-                             const std::array<double, 3>& share) {
-  std::vector<double> value(attribute.components, 0);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t v = attribute.of_corner[3 * t + k];
-    EXPECT_NE(v, kNone);
-    for (std::size_t i = 0; i < attribute.components; ++i) {
-      value[i] += share[k] * attribute.values[attribute.components * v + i];
-    }
-  }
-  return value;
-}
-
-double difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most;
-}
-
-// Of random points of the result: how far its values are from those that the input has there.
-void expect_same_on_surface(const TexturedSoup& input, const Repaired& result, int points) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(0, 1);
-  const TriangleSoup& mesh = result.surface.mesh;
-  const auto names = names_of(result.attributes.materials);
-  const auto given_names = names_of(input.attributes.materials);
-  for (int i = 0; i < points; ++i) {
-    const std::size_t t = random() % mesh.triangles.size();
-    std::array<double, 3> share = {unit(random), unit(random), 0};
-    if (share[0] + share[1] > 1) share = {1 - share[0], 1 - share[1], 0};
-    share[2] = 1 - share[0] - share[1];
-    const auto corners = corners_of(mesh, t);
-    const Vec3d at = share[0] * corners[0] + share[1] * corners[1] + share[2] * corners[2];
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t s = 0; s < input.soup.triangles.size(); ++s) {
-      const auto there = shares(at, corners_of(input.soup, s));
-      if (!there || given_names[s] != names[t]) continue;
-      double worst = 0;
-      for (std::size_t a = 0; a < input.attributes.corners.size(); ++a) {
-        const CornerAttribute& attribute = input.attributes.corners[a];
-        if (attribute.kind == Kind::normal) continue;
-        worst = std::max(worst, difference(value_at(attribute, s, *there),
-                                           value_at(result.attributes.corners[a], t, share)));
-      }
-      best = std::min(best, worst);
-    }
-    ASSERT_LT(best, 1e-6) << "triangle " << t;
-  }
-}
-
-// Whatever has the corners of a triangle of the input has its values.
-void expect_whole_triangles_bit_for_bit(const TexturedSoup& input, const Repaired& result) {
-  std::size_t whole = 0;
-  for (std::size_t a = 0; a < input.attributes.corners.size(); ++a) {
-    const auto given = value_bits(input.attributes.corners[a]);
-    const auto made = value_bits(result.attributes.corners[a]);
-    for (std::size_t t = 0; t < result.surface.source.size(); ++t) {
-      const std::uint32_t s = result.surface.source[t];
-      if (s == Surface::kNoSource) continue;
-      const auto from = corners_of(input.soup, s), to = corners_of(result.surface.mesh, t);
-      if (from != to) continue;
-      ++whole;
-      for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(made[3 * t + k], given[3 * s + k]);
-    }
-  }
-  EXPECT_GT(whole, 0u);
-}
-
 TEST(TransferAttributes, OfTwoSpheresThatOverlap) {
   const TexturedSoup input = textured({sphere(2000), sphere(1500, 0.8, {0.7, 0.3, 0.1})});
-  const Repaired result = repaired(input);
+  const TexturedSurface result = repaired(input);
   EXPECT_EQ(result.attributes.materials.names.size(), 2u);
   expect_same_on_surface(input, result, 2000);
   expect_whole_triangles_bit_for_bit(input, result);
@@ -140,7 +47,7 @@ TEST(TransferAttributes, WhereThereAreCells) {
   const TexturedSoup input = textured({sphere(500), sphere(400, 0.8, {0.7, 0.3, 0.1})});
   RepairOptions options;
   options.inside.rule = InsideRule::solidity;
-  const Repaired result = repaired(input, options);
+  const TexturedSurface result = repaired(input, options);
   expect_same_on_surface(input, result, 1000);
   expect_whole_triangles_bit_for_bit(input, result);
 }
@@ -152,7 +59,7 @@ TEST(TransferAttributes, OfBoxesWithSidesInOnePlane) {
         {box({0, 0, 0}, {2, 2, 2}), box({1, 1, 0}, {3, 3, 2}), box({0.5, 0.5, 1}, {1.5, 1.25, 3})});
     RepairOptions options;
     options.inside.rule = rule;
-    const Repaired result = repaired(input, options);
+    const TexturedSurface result = repaired(input, options);
     expect_same_on_surface(input, result, 2000);
   }
 }
@@ -161,7 +68,7 @@ TEST(TransferAttributes, OfBoxesWithSidesInOnePlane) {
 // between them could all go, seen by their places alone.
 TEST(TransferAttributes, SimplificationLeavesSeamsWhereTheyAre) {
   TexturedSoup input = textured({sphere(3000), sphere(3000, 1, {0.01, 0.003, 0.002})});
-  const Repaired result = repaired(input);
+  const TexturedSurface result = repaired(input);
   expect_same_on_surface(input, result, 2000);
 }
 
@@ -171,7 +78,7 @@ TEST(TransferAttributes, NormalsHaveLengthOneAndTurnWithTheirTriangles) {
     const std::size_t second = 3 * sphere(500).points.size();
     if (i >= second) input.attributes.corners[1].values[i] *= -1;
   }
-  const Repaired result = repaired(input);
+  const TexturedSurface result = repaired(input);
   const CornerAttribute& normals = result.attributes.corners[1];
   ASSERT_EQ(normals.kind, Kind::normal);
   for (std::size_t i = 0; i < normals.of_corner.size(); ++i) {
@@ -213,7 +120,7 @@ TexturedSoup with_hole(TexturedSoup input, const Vec3d& around, double radius) {
 
 TEST(TransferAttributes, PatchWithinOneChartContinuesIt) {
   const TexturedSoup whole = textured({sphere(2000)});
-  const Repaired result = repaired(with_hole(whole, Vec3d(1, 1, 0).normalized(), 0.3));
+  const TexturedSurface result = repaired(with_hole(whole, Vec3d(1, 1, 0).normalized(), 0.3));
   std::size_t patches = 0;
   const CornerAttribute& texture = result.attributes.corners[0];
   for (std::size_t t = 0; t < result.surface.source.size(); ++t) {
@@ -233,7 +140,7 @@ TEST(TransferAttributes, PatchWithinOneChartContinuesIt) {
 
 TEST(TransferAttributes, PatchWhereChartsMeetHasAMaterialOfItsOwn) {
   const TexturedSoup whole = textured({sphere(2000)});
-  const Repaired result = repaired(with_hole(whole, {1, 0, 0}, 0.3));
+  const TexturedSurface result = repaired(with_hole(whole, {1, 0, 0}, 0.3));
   std::size_t patches = 0;
   for (std::size_t t = 0; t < result.surface.source.size(); ++t) {
     const bool is_patch = result.surface.source[t] == Surface::kNoSource;
@@ -252,7 +159,7 @@ TEST(TransferAttributes, OfTrianglesInOnePlaceTheOneThatFacesOutwardsCounts) {
   for (const InsideRule rule : {InsideRule::automatic, InsideRule::solidity}) {
     RepairOptions options;
     options.inside.rule = rule;
-    const Repaired result = repaired(input, options);
+    const TexturedSurface result = repaired(input, options);
     ASSERT_EQ(result.surface.mesh.triangles.size(), sphere(300).triangles.size());
     for (const std::string& name : names_of(result.attributes.materials)) {
       ASSERT_EQ(name, "material 1");
@@ -262,7 +169,7 @@ TEST(TransferAttributes, OfTrianglesInOnePlaceTheOneThatFacesOutwardsCounts) {
 
 TEST(TransferAttributes, OfMeshThatIsKeptAsItIs) {
   const TexturedSoup input = textured({sphere(300)});
-  const Repaired result = repaired(input);
+  const TexturedSurface result = repaired(input);
   ASSERT_EQ(result.surface.mesh.triangles.size(), input.soup.triangles.size());
   expect_whole_triangles_bit_for_bit(input, result);
   EXPECT_EQ(names_of(result.attributes.groups), names_of(input.attributes.groups));

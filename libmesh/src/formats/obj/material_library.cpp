@@ -305,6 +305,21 @@ class MaterialFiles {
 
 }  // namespace
 
+std::shared_ptr<const Keepsake> MaterialLibraries::joined(const Keepsake& other) const {
+  const auto* const others = dynamic_cast<const MaterialLibraries*>(&other);
+  if (others == nullptr) return nullptr;
+  auto all = std::make_shared<MaterialLibraries>();
+  all->libraries = libraries;
+  for (const Library& library : others->libraries) {
+    const bool is_known =
+        std::any_of(libraries.begin(), libraries.end(), [&](const Library& known) {
+          return known.text == library.text && known.folder == library.folder;
+        });
+    if (!is_known) all->libraries.push_back(library);
+  }
+  return all;
+}
+
 void read_material_libraries(const MeshSource& source, const std::vector<std::string>& names,
                              Attributes& attributes, ReadReport& report) {
   if (names.empty()) return;

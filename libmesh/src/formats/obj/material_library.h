@@ -20,6 +20,8 @@ struct MaterialLibraries final : Keepsake {
     std::string text;
   };
   std::vector<Library> libraries;
+
+  [[nodiscard]] std::shared_ptr<const Keepsake> joined(const Keepsake& other) const override;
 };
 
 // Reads the libraries with these names, as far as they lie in the source's folder or below it: the
