@@ -48,7 +48,7 @@ Operand read_mesh_operand(RepairOptions repair_options, bool wants_attributes, R
   TriangleSoup soup =
       read_mesh_stage(run, findings, true, wants_attributes ? &attributes : nullptr);
   if (soup.triangles.empty()) return {{}, {}, true};
-  if (!attributes.empty()) keep_attributes(soup, attributes, repair_options);
+  keep_attributes(soup, attributes, repair_options);
   {
     StageMeter meter(findings.repair.stages, &run.progress);
     meter.begin("validate");
@@ -130,7 +130,7 @@ struct Operands {
   }
 
   void join() {
-    if (attributes.empty()) return;
+    if (attributes.is_bare()) return;
     for (const TriangleSoup& solid : solids) {
       const auto base = static_cast<std::uint32_t>(joined.points.size());
       joined.points.insert(joined.points.end(), solid.points.begin(), solid.points.end());
@@ -243,13 +243,15 @@ ExitCode combine_files(BoolOptions options, Run& run) {
   Json facts = Json::array();
   Operands operands;
   for (const std::string& name : options.inputs) {
-    operands.add(take_operand(options, name, run, facts));
+    Operand operand = take_operand(options, name, run, facts);
+    if (options.step.attributes) {
+      operand.attributes = held_by(*format.format, std::move(operand.attributes));
+    }
+    operands.add(std::move(operand));
   }
   run.report.set_section("operands", std::move(facts));
   operands.join();
-  if (!operands.attributes.empty()) {
-    keep_attributes(operands.joined, operands.attributes, boolean_options.repair);
-  }
+  keep_attributes(operands.joined, operands.attributes, boolean_options.repair);
   Findings findings(all_names(options.inputs), options.step.output);
   return with_findings(run, findings, [&] {
     BooleanReport report;

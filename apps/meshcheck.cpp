@@ -8,6 +8,7 @@
 #include <base/error.h>
 #include <check/check_surface.h>
 
+#include "common/attribute_report.h"
 #include "common/check_report.h"
 #include "common/repair_steps.h"
 #include "common/summary.h"
@@ -46,7 +47,9 @@ ExitCode check_mesh(Options& options, Run& run) {
   options.check.mark_triangles = !options.marked.empty();
   Findings findings(options.input, options.marked);
   return with_findings(run, findings, [&] {
-    const TriangleSoup soup = read_mesh_stage(run, findings);
+    Attributes attributes;
+    const TriangleSoup soup = read_mesh_stage(run, findings, false, &attributes);
+    run.report.set_section("attributes", attributes_section(soup, attributes));
     StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
     meter.begin("check");
     const SurfaceCheck check = check_surface(soup, options.check);
@@ -55,7 +58,8 @@ ExitCode check_mesh(Options& options, Run& run) {
     if (!options.marked.empty()) write_marked(soup, check, options, run);
     run.progress.finish();
     if (run.options.report != "-" && !run.options.quiet) {
-      std::cout << check_table(check, what_was_read(findings, soup));
+      std::cout << check_table(check, what_was_read(findings, soup),
+                               attribute_words(soup, attributes));
     }
     return check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
   });

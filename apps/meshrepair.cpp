@@ -11,9 +11,10 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
                   Findings& findings) {
   const WriteOptions format = mesh_format(options);
   const bool wants_attributes = options.attributes && holds_attributes(*format.format);
-  const AnySoup input = read_any_stage(points, wants_attributes, run, findings);
+  AnySoup input = read_any_stage(points, wants_attributes, run, findings);
+  input.attributes = held_by(*format.format, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
-  if (!input.attributes.empty()) keep_attributes(input.soup, input.attributes, repair_options);
+  keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
   const Surface surface = repair_any(input, points, repair_options, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);

@@ -20,7 +20,7 @@ from collections.abc import Iterator
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
 SCHEMA = DOCS / "report.schema.json"
-PROGRAMS = ("meshrepair", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshcheck", "meshdist")
+PROGRAMS = ("meshrepair", "meshconvert", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshcheck", "meshdist")
 WIDTH = 138  # of a line
 UNLISTED = ("", "file")  # definitions whose keys the text of the key that refers to them names
 EXAMPLES = """examples:

@@ -12,8 +12,9 @@
 namespace meshrepair {
 
 // A table: each defect with its number and the first places, the measures, and the verdict.
-// `what` is the line about what was read.
-[[nodiscard]] std::string check_table(const SurfaceCheck& check, const std::string& what);
+// `what` is the line about what was read, `attributes` what the triangles carry.
+[[nodiscard]] std::string check_table(const SurfaceCheck& check, const std::string& what,
+                                      const std::vector<std::string>& attributes);
 
 // The section "check" of the report.
 [[nodiscard]] Json check_section(const SurfaceCheck& check);

@@ -166,8 +166,7 @@ void add_point_repair_options(CLI::App& app, PointOptions& options) {
   add_point_options(app, options.soup);
 }
 
-AnySoup read_any_stage(const PointOptions& options, bool attributes, Run& run,
-                       Findings& findings) {
+AnySoup read_any_stage(const PointOptions& options, bool attributes, Run& run, Findings& findings) {
   PointCloud cloud;
   if (options.as_points) {
     cloud = read_points_stage(run, findings);

@@ -41,7 +41,8 @@ struct AnySoup {
   Attributes attributes;       // of a mesh, if they are asked for
 };
 
-// Reads a mesh, with its attributes if wanted, or a point cloud, triangulates it and puts it on its base.
+// Reads a mesh, with its attributes if wanted, or a point cloud, triangulates it and puts it on its
+// base.
 [[nodiscard]] AnySoup read_any_stage(const PointOptions& options, bool attributes, Run& run,
                                      Findings& findings);
 

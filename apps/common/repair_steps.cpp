@@ -294,7 +294,7 @@ void measure_distance_stage(const TriangleSoup& input, const Surface& surface, P
 
 Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes& attributes,
                                      const Surface& surface, Run& run, Findings& findings) {
-  if (attributes.empty()) return {};
+  if (attributes.is_bare()) return attributes;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("attributes");
   return transfer_attributes(input, attributes, surface);
@@ -321,6 +321,7 @@ void write_soup_stage(const TriangleSoup& soup, WriteOptions format, Run& run, F
   format.progress = &run.progress;
   write_soup(soup, findings.output, format);
   findings.soup_written = true;
+  findings.soup_triangles = soup.triangles.size();
   run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
 }
 

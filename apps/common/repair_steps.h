@@ -50,7 +50,8 @@ struct Findings {
   std::size_t points_in_result = 0;  // of those left in point_soup
   std::optional<ScanBaseReport> scan_base;
   std::size_t dropped_solids = 0;  // too small for the points to tell
-  bool soup_written = false;       // the output is the soup of the points, no solid
+  bool soup_written = false;       // the output is a soup, no solid
+  std::size_t soup_triangles = 0;  // of it
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
@@ -65,7 +66,7 @@ struct StepOptions {
   std::string input;
   std::string output;
   std::optional<SoupFormat> format;
-  bool sources = false;  // write of each triangle which one of the input it lies in
+  bool sources = false;    // write of each triangle which one of the input it lies in
   bool attributes = true;  // carry texture coordinates, materials and the like, where formats can
   bool strict = false;
   RepairOptions repair;

@@ -119,7 +119,11 @@ void describe_input(const Findings& findings, Lines& lines) {
     describe_points(findings, lines);
     if (!findings.soup_written) lines.add("wrong", troubles_of(findings));
   }
-  if (findings.mesh_read) {
+  if (findings.mesh_read && findings.soup_written) {
+    lines.add("read", fmt::format("{}: {}", findings.input_name(),
+                                  format_name(findings.mesh_read->format)));
+    lines.add("wrong", reading_troubles(*findings.mesh_read));
+  } else if (findings.mesh_read) {
     lines.add("read", fmt::format("{}: {}, {} in {}", findings.input_name(),
                                   format_name(findings.mesh_read->format),
                                   number_of(findings.repair.clean.triangles_in, "triangle"),
@@ -252,7 +256,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
 
 void describe_soup(const Findings& findings, double seconds, Lines& lines) {
   lines.add("written", fmt::format("{}: {}, in {:.2f} s", findings.output_name(),
-                                   number_of(findings.point_soup->triangles, "triangle"), seconds));
+                                   number_of(findings.soup_triangles, "triangle"), seconds));
 }
 
 void describe_tree(const Findings& findings, double seconds, Lines& lines) {

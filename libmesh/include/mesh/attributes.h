@@ -88,10 +88,12 @@ struct Attributes {
   TriangleLabels smoothing;
   std::shared_ptr<const Keepsake> keepsake;  // may be null
 
-  [[nodiscard]] bool empty() const {
+  // No triangle carries anything.
+  [[nodiscard]] bool is_bare() const {
     return corners.empty() && materials.empty() && groups.empty() && objects.empty() &&
-           smoothing.empty() && !keepsake;
+           smoothing.empty();
   }
+  [[nodiscard]] bool empty() const { return is_bare() && !keepsake; }
 };
 
 // The first of a kind, or null.
@@ -99,8 +101,8 @@ struct Attributes {
                                                CornerAttribute::Kind kind);
 
 // Appends those of another soup, whose triangles come behind the so many that are there. Materials
-// of one name that look different get different names; of kinds that one of both lacks, corners have
-// no value there.
+// of one name that look different get different names; of kinds that one of both lacks, corners
+// have no value there.
 void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
                        std::size_t triangles_of_other);
 

@@ -57,6 +57,9 @@ struct WriteOptions {
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
 };
 
+// What of the attributes the format can hold.
+[[nodiscard]] Attributes held_by(SoupFormat format, Attributes attributes);
+
 // Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format
 // can be told, or there are sources and it is not PLY; OutputError when anything cannot be written
 // in full; the target is then as it was.

@@ -52,6 +52,8 @@ bool holds_sources(SoupFormat format) {
   return format == SoupFormat::ply_binary || format == SoupFormat::ply_ascii;
 }
 
-bool holds_attributes(SoupFormat format) { return format == SoupFormat::obj || holds_sources(format); }
+bool holds_attributes(SoupFormat format) {
+  return format == SoupFormat::stl_binary || format == SoupFormat::obj || holds_sources(format);
+}
 
 }  // namespace meshrepair

@@ -88,7 +88,7 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupE
   }
   switch (format) {
     case SoupFormat::stl_binary:
-      return format_stl_binary(soup);
+      return format_stl_binary(soup, extras.attributes);
     case SoupFormat::stl_ascii:
       return format_stl_ascii(soup);
     case SoupFormat::obj:

@@ -70,6 +70,7 @@ class Steepness {
 
 void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
                      RepairOptions& options) {
+  if (attributes.is_bare()) return;
   options.extract.merges_triangles = false;
   options.reach.assign(input.triangles.size(), kInfinity);
   for (const CornerAttribute& attribute : attributes.corners) {

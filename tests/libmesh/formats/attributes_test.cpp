@@ -1,4 +1,5 @@
 // Attributes come back bit for bit from every format that holds them.
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -100,6 +101,60 @@ TEST_P(AttributesOf, AreNotReadUnlessAskedFor) {
 INSTANTIATE_TEST_SUITE_P(Formats, AttributesOf,
                          ::testing::Values(SoupFormat::obj, SoupFormat::ply_binary,
                                            SoupFormat::ply_ascii));
+
+// Of each triangle of a soup of two, its word; the header has a text.
+std::string coloured_stl(const std::string& header, std::uint16_t first, std::uint16_t second) {
+  std::string bytes = format_soup(random_soup(1, true), SoupFormat::stl_binary).substr(0, 184);
+  bytes.replace(0, header.size(), header);
+  bytes[80] = 2;
+  bytes[81] = bytes[82] = bytes[83] = 0;
+  std::memcpy(bytes.data() + 132, &first, 2);
+  std::memcpy(bytes.data() + 182, &second, 2);
+  return bytes;
+}
+
+TEST(StlColours, OfVisCamComeBack) {
+  for (unsigned colour = 0; colour < 0x8000; colour += 7) {
+    const std::string bytes =
+        coloured_stl("x", static_cast<std::uint16_t>(0x8000u | colour), 0x1234);
+    const ReadResult result = parse_with_attributes(bytes);
+    ASSERT_EQ(result.attributes.corners.size(), 1u);
+    const CornerAttribute& colours = result.attributes.corners[0];
+    EXPECT_EQ(colours.count(), 1u);
+    EXPECT_EQ(colours.of_corner[3], kNone);
+    const std::string again =
+        format_soup(result.soup, SoupFormat::stl_binary, {.attributes = &result.attributes});
+    ASSERT_EQ(again.substr(132, 2), bytes.substr(132, 2));
+    ASSERT_EQ(again.substr(182, 2), std::string(2, '\0'));
+  }
+  const CornerAttribute red =
+      parse_with_attributes(coloured_stl("x", 0xFC00, 0)).attributes.corners.at(0);
+  EXPECT_EQ(red.values, (std::vector<double>{1, 0, 0}));
+}
+
+TEST(StlColours, OfMagicsComeBackWithTheirHeader) {
+  const std::string bytes = coloured_stl("COLOR=\x10\x20\x30\xFF,MATERIAL=abc", 0x001F, 0x8000);
+  const ReadResult result = parse_with_attributes(bytes);
+  EXPECT_EQ(result.attributes.corners.at(0).values, (std::vector<double>{1, 0, 0}));
+  const std::string again =
+      format_soup(result.soup, SoupFormat::stl_binary, {.attributes = &result.attributes});
+  EXPECT_EQ(again.substr(0, 80), bytes.substr(0, 80));
+  EXPECT_EQ(again.substr(132, 2), bytes.substr(132, 2));
+  EXPECT_EQ(again.substr(182, 2), bytes.substr(182, 2));
+}
+
+TEST(StlColours, WordsWithoutTheirBitAreNone) {
+  EXPECT_TRUE(parse_with_attributes(coloured_stl("x", 0x1234, 7)).attributes.empty());
+}
+
+TEST(HeldBy, FormatsDropWhatTheyCannotHold) {
+  const Attributes all = random_textured(1).attributes;
+  EXPECT_EQ(held_by(SoupFormat::stl_binary, all).corners.size(), 1u);
+  EXPECT_TRUE(held_by(SoupFormat::stl_binary, all).materials.empty());
+  EXPECT_TRUE(held_by(SoupFormat::off, all).empty());
+  EXPECT_EQ(held_by(SoupFormat::obj, all).corners.size(), 3u);
+  EXPECT_EQ(held_by(SoupFormat::ply_ascii, all).materials.names.size(), 3u);
+}
 
 std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;
@@ -233,9 +288,10 @@ TEST_F(ObjLibraries, OfTheInputAreNotWrittenOver) {
 TEST_F(ObjLibraries, OutsideTheFolderAreNotOpened) {
   write("secret.mtl", "newmtl wood\nKd 1 0 0\n");
   std::filesystem::create_symlink(folder_.path() / "secret.mtl", folder_.path() / "in/link.mtl");
-  const std::vector<std::string> names = {"../secret.mtl", "lib/../../secret.mtl", "link.mtl",
-                                          "missing.mtl",   "lib",
-                                          (folder_.path() / "secret.mtl").string()};
+  const std::vector<std::string> names = {
+      "../secret.mtl", "lib/../../secret.mtl",
+      "link.mtl",      "missing.mtl",
+      "lib",           (folder_.path() / "secret.mtl").string()};
   for (const std::string& name : names) {
     write("in/mesh.obj", "mtllib " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
     const ReadResult result = read_with_attributes(folder_.path() / "in/mesh.obj");

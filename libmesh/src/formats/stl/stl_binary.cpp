@@ -5,7 +5,7 @@
 //       80     4  uint32: number of triangles (wrong in many files)
 //       84    50  for each triangle: float32 x 12 (normal, three corners), uint16 attribute
 //
-// Normals and attributes are ignored.
+// Normals are ignored; of attributes, see stl_colours.h.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -18,6 +18,7 @@
 #include <mesh/read_guard.h>
 #include <mesh/weld_points.h>
 
+#include "stl_colours.h"
 #include "stl_io.h"
 
 namespace meshrepair {
@@ -25,15 +26,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "floats are copied as they are");
 
-constexpr std::size_t kCountOffset = 80;
-constexpr std::size_t kHeaderSize = 84;
 constexpr std::size_t kNormalSize = 12;
 constexpr std::size_t kCornersSize = 36;
-constexpr std::size_t kTriangleSize = 50;
 
 std::uint32_t declared_count(std::string_view bytes) {
   std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + kCountOffset, sizeof count);
+  std::memcpy(&count, bytes.data() + kStlHeaderText, sizeof count);
   return count;
 }
 
@@ -41,7 +39,7 @@ void report_sizes(const MeshSource& source, std::size_t found, ReadReport& repor
   const std::size_t declared = declared_count(source.bytes);
   report.declared_triangles = declared;
   report.missing_faces = declared > found ? declared - found : 0;
-  report.trailing_bytes = source.bytes.size() - kHeaderSize - found * kTriangleSize;
+  report.trailing_bytes = source.bytes.size() - kStlHeaderSize - found * kStlTriangleSize;
   if (declared != found) {
     report.warnings.push_back("the header promises " + counted(declared, "triangle") +
                               ", the file holds " + std::to_string(found));
@@ -69,14 +67,14 @@ void append_floats(std::string& out, const Vec3d& vector) {
 }  // namespace
 
 bool is_binary_stl(std::string_view bytes) {
-  return bytes.size() >= kHeaderSize &&
-         bytes.size() - kHeaderSize == kTriangleSize * std::size_t{declared_count(bytes)};
+  return bytes.size() >= kStlHeaderSize &&
+         bytes.size() - kStlHeaderSize == kStlTriangleSize * std::size_t{declared_count(bytes)};
 }
 
 ReadResult read_stl_binary(const MeshSource& source) {
   const std::size_t size = source.bytes.size();
-  if (size < kHeaderSize) source.fail("a binary STL cut within its header of 84 bytes");
-  const std::size_t count = (size - kHeaderSize) / kTriangleSize;
+  if (size < kStlHeaderSize) source.fail("a binary STL cut within its header of 84 bytes");
+  const std::size_t count = (size - kStlHeaderSize) / kStlTriangleSize;
 
   ReadGuard guard(source);
   guard.require(count);
@@ -86,9 +84,9 @@ ReadResult read_stl_binary(const MeshSource& source) {
   result.soup.triangles.reserve(count);
   // A closed surface has half as many points as triangles.
   PointWelder welder(result.soup.points, count / 2);
-  const char* corners = source.bytes.data() + kHeaderSize + kNormalSize;
-  for (std::size_t i = 0; i < count; ++i, corners += kTriangleSize) {
-    guard.step(i, kHeaderSize + i * kTriangleSize);
+  const char* corners = source.bytes.data() + kStlHeaderSize + kNormalSize;
+  for (std::size_t i = 0; i < count; ++i, corners += kStlTriangleSize) {
+    guard.step(i, kStlHeaderSize + i * kStlTriangleSize);
     std::array<float, 9> c;
     static_assert(sizeof c == kCornersSize);
     std::memcpy(c.data(), corners, sizeof c);
@@ -97,21 +95,24 @@ ReadResult read_stl_binary(const MeshSource& source) {
     const std::uint32_t third = welder.index_of({c[6], c[7], c[8]});
     result.soup.triangles.push_back({first, second, third});
   }
+  if (source.options.attributes) result.attributes = read_stl_colours(source.bytes, count);
   return result;
 }
 
-std::string format_stl_binary(const TriangleSoup& soup) {
-  std::string out = "binary STL by meshrepair";
-  out.reserve(kHeaderSize + kTriangleSize * soup.triangles.size());
-  out.resize(kCountOffset, ' ');
+std::string format_stl_binary(const TriangleSoup& soup, const Attributes* attributes) {
+  const StlColours colours = make_stl_colours(attributes, "binary STL by meshrepair");
+  std::string out = colours.header;
+  out.reserve(kStlHeaderSize + kStlTriangleSize * soup.triangles.size());
   const auto count = static_cast<std::uint32_t>(soup.triangles.size());
   out.append(reinterpret_cast<const char*>(&count), sizeof count);
-  for (const auto& [a, b, c] : soup.triangles) {
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto& [a, b, c] = soup.triangles[t];
     append_floats(out, stl_normal(soup.points[a], soup.points[b], soup.points[c]));
     append_floats(out, soup.points[a]);
     append_floats(out, soup.points[b]);
     append_floats(out, soup.points[c]);
-    out.append(2, '\0');
+    const std::uint16_t word = colours.words.empty() ? std::uint16_t{0} : colours.words[t];
+    out.append(reinterpret_cast<const char*>(&word), sizeof word);
   }
   return out;
 }

@@ -8,6 +8,10 @@
 
 namespace meshrepair {
 
+inline constexpr std::size_t kStlHeaderText = 80;  // of binary files
+inline constexpr std::size_t kStlHeaderSize = 84;  // with the number of triangles
+inline constexpr std::size_t kStlTriangleSize = 50;
+
 // Whether the bytes are a binary STL beyond doubt: the count in the header fits the size.
 [[nodiscard]] bool is_binary_stl(std::string_view bytes);
 
@@ -22,7 +26,8 @@ namespace meshrepair {
 [[nodiscard]] ReadResult read_stl_ascii(const MeshSource& source);
 
 // Throws OutputError if a finite coordinate is beyond the range of float32.
-[[nodiscard]] std::string format_stl_binary(const TriangleSoup& soup);
+// `attributes` may be null; their colours go into the attribute words.
+[[nodiscard]] std::string format_stl_binary(const TriangleSoup& soup, const Attributes* attributes);
 [[nodiscard]] std::string format_stl_ascii(const TriangleSoup& soup);
 
 // Unit normal, counter-clockwise; 0 for a triangle without area or not finite.

@@ -1,0 +1,106 @@
+#include "common/attribute_report.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <mesh/seams.h>
+
+#include "common/summary.h"
+
+namespace meshrepair {
+namespace {
+
+using Kind = CornerAttribute::Kind;
+
+std::string kind_words(const CornerAttribute& attribute) {
+  switch (attribute.kind) {
+    case Kind::texture:
+      return "texture coordinates";
+    case Kind::normal:
+      return "normals";
+    case Kind::tangent:
+      return "tangents";
+    case Kind::colour:
+      return "colours";
+    case Kind::other:
+      break;
+  }
+  return "'" + attribute.name + "'";
+}
+
+std::string_view kind_name(Kind kind) {
+  constexpr std::array<std::string_view, 5> kNames = {"texture", "normal", "tangent", "colour",
+                                                      "other"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+using NamedLabels = std::pair<std::string_view, const TriangleLabels*>;
+
+std::array<NamedLabels, 4> all_labels(const Attributes& attributes) {
+  return {{{"material", &attributes.materials},
+           {"group", &attributes.groups},
+           {"object", &attributes.objects},
+           {"smoothing group", &attributes.smoothing}}};
+}
+
+}  // namespace
+
+std::vector<std::string> attribute_words(const TriangleSoup& soup, const Attributes& attributes) {
+  std::vector<std::string> words;
+  for (const CornerAttribute& attribute : attributes.corners) {
+    std::string text = kind_words(attribute);
+    if (attribute.kind == Kind::texture) {
+      text += fmt::format(" ({})", number_of(count_seams(soup, attribute), "edge") + " of seams");
+    }
+    words.push_back(std::move(text));
+  }
+  for (const auto& [name, labels] : all_labels(attributes)) {
+    if (!labels->empty()) words.push_back(number_of(labels->names.size(), name));
+  }
+  if (!attributes.images.empty()) words.push_back(number_of(attributes.images.size(), "picture"));
+  return words;
+}
+
+std::string lost_attributes(const Attributes& all, const Attributes& held) {
+  std::vector<std::string> lost;
+  const auto count = [](const Attributes& attributes, const std::string& words) {
+    return std::count_if(
+        attributes.corners.begin(), attributes.corners.end(),
+        [&](const CornerAttribute& attribute) { return kind_words(attribute) == words; });
+  };
+  for (const CornerAttribute& attribute : all.corners) {
+    const std::string words = kind_words(attribute);
+    const bool is_told = std::find(lost.begin(), lost.end(), words) != lost.end();
+    if (!is_told && count(held, words) < count(all, words)) lost.push_back(words);
+  }
+  const auto before = all_labels(all), after = all_labels(held);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!before[i].second->empty() && after[i].second->empty()) {
+      lost.push_back(std::string(before[i].first) + "s");
+    }
+  }
+  return fmt::format("{}", fmt::join(lost, ", "));
+}
+
+Json attributes_section(const TriangleSoup& soup, const Attributes& attributes) {
+  Json corners = Json::array();
+  for (const CornerAttribute& attribute : attributes.corners) {
+    corners.push_back({{"kind", kind_name(attribute.kind)},
+                       {"name", attribute.name},
+                       {"components", attribute.components},
+                       {"values", attribute.count()},
+                       {"seam_edges", count_seams(soup, attribute)}});
+  }
+  return {{"corners", corners},
+          {"materials", attributes.materials.names},
+          {"groups", attributes.groups.names},
+          {"objects", attributes.objects.names},
+          {"smoothing_groups", attributes.smoothing.names},
+          {"pictures", attributes.images.size()}};
+}
+
+}  // namespace meshrepair

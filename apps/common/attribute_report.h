@@ -1,0 +1,24 @@
+// What triangles carry, for people and for reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mesh/attributes.h>
+#include <mesh/soup.h>
+
+#include "common/json_report.h"
+
+namespace meshrepair {
+
+// "texture coordinates (12 seams)", "3 materials", ...; empty where there is nothing.
+[[nodiscard]] std::vector<std::string> attribute_words(const TriangleSoup& soup,
+                                                       const Attributes& attributes);
+
+// The names of the kinds alone that are among `all` and not among `held`, joined by commas.
+[[nodiscard]] std::string lost_attributes(const Attributes& all, const Attributes& held);
+
+// Section "attributes" of a report.
+[[nodiscard]] Json attributes_section(const TriangleSoup& soup, const Attributes& attributes);
+
+}  // namespace meshrepair

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <mesh/soup_io.h>
+
+namespace meshrepair {
+namespace {
+
+using Kind = CornerAttribute::Kind;
+
+struct Held {
+  std::size_t textures = 0;  // sets of coordinates
+  bool normals = false;
+  bool colours = false;
+  bool others = false;  // tangents, too
+  bool materials = false;
+  bool groups = false;  // and objects and smoothing
+};
+
+constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+
+Held held_by(SoupFormat format) {
+  switch (format) {
+    case SoupFormat::stl_binary:
+      return {.colours = true};
+    case SoupFormat::stl_ascii:
+    case SoupFormat::off:
+      return {};
+    case SoupFormat::obj:
+      return {.textures = 1, .normals = true, .colours = true, .materials = true, .groups = true};
+    case SoupFormat::ply_binary:
+    case SoupFormat::ply_ascii:
+      break;
+  }
+  return {.textures = kAny, .normals = true, .colours = true, .others = true, .materials = true};
+}
+
+bool holds(const Held& held, const CornerAttribute& attribute, std::size_t& textures) {
+  switch (attribute.kind) {
+    case Kind::texture:
+      return textures++ < held.textures;
+    case Kind::normal:
+      return held.normals;
+    case Kind::colour:
+      return held.colours;
+    case Kind::tangent:
+    case Kind::other:
+      break;
+  }
+  return held.others;
+}
+
+}  // namespace
+
+Attributes held_by(SoupFormat format, Attributes attributes) {
+  const Held held = held_by(format);
+  std::size_t textures = 0;
+  std::erase_if(attributes.corners, [&](const CornerAttribute& attribute) {
+    return !holds(held, attribute, textures);
+  });
+  if (!held.materials) {
+    attributes.materials = {};
+    attributes.looks.clear();
+    attributes.images.clear();
+  }
+  if (!held.groups) attributes.groups = attributes.objects = attributes.smoothing = {};
+  return attributes;
+}
+
+}  // namespace meshrepair
