@@ -28,6 +28,7 @@ struct MergedBoundary {
   ManifoldCorners corners;
   MergedFacets merged;
   MiddleVertices middles;
+  std::vector<char> whole;  // of each triangle of the soup: nothing is merged with it; empty: none
   std::vector<char> alone;  // of each polygon: not to be merged with others; empty: none
 };
 
@@ -297,8 +298,8 @@ class LooseExtractor {
   void merge() {
     for (std::size_t round = 0;; ++round) {
       if (round == kMostRounds) set_all_apart();
-      parts_.merged =
-          merge_facets(complex_, cover_, solid_, parts_.boundary, parts_.corners, parts_.alone);
+      parts_.merged = merge_facets(complex_, cover_, solid_, parts_.boundary, parts_.corners,
+                                   parts_.alone, parts_.whole);
       if (!internal::set_apart_odd_regions(parts_.boundary, parts_.corners, parts_.merged,
                                            parts_.alone)) {
         break;
@@ -343,13 +344,12 @@ Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cove
   parts.boundary = find_boundary(complex, solid);
   parts.corners =
       cut_nonmanifold(complex, parts.boundary, solid, options.touching, options.progress);
+  if (!options.merges_triangles) parts.whole.assign(complex.soup().triangles.size(), 1);
   if (complex.loose) {
     return LooseExtractor(complex, cover, solid, std::move(parts)).run(report, options.progress);
   }
-  std::vector<char> all;
-  if (!options.merges_triangles) all.assign(complex.soup().triangles.size(), 1);
   parts.merged = merge_facets(complex, cover, solid, parts.boundary, parts.corners, {},
-                              options.merges_triangles ? options.whole : all);
+                              options.merges_triangles ? options.whole : parts.whole);
   parts.middles = separate_common_edges(complex, parts.boundary, parts.corners);
   const InputPoints input_points(complex.soup());
   SurfaceExtractor extractor(complex, cover, solid, parts, input_points);

@@ -55,7 +55,9 @@ void expect_surfaces(const CellComplex& complex, const IdVector<FacetId, Cover>&
   for (const std::vector<char>& solid : {enclosed_cells(complex, cover), random_cells}) {
     for (const Touching touching : {Touching::separate, Touching::join}) {
       ExtractReport report;
-      const Surface surface = extract_surface(complex, cover, solid, report, {touching, nullptr});
+      ExtractOptions options;
+      options.touching = touching;
+      const Surface surface = extract_surface(complex, cover, solid, report, options);
       if (!surface.mesh.triangles.empty()) expect_closed_manifold(surface.mesh);
       EXPECT_EQ(surface.source.size(), surface.mesh.triangles.size());
       EXPECT_EQ(surface.input_point.size(), surface.mesh.points.size());

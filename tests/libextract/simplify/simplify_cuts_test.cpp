@@ -118,6 +118,48 @@ TEST(SimplifyCuts, FlatSidesNeedTwoTrianglesEach) {
   expect_same_solid(cube, result);
 }
 
+// Each side of the cube in so many stripes, which are sources.
+Surface striped_cube(std::uint32_t stripes) {
+  const TriangleSoup cube = squared_cube(8);
+  Surface surface = as_surface(cube);
+  for (std::size_t t = 0; t < cube.triangles.size(); ++t) {
+    const auto& c = cube.triangles[t];
+    const Vec3d middle = (cube.points[c[0]] + cube.points[c[1]] + cube.points[c[2]]) / 3;
+    const std::uint32_t side = static_cast<std::uint32_t>(t / 128);
+    const int along = side / 2 == 0 ? 1 : 0;  // not the axis of the side
+    surface.source[t] =
+        side * stripes + static_cast<std::uint32_t>(middle[along] * static_cast<double>(stripes));
+  }
+  return surface;
+}
+
+// Where sources carry functions of their own, the lines between them stay.
+TEST(SimplifyCuts, LinesBetweenSourcesStayWhereTheyAre) {
+  for (const std::uint32_t stripes : {1u, 2u, 4u}) {
+    const Surface surface = striped_cube(stripes);
+    const std::vector<double> reach(6 * std::size_t{stripes}, 1e-12);
+    std::vector<char> stays(surface.mesh.points.size(), 0);
+    SimplifyOptions options;
+    options.within = 1e-9;
+    options.reach = reach;
+    SimplifyReport report;
+    const auto simpler = simplify_cuts(surface, stays, options, report);
+    ASSERT_TRUE(simpler);
+    std::vector<double> before(reach.size(), 0), after(reach.size(), 0);
+    const auto add_areas = [](const Surface& of, std::vector<double>& areas) {
+      for (std::size_t t = 0; t < of.source.size(); ++t) {
+        const auto& [a, b, c] = of.mesh.triangles[t];
+        const auto& at = of.mesh.points;
+        areas[of.source[t]] += (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
+      }
+    };
+    add_areas(surface, before);
+    add_areas(*simpler, after);
+    for (std::size_t s = 0; s < before.size(); ++s) EXPECT_NEAR(after[s], before[s], 1e-9);
+    EXPECT_LT(simpler->mesh.triangles.size(), surface.mesh.triangles.size() / 4);
+  }
+}
+
 // A block with a roof on four sides whose top is two points in one place.
 TEST(SimplifyCuts, TwoEndsOfAnEdgeInOnePlaceBecomeOne) {
   TriangleSoup house;
@@ -388,7 +430,7 @@ TEST(CutSimplifier, TakesBackMovesAndWhatBuildsOnThem) {
     const TriangleSoup soup = seed % 2 == 0 ? squared_cube(8) : sphere(400);
     std::vector<char> stays(soup.points.size(), 0);
     const std::vector<double> within(soup.points.size(), 0.2);
-    CutSimplifier simplifier(soup, stays, within, nullptr);
+    CutSimplifier simplifier(soup, stays, within, {}, nullptr);
     for (int turn = 0; turn < 4; ++turn) {
       simplifier.run();
       std::vector<std::array<std::uint32_t, 3>> left;
