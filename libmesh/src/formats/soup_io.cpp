@@ -11,6 +11,7 @@
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 
+#include "formats/gltf/gltf_io.h"
 #include "formats/obj/material_library.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
@@ -77,6 +78,14 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
   if (*format == SoupFormat::obj && options.attributes != nullptr && path != "-") {
     return write_obj(soup, path, options);
   }
+  if ((*format == SoupFormat::glb || *format == SoupFormat::gltf) && options.sources.empty()) {
+    // Names of images depend on where the file is.
+    write_file_atomically(path,
+                          format_gltf(soup, options.comments, options.attributes,
+                                      *format == SoupFormat::glb, path.parent_path()),
+                          options.progress);
+    return;
+  }
   write_file_atomically(
       path, format_soup(soup, *format, options.comments, options.sources, options.attributes),
       options.progress);
@@ -100,9 +109,12 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
     case SoupFormat::ply_binary:
       return format_ply_binary(soup, comments, sources);
     case SoupFormat::ply_ascii:
+      return format_ply_ascii(soup, comments, sources);
+    case SoupFormat::glb:
+    case SoupFormat::gltf:
       break;
   }
-  return format_ply_ascii(soup, comments, sources);
+  return format_gltf(soup, comments, attributes, format == SoupFormat::glb);
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {
