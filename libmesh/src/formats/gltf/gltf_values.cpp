@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <base/error.h>
+#include <mesh/float32.h>
 
 namespace meshrepair {
 namespace {
@@ -61,8 +62,7 @@ void set_direction(std::vector<double>& value, const Vec3d& direction) {
   const double length = direction.stableNorm();
   if (!std::isfinite(length) || !(length > 0)) return;
   for (int i = 0; i < 3; ++i) {
-    value[static_cast<std::size_t>(i)] =
-        static_cast<double>(static_cast<float>(direction[i] / length));
+    value[static_cast<std::size_t>(i)] = rounded_to_float32(direction[i] / length);
   }
 }
 
@@ -132,9 +132,7 @@ void GltfValues::fill(const GltfAccessor& accessor, std::uint32_t vertex,
   const std::size_t count = std::min(attribute.components, accessor.components());
   for (std::size_t k = 0; k < count; ++k) {
     const double number = accessor.value(vertex, k);
-    value_[k] = attribute.storage == Storage::byte
-                    ? number
-                    : static_cast<double>(static_cast<float>(number));
+    value_[k] = attribute.storage == Storage::byte ? number : rounded_to_float32(number);
   }
   if (attribute.kind == Kind::texture) {
     const double v = value_[1];
