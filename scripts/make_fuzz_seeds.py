@@ -8,6 +8,8 @@ were mended, are left alone.
 Usage: make_fuzz_seeds.py [--check]   (--check: compare with what is there, write nothing)
 """
 
+import base64
+import json
 import itertools
 import math
 import pathlib
@@ -103,6 +105,58 @@ def off_seeds():
         "lies": b"OFF\n3 99999999 0\n0 0 0\nnan x 0\n0 1 inf\n3 0 1 2\n3 0 1 7\n2 0 1\n-1 0\n",
         "binary": binary("OFF", (3, 2, 0)),
         "binary_extra": binary("CnOFF", (3, 3, 2, 0), struct.pack(">4f", 0, 0, 1, 1)),
+    }
+
+
+def glb(root, binary):
+    text = json.dumps(root, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    binary += bytes(-len(binary) % 4)
+    data = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(data)) + data
+
+
+def gltf_seeds():
+    points, faces = TETRAHEDRON
+    positions = b"".join(struct.pack("<3f", *point) for point in points)
+    indices = b"".join(struct.pack("<3H", *face) for face in faces)
+    texture = struct.pack("<8B", 0, 0, 255, 0, 0, 255, 255, 255)
+    buffer = positions + indices + texture
+
+    def root(**changes):
+        views = [(0, len(positions)), (len(positions), len(indices)), (len(positions) + len(indices), len(texture))]
+        made = {
+            "asset": {"version": "2.0"},
+            "buffers": [{"byteLength": len(buffer)}],
+            "bufferViews": [{"buffer": 0, "byteOffset": a, "byteLength": b} for a, b in views],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"},
+                          {"bufferView": 2, "componentType": 5121, "count": 4, "type": "VEC2", "normalized": True}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1,
+                                        "material": 0}]}],
+            "materials": [{"name": "m", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
+            "nodes": [{"mesh": 0, "name": "n"}], "scenes": [{"nodes": [0]}], "scene": 0,
+        }
+        made.update(changes)
+        return made
+
+    uri = "data:;base64," + base64.b64encode(buffer).decode()
+    sparse = root()
+    sparse["accessors"][0]["sparse"] = {"count": 1, "indices": {"bufferView": 2, "componentType": 5121},
+                                        "values": {"bufferView": 0}}
+    strip = root()
+    strip["meshes"][0]["primitives"][0]["mode"] = 5
+    return {
+        "plain": glb(root(), buffer),
+        "text": json.dumps(root(buffers=[{"byteLength": len(buffer), "uri": uri}])).encode(),
+        "sparse": glb(sparse, buffer),
+        "strip": glb(strip, buffer),
+        "nodes": glb(root(nodes=[{"scale": [-1, 2, 3], "children": [1]}, {"mesh": 0, "rotation": [0, 0, 1, 0]}]), buffer),
+        "instances": glb(root(nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {
+            "attributes": {"TRANSLATION": 0}}}}]), buffer),
+        "lies": glb(root(bufferViews=[{"buffer": 0, "byteLength": 2 ** 32}]), buffer),
+        "circle": glb(root(nodes=[{"children": [0]}]), buffer),
+        "cut": glb(root(), buffer)[:-40],
     }
 
 
@@ -434,8 +488,8 @@ def repair_seeds():
     return seeds
 
 
-SEEDS = {"stl": stl_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds, "om": om_seeds, "points": point_seeds,
-         "tree": tree_seeds, "clip": clip_seeds, "repair": repair_seeds}
+SEEDS = {"stl": stl_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds, "gltf": gltf_seeds, "om": om_seeds,
+         "points": point_seeds, "tree": tree_seeds, "clip": clip_seeds, "repair": repair_seeds}
 
 
 def main():

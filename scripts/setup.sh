@@ -25,9 +25,11 @@ build_packages=(
   libbenchmark-dev
   libboost-dev
   libcli11-dev
+  libdraco-dev
   libeigen3-dev
   libgmock-dev
   libgtest-dev
+  libmeshoptimizer-dev
   libnanoflann-dev
   libopenmesh-dev
   libspdlog-dev

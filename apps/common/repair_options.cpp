@@ -25,12 +25,14 @@ constexpr std::array<Choice<HoleMode>, 4> kHoleModes = {{{"patch", HoleMode::pat
 constexpr std::array<Choice<Cavities>, 2> kCavities = {
     {{"keep", Cavities::keep}, {"fill", Cavities::fill}}};
 
-constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl_binary},
+constexpr std::array<Choice<SoupFormat>, 8> kFormats = {{{"stl", SoupFormat::stl_binary},
                                                          {"stl-ascii", SoupFormat::stl_ascii},
                                                          {"obj", SoupFormat::obj},
                                                          {"off", SoupFormat::off},
                                                          {"ply", SoupFormat::ply_binary},
-                                                         {"ply-ascii", SoupFormat::ply_ascii}}};
+                                                         {"ply-ascii", SoupFormat::ply_ascii},
+                                                         {"glb", SoupFormat::glb},
+                                                         {"gltf", SoupFormat::gltf}}};
 
 constexpr std::array<Choice<bool>, 2> kAttributes = {{{"keep", true}, {"drop", false}}};
 

@@ -31,6 +31,8 @@ Held held_by(SoupFormat format) {
       return {.textures = 1, .normals = true, .colours = true, .materials = true, .groups = true};
     case SoupFormat::ply_binary:
     case SoupFormat::ply_ascii:
+    case SoupFormat::glb:
+    case SoupFormat::gltf:
       break;
   }
   return {.textures = kAny, .normals = true, .colours = true, .others = true, .materials = true};

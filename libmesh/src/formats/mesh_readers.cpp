@@ -10,6 +10,7 @@
 #include <mesh/soup_io.h>
 
 #include "formats/common/text_scanner.h"
+#include "formats/gltf/gltf_io.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"
@@ -59,10 +60,12 @@ SoupFormat recognize_mesh(const MeshSource& source) {
   const auto format = format_of_extension(source.name);
   if (!format)
     source.fail(
-        "is in no known format: neither a mesh (STL, OBJ, OFF, PLY) nor points (XYZ, PTS, PWN, "
+        "is in no known format: neither a mesh (STL, OBJ, OFF, PLY, glTF) nor points (XYZ, PTS, "
+        "PWN, "
         "PCD, PLY, OBJ)");
   const bool is_text = looks_like_text(source.bytes);
   if (*format == SoupFormat::stl_binary && is_text) return SoupFormat::stl_ascii;
+  if (*format == SoupFormat::glb) source.fail("does not begin with 'glTF' as a .glb file does");
   if (*format == SoupFormat::ply_binary)
     source.fail("does not begin with 'ply' as a PLY file does");
   if (*format != SoupFormat::stl_binary && !is_text) {
@@ -84,9 +87,12 @@ ReadResult read_mesh_as(SoupFormat format, const MeshSource& source) {
       return read_off(source);
     case SoupFormat::ply_binary:
     case SoupFormat::ply_ascii:
+      return read_ply(source);
+    case SoupFormat::glb:
+    case SoupFormat::gltf:
       break;
   }
-  return read_ply(source);
+  return read_gltf(source);
 }
 
 void require_mesh(const MeshSource& source, const ReadResult& result) {

@@ -5,6 +5,7 @@
 #include <mesh/recognize_format.h>
 
 #include "formats/common/text_scanner.h"
+#include "formats/gltf/gltf_io.h"
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
@@ -32,11 +33,13 @@ bool is_count(std::string_view word) {
 }  // namespace
 
 std::optional<SoupFormat> recognize_content(std::string_view bytes) {
+  if (is_glb(bytes)) return SoupFormat::glb;
   if (begins_with_ply(bytes)) return SoupFormat::ply_binary;
   if (begins_with_off(bytes)) return SoupFormat::off;
   if (is_binary_stl(bytes)) return SoupFormat::stl_binary;
   if (!looks_like_text(bytes)) return std::nullopt;
   TextScanner text(bytes, {.comment = '#'});
+  if (is_gltf_text(bytes)) return SoupFormat::gltf;
   if (!text.next_anywhere()) return std::nullopt;
   const std::string_view word = text.peek_token();
   if (is_stl_keyword(word)) return SoupFormat::stl_ascii;
@@ -51,10 +54,9 @@ bool looks_like_tree(std::string_view bytes) {
 
 std::string_view name_foreign_format(std::string_view bytes) {
   using namespace std::string_view_literals;
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSignatures = {{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSignatures = {{
       {"PK\x03\x04"sv, "a ZIP archive (a 3MF?)"},
       {"\x1F\x8B"sv, "compressed by gzip"},
-      {"glTF"sv, "a binary glTF"},
       {"OM"sv, "a mesh of OpenMesh (.om)"},
       {"\xFF\xFE"sv, "text in UTF-16, not in UTF-8"},
       {"\xFE\xFF"sv, "text in UTF-16, not in UTF-8"},

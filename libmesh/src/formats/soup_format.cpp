@@ -7,6 +7,13 @@
 #include "formats/common/text_scanner.h"
 
 namespace meshrepair {
+namespace {
+
+bool is_any_gltf(SoupFormat format) {
+  return format == SoupFormat::glb || format == SoupFormat::gltf;
+}
+
+}  // namespace
 
 std::string_view format_name(SoupFormat format) {
   switch (format) {
@@ -21,17 +28,23 @@ std::string_view format_name(SoupFormat format) {
     case SoupFormat::ply_binary:
       return "binary PLY";
     case SoupFormat::ply_ascii:
+      return "ASCII PLY";
+    case SoupFormat::glb:
+      return "binary glTF";
+    case SoupFormat::gltf:
       break;
   }
-  return "ASCII PLY";
+  return "glTF";
 }
 
 std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
-  constexpr std::array<std::pair<std::string_view, SoupFormat>, 4> kExtensions = {{
+  constexpr std::array<std::pair<std::string_view, SoupFormat>, 6> kExtensions = {{
       {".stl", SoupFormat::stl_binary},
       {".obj", SoupFormat::obj},
       {".off", SoupFormat::off},
       {".ply", SoupFormat::ply_binary},
+      {".glb", SoupFormat::glb},
+      {".gltf", SoupFormat::gltf},
   }};
   const std::string extension = path.extension().string();
   for (const auto& [name, format] : kExtensions) {
@@ -40,20 +53,23 @@ std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path)
   return std::nullopt;
 }
 
-std::string_view known_extensions() { return ".stl, .obj, .off, .ply"; }
+std::string_view known_extensions() { return ".stl, .obj, .off, .ply, .glb, .gltf"; }
 
 bool welds_points(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
+  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii || is_any_gltf(format);
 }
 
-bool is_single(SoupFormat format) { return format == SoupFormat::stl_binary; }
+bool is_single(SoupFormat format) {
+  return format == SoupFormat::stl_binary || is_any_gltf(format);
+}
 
 bool holds_sources(SoupFormat format) {
   return format == SoupFormat::ply_binary || format == SoupFormat::ply_ascii;
 }
 
 bool holds_attributes(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::obj || holds_sources(format);
+  return format == SoupFormat::stl_binary || format == SoupFormat::obj || is_any_gltf(format) ||
+         holds_sources(format);
 }
 
 }  // namespace meshrepair

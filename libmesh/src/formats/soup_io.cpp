@@ -11,6 +11,7 @@
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 
+#include "formats/gltf/gltf_io.h"
 #include "formats/obj/material_library.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
@@ -98,9 +99,12 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupE
     case SoupFormat::ply_binary:
       return format_ply_binary(soup, extras);
     case SoupFormat::ply_ascii:
+      return format_ply_ascii(soup, extras);
+    case SoupFormat::glb:
+    case SoupFormat::gltf:
       break;
   }
-  return format_ply_ascii(soup, extras);
+  return format_gltf(soup, extras.comments, extras.attributes, format == SoupFormat::glb, extras.folder);
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {

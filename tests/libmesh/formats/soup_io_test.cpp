@@ -17,15 +17,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr SoupFormat kAllFormats[] = {SoupFormat::stl_binary, SoupFormat::stl_ascii,
-                                      SoupFormat::obj,        SoupFormat::off,
-                                      SoupFormat::ply_binary, SoupFormat::ply_ascii};
+constexpr SoupFormat kAllFormats[] = {
+    SoupFormat::stl_binary, SoupFormat::stl_ascii, SoupFormat::obj, SoupFormat::off,
+    SoupFormat::ply_binary, SoupFormat::ply_ascii, SoupFormat::glb, SoupFormat::gltf};
 
 class SoupFormats : public ::testing::TestWithParam<SoupFormat> {};
 
 TEST_P(SoupFormats, RandomSoupComesBackBitForBit) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    const TriangleSoup soup = random_soup(seed, GetParam() == SoupFormat::stl_binary);
+    const TriangleSoup soup = random_soup(seed, is_single(GetParam()));
     const ReadResult result = read_text(format_soup(soup, GetParam()), "mesh");
     ASSERT_EQ(result.report.format, GetParam());
     ASSERT_EQ(corner_bits(result.soup), corner_bits(soup)) << "seed " << seed;
@@ -118,6 +118,8 @@ TEST(FormatOfExtension, CaseDoesNotMatter) {
   EXPECT_EQ(format_of_extension("a.b.Obj"), SoupFormat::obj);
   EXPECT_EQ(format_of_extension("a.off"), SoupFormat::off);
   EXPECT_EQ(format_of_extension("a.ply"), SoupFormat::ply_binary);
+  EXPECT_EQ(format_of_extension("a.glb"), SoupFormat::glb);
+  EXPECT_EQ(format_of_extension("a.GLTF"), SoupFormat::gltf);
   EXPECT_EQ(format_of_extension("stl"), std::nullopt);
   EXPECT_EQ(format_of_extension("a.3mf"), std::nullopt);
 }

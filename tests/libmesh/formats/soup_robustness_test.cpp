@@ -51,6 +51,8 @@ std::vector<Sample> samples() {
       {"OffBinary", ".off", binary_off()},
       {"PlyBinary", ".ply", format_soup(soup, SoupFormat::ply_binary)},
       {"PlyAscii", ".ply", format_soup(soup, SoupFormat::ply_ascii)},
+      {"Glb", ".glb", format_soup(soup, SoupFormat::glb)},
+      {"Gltf", ".gltf", format_soup(soup, SoupFormat::gltf)},
       {"PlyBigEndian", ".ply", big_endian_ply()},
   };
 }

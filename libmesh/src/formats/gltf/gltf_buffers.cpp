@@ -1,0 +1,72 @@
+#include "gltf_buffers.h"
+
+#include <optional>
+#include <utility>
+
+#include <base/file_bytes.h>
+
+#include "formats/common/named_files.h"
+#include "gltf_meshopt.h"
+#include "gltf_uri.h"
+
+namespace meshrepair {
+
+std::string_view GltfBuffers::view(std::size_t number) {
+  const GltfJson& view = document_.entry("bufferViews", number);
+  const GltfJson* const compression = gltf_extension(view, "EXT_meshopt_compression");
+  if (compression == nullptr) return part(view);
+  const auto [found, is_new] = decompressed_.try_emplace(number);
+  if (is_new) found->second = decompress(*compression);
+  return found->second;
+}
+
+std::string_view GltfBuffers::part(const GltfJson& view) {
+  const std::string_view bytes = buffer(document_.required_whole(view, "buffer"));
+  const std::size_t offset = document_.whole(view, "byteOffset", 0);
+  const std::size_t length = document_.required_whole(view, "byteLength");
+  if (offset > bytes.size() || length > bytes.size() - offset) {
+    document_.source().fail("a buffer view reaches beyond its buffer, which has " +
+                            counted(bytes.size(), "byte"));
+  }
+  return bytes.substr(offset, length);
+}
+
+std::string GltfBuffers::decompress(const GltfJson& compression) {
+  const std::string_view bytes = part(compression);
+  return decode_meshopt(document_.source(), bytes,
+                        {.count = document_.required_whole(compression, "count"),
+                         .stride = document_.required_whole(compression, "byteStride"),
+                         .mode = gltf_text(compression, "mode"),
+                         .filter = gltf_text(compression, "filter")});
+}
+
+std::string_view GltfBuffers::buffer(std::size_t number) {
+  const auto [found, is_new] = buffers_.try_emplace(number);
+  if (is_new) found->second = load(number);
+  return found->second.bytes;
+}
+
+GltfBuffers::Bytes GltfBuffers::load(std::size_t number) const {
+  const MeshSource& source = document_.source();
+  const GltfJson& buffer = document_.entry("buffers", number);
+  const std::string what = "its buffer " + std::to_string(number);
+  const GltfJson* const uri = gltf_member(buffer, "uri");
+  if (uri == nullptr) {
+    if (number != 0 || !document_.binary()) source.fail(what + " is nowhere");
+    return {*document_.binary(), nullptr};
+  }
+  if (!uri->is_string()) source.fail(what + " has a URI that is no text");
+  const auto& name = uri->get_ref<const std::string&>();
+  if (is_data_uri(name)) {
+    std::optional<DataUri> data = decode_data_uri(name);
+    if (!data) source.fail(what + " is a data URI that is broken");
+    const auto owner = std::make_shared<const std::string>(std::move(data->bytes));
+    return {*owner, owner};
+  }
+  const auto path = find_named(source, decode_percent(name));
+  if (!path) source.fail(what + ", " + printable(name) + ", is not in its folder");
+  const auto owner = std::make_shared<const FileBytes>(*path, source.options.progress);
+  return {owner->bytes(), owner};
+}
+
+}  // namespace meshrepair

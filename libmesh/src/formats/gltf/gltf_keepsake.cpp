@@ -1,0 +1,205 @@
+#include "gltf_keepsake.h"
+
+#include <algorithm>
+#include <bit>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include <base/error.h>
+
+namespace meshrepair {
+namespace {
+
+// Of how triangles were stored, and of what names them: no longer true.
+constexpr std::array<const char*, 7> kOfMeshes = {
+    "KHR_mesh_quantization",   "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+    "EXT_mesh_gpu_instancing", "EXT_mesh_features",          "EXT_instance_features",
+    "EXT_structural_metadata"};
+
+bool is_of_meshes(const GltfJson& name) {
+  return name.is_string() && std::find(kOfMeshes.begin(), kOfMeshes.end(),
+                                       name.get_ref<const std::string&>()) != kOfMeshes.end();
+}
+
+// glTF has no empty objects and lists.
+void erase_if_empty(GltfJson& object, const char* key) {
+  const auto found = object.find(key);
+  if (found != object.end() && found->empty()) object.erase(found);
+}
+
+class KeepsakeMaker {
+ public:
+  KeepsakeMaker(const GltfDocument& document, GltfBuffers& buffers, const Attributes& attributes)
+      : document_(document),
+        buffers_(buffers),
+        attributes_(attributes),
+        kept_(std::make_shared<GltfKeepsake>()) {}
+
+  std::shared_ptr<GltfKeepsake> run() {
+    copy_root();
+    keep_nodes();
+    keep_images();
+    keep_animations();
+    keep_extensions();
+    if (!accessors_.empty()) root()["accessors"] = std::move(accessors_);
+    if (!views_.empty()) root()["bufferViews"] = std::move(views_);
+    kept_->materials = attributes_.materials.names;
+    return std::move(kept_);
+  }
+
+ private:
+  GltfJson& root() { return kept_->root; }
+
+  void copy_root() {
+    constexpr std::array<std::string_view, 5> kLeftOut = {"meshes", "skins", "accessors",
+                                                          "bufferViews", "buffers"};
+    root() = GltfJson::object();
+    for (const auto& [key, value] : document_.root().items()) {
+      if (std::find(kLeftOut.begin(), kLeftOut.end(), key) == kLeftOut.end()) root()[key] = value;
+    }
+  }
+
+  void keep_nodes() {
+    if (document_.count("nodes") == 0) return;
+    for (GltfJson& node : root()["nodes"]) {
+      if (!node.is_object()) continue;
+      for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+      drop_extensions(node);
+    }
+  }
+
+  static void drop_extensions(GltfJson& object) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object()) return;
+    for (const char* name : kOfMeshes) extensions->erase(name);
+    erase_if_empty(object, "extensions");
+  }
+
+  void keep_images() {
+    for (std::size_t i = 0; i < document_.count("images"); ++i) {
+      GltfJson& image = root()["images"][i];
+      const auto view = document_.whole(image, "bufferView");
+      if (view) image["bufferView"] = kept_view(*view, attributes_.images[i].bytes);
+    }
+  }
+
+  std::size_t kept_view(std::size_t number, std::shared_ptr<const std::string> bytes) {
+    const auto [found, is_new] = view_numbers_.try_emplace(number, views_.size());
+    if (!is_new) return found->second;
+    GltfJson view = document_.entry("bufferViews", number);
+    for (const char* key : {"buffer", "byteOffset"}) view.erase(key);
+    drop_extensions(view);
+    views_.push_back(std::move(view));
+    kept_->views.push_back(bytes ? std::move(bytes)
+                                 : std::make_shared<const std::string>(buffers_.view(number)));
+    return found->second;
+  }
+
+  void keep_animations() {
+    if (document_.count("animations") == 0) return;
+    GltfJson kept = GltfJson::array();
+    for (GltfJson& animation : root()["animations"]) {
+      try {
+        if (keep_animation(animation)) kept.push_back(std::move(animation));
+      } catch (const InputError&) {  // a broken one moves nothing
+      }
+    }
+    root()["animations"] = std::move(kept);
+    erase_if_empty(root(), "animations");
+  }
+
+  // False if nothing is left of it.
+  bool keep_animation(GltfJson& animation) {
+    const GltfJson* const channels = gltf_member(animation, "channels");
+    const GltfJson* const samplers = gltf_member(animation, "samplers");
+    if (channels == nullptr || samplers == nullptr || !samplers->is_array()) return false;
+    GltfJson kept = GltfJson::array();
+    for (const GltfJson& channel : *channels) {
+      const GltfJson* const target = gltf_member(channel, "target");
+      if (target != nullptr && !moves_mesh(*target)) kept.push_back(channel);
+    }
+    if (kept.empty()) return false;
+    for (GltfJson& sampler : animation["samplers"]) {
+      for (const char* key : {"input", "output"}) {
+        const std::size_t number = document_.required_whole(sampler, key);
+        sampler[key] = kept_accessor(number);
+      }
+    }
+    animation["channels"] = std::move(kept);
+    return true;
+  }
+
+  static bool moves_mesh(const GltfJson& target) {
+    if (gltf_text(target, "path") == "weights") return true;
+    const GltfJson* const pointer = gltf_extension(target, "KHR_animation_pointer");
+    if (pointer == nullptr) return false;
+    const std::string path = gltf_text(*pointer, "pointer");
+    return path.starts_with("/meshes") || path.starts_with("/skins") ||
+           path.find("/weights") != std::string::npos;
+  }
+
+  std::size_t kept_accessor(std::size_t number) {
+    const auto known = accessor_numbers_.find(number);
+    if (known != accessor_numbers_.end()) return known->second;
+    GltfJson accessor = document_.entry("accessors", number);
+    keep_view_of(accessor);
+    if (gltf_member(accessor, "sparse") != nullptr) {
+      for (const char* part : {"indices", "values"}) {
+        if (gltf_member(accessor["sparse"], part) != nullptr)
+          keep_view_of(accessor["sparse"][part]);
+      }
+    }
+    accessors_.push_back(std::move(accessor));
+    accessor_numbers_.emplace(number, accessors_.size() - 1);
+    return accessors_.size() - 1;
+  }
+
+  void keep_view_of(GltfJson& object) {
+    const auto view = document_.whole(object, "bufferView");
+    if (view) object["bufferView"] = kept_view(*view, nullptr);
+  }
+
+  void keep_extensions() {
+    drop_extensions(root());
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+      const auto names = root().find(key);
+      if (names == root().end()) continue;
+      GltfJson kept = GltfJson::array();
+      for (const GltfJson& name : *names) {
+        if (!is_of_meshes(name)) kept.push_back(name);
+      }
+      *names = std::move(kept);
+      erase_if_empty(root(), key);
+    }
+  }
+
+  const GltfDocument& document_;
+  GltfBuffers& buffers_;
+  const Attributes& attributes_;
+  std::shared_ptr<GltfKeepsake> kept_;
+  GltfJson accessors_ = GltfJson::array(), views_ = GltfJson::array();
+  std::unordered_map<std::size_t, std::size_t> accessor_numbers_, view_numbers_;
+};
+
+}  // namespace
+
+GltfSmallV::Key GltfSmallV::key_of(std::size_t set, double u, double flipped) {
+  return {set, std::bit_cast<std::uint64_t>(u), std::bit_cast<std::uint64_t>(flipped)};
+}
+
+void GltfSmallV::add(std::size_t set, double u, double flipped, float v) {
+  if (static_cast<float>(1 - flipped) != v) small_.emplace(key_of(set, u, flipped), v);
+}
+
+float GltfSmallV::original(std::size_t set, double u, double flipped) const {
+  const auto found = small_.empty() ? small_.end() : small_.find(key_of(set, u, flipped));
+  return found == small_.end() ? static_cast<float>(1 - flipped) : found->second;
+}
+
+std::shared_ptr<GltfKeepsake> make_gltf_keepsake(const GltfDocument& document, GltfBuffers& buffers,
+                                                 const Attributes& attributes) {
+  return KeepsakeMaker(document, buffers, attributes).run();
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,90 @@
+#include "gltf_materials.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "formats/common/named_files.h"
+#include "gltf_uri.h"
+
+namespace meshrepair {
+namespace {
+
+// Those that have none, or that of one before, get one.
+std::vector<std::string> unique_names(const GltfDocument& document) {
+  std::vector<std::string> names;
+  std::unordered_set<std::string> taken;
+  for (std::size_t m = 0; m < document.count("materials"); ++m) {
+    const std::string own = gltf_text(document.entry("materials", m), "name");
+    const std::string number = std::to_string(m);
+    std::string name = own.empty() ? "material_" + number : own;
+    while (!taken.insert(name).second) name += "_" + number;
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+// Newer kinds of images stand in extensions.
+std::optional<std::size_t> image_of_texture(const GltfDocument& document, const GltfJson& texture) {
+  if (const auto source = document.whole(texture, "source")) return source;
+  const GltfJson* const extensions = gltf_member(texture, "extensions");
+  if (extensions == nullptr || !extensions->is_object()) return std::nullopt;
+  for (const GltfJson& extension : *extensions) {
+    if (const auto source = document.whole(extension, "source")) return source;
+  }
+  return std::nullopt;
+}
+
+Material look_of(const GltfDocument& document, const GltfJson& material) {
+  Material look;
+  const GltfJson* const shading = gltf_member(material, "pbrMetallicRoughness");
+  if (shading == nullptr) return look;
+  const GltfJson* const factor = gltf_member(*shading, "baseColorFactor");
+  if (factor != nullptr && factor->is_array() && factor->size() == look.colour.size()) {
+    for (std::size_t i = 0; i < look.colour.size(); ++i) {
+      if ((*factor)[i].is_number()) look.colour[i] = (*factor)[i].get<double>();
+    }
+  }
+  const GltfJson* const texture = gltf_member(*shading, "baseColorTexture");
+  const auto number = texture == nullptr ? std::nullopt : document.whole(*texture, "index");
+  if (!number) return look;
+  const auto image = image_of_texture(document, document.entry("textures", *number));
+  if (image && *image < document.count("images")) look.image = static_cast<std::uint32_t>(*image);
+  return look;
+}
+
+Image image_of(const GltfDocument& document, GltfBuffers& buffers, const GltfJson& json) {
+  Image image{gltf_text(json, "name"), gltf_text(json, "mimeType"), {}, nullptr};
+  if (const auto view = document.whole(json, "bufferView")) {
+    image.bytes = std::make_shared<const std::string>(buffers.view(*view));
+    return image;
+  }
+  const std::string uri = gltf_text(json, "uri");
+  if (!is_data_uri(uri)) {
+    const std::string name = decode_percent(uri);
+    image.name = std::filesystem::path(name).filename().string();
+    if (const auto path = path_of_named(document.source(), name)) image.path = path->string();
+    return image;
+  }
+  std::optional<DataUri> data = decode_data_uri(uri);
+  if (!data) document.source().fail("an image is a data URI that is broken");
+  if (image.media_type.empty()) image.media_type = std::move(data->media_type);
+  image.bytes = std::make_shared<const std::string>(std::move(data->bytes));
+  return image;
+}
+
+}  // namespace
+
+void read_materials(const GltfDocument& document, GltfBuffers& buffers, Attributes& attributes) {
+  attributes.materials.names = unique_names(document);
+  for (std::size_t m = 0; m < document.count("materials"); ++m) {
+    attributes.looks.push_back(look_of(document, document.entry("materials", m)));
+  }
+  for (std::size_t i = 0; i < document.count("images"); ++i) {
+    attributes.images.push_back(image_of(document, buffers, document.entry("images", i)));
+  }
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,209 @@
+#include "gltf_primitive.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <base/ids.h>
+#include <mesh/read_guard.h>
+
+#include "gltf_draco.h"
+
+namespace meshrepair {
+namespace {
+
+enum class Mode : std::size_t { triangles = 4, strip = 5, fan = 6 };
+
+class PrimitiveReader {
+ public:
+  PrimitiveReader(const GltfDocument& document, GltfBuffers& buffers, const GltfJson& primitive,
+                  GltfOddities& oddities)
+      : document_(document),
+        source_(document.source()),
+        buffers_(buffers),
+        json_(primitive),
+        oddities_(oddities),
+        guard_(source_) {}
+
+  std::optional<GltfPrimitive> run() {
+    const std::size_t mode = document_.whole(json_, "mode", 4);
+    if (mode < 4 || mode > 6) {
+      ++oddities_.not_triangles;
+      return std::nullopt;
+    }
+    attributes_ = gltf_member(json_, "attributes");
+    if (attributes_ == nullptr || gltf_member(*attributes_, "POSITION") == nullptr) {
+      ++oddities_.without_positions;
+      return std::nullopt;
+    }
+    if (gltf_member(json_, "targets") != nullptr) ++oddities_.morphed;
+    result_.material = document_.whole(json_, "material");
+    if (result_.material) (void)document_.entry("materials", *result_.material);
+    const GltfJson* const draco = gltf_extension(json_, "KHR_draco_mesh_compression");
+    if (draco != nullptr) {
+      read_compressed(*draco);
+    } else {
+      read_indices();
+    }
+    read_attributes();
+    if (result_.positions.components() != 3) source_.fail("positions have not three coordinates");
+    make_triangles(static_cast<Mode>(mode));
+    return std::move(result_);
+  }
+
+ private:
+  // Integers that are read from it are below its count, or it has none and counts itself.
+  void read_indices() {
+    const auto number = document_.whole(json_, "indices");
+    if (!number) return;
+    indices_ = GltfAccessor(document_, buffers_, *number);
+    if (!indices_->is_index()) source_.fail("the indices of triangles are no whole numbers");
+  }
+
+  void read_compressed(const GltfJson& draco) {
+    const auto number = document_.whole(json_, "indices");
+    const std::size_t declared =
+        number ? document_.required_whole(document_.entry("accessors", *number), "count") / 3
+               : std::numeric_limits<std::size_t>::max();
+    guard_.require(number ? declared : 0);
+    std::vector<DracoAttribute> wanted;
+    std::vector<std::string> names;
+    const GltfJson* const ids = gltf_member(draco, "attributes");
+    if (ids == nullptr || !ids->is_object())
+      source_.fail("compressed triangles name no attributes");
+    for (const auto& [name, id] : ids->items()) {
+      if (!is_wanted(name)) continue;
+      const auto accessor = document_.whole(*attributes_, name.c_str());
+      if (!accessor) continue;
+      const GltfLayout layout =
+          GltfAccessor::layout_of(document_, document_.entry("accessors", *accessor));
+      const std::size_t id_number = document_.whole_of(id, "attribute");
+      wanted.push_back({static_cast<std::uint32_t>(id_number), layout.normalized});
+      names.push_back(name);
+    }
+    DracoMesh mesh = decode_draco(
+        source_, buffers_.view(document_.required_whole(draco, "bufferView")), declared, wanted);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      take(names[i], std::move(mesh.attributes[i]));
+    }
+    corners_ = std::move(mesh.corners);
+  }
+
+  [[nodiscard]] bool is_wanted(const std::string& name) const {
+    return name == "POSITION" || source_.options.attributes;
+  }
+
+  void take(const std::string& name, GltfAccessor accessor) {
+    if (name == "POSITION") {
+      result_.positions = std::move(accessor);
+      has_positions_ = true;
+    } else {
+      result_.attributes.emplace_back(name, std::move(accessor));
+    }
+  }
+
+  void read_attributes() {
+    for (const auto& [name, value] : attributes_->items()) {
+      if (!is_wanted(name) || has(name)) continue;
+      take(name, GltfAccessor(document_, buffers_, document_.whole_of(value, "attribute")));
+    }
+  }
+
+  [[nodiscard]] bool has(const std::string& name) const {
+    if (name == "POSITION") return has_positions_;
+    return std::any_of(result_.attributes.begin(), result_.attributes.end(),
+                       [&](const auto& attribute) { return attribute.first == name; });
+  }
+
+  [[nodiscard]] std::size_t corner_count() const {
+    if (corners_) return corners_->size();
+    return indices_ ? indices_->count() : result_.positions.count();
+  }
+
+  [[nodiscard]] std::size_t vertex_at(std::size_t corner) const {
+    if (corners_) return (*corners_)[corner];
+    return indices_ ? indices_->index(corner) : corner;
+  }
+
+  void make_triangles(Mode mode) {
+    // What Draco gives is triangles, whatever they were.
+    if (corners_) mode = Mode::triangles;
+    const std::size_t count = corner_count();
+    const std::size_t triangles =
+        mode == Mode::triangles ? count / 3 : std::max<std::size_t>(count, 2) - 2;
+    guard_.require(triangles);
+    if (result_.positions.count() >= kNone) {
+      throw LimitError(source_.name + ": more than 4294967294 points");
+    }
+    number_.assign(result_.positions.count(), kNone);
+    result_.corners.reserve(3 * triangles);
+    for (std::size_t t = 0; t < triangles; ++t) {
+      guard_.step(t, 0);
+      if (mode == Mode::triangles) {
+        add(3 * t, 3 * t + 1, 3 * t + 2);
+      } else if (mode == Mode::strip) {
+        add_of_strip(t, t + 1 + t % 2, t + 2 - t % 2);
+      } else {
+        add(t + 1, t + 2, 0);
+      }
+    }
+    number_ = {};
+    if (mode == Mode::triangles && count % 3 != 0) ++oddities_.bad_triangles;
+  }
+
+  // Strips go on through triangles that are none.
+  void add_of_strip(std::size_t a, std::size_t b, std::size_t c) {
+    const std::size_t va = vertex_at(a), vb = vertex_at(b), vc = vertex_at(c);
+    if (va != vb && vb != vc && vc != va) add(a, b, c);
+  }
+
+  void add(std::size_t a, std::size_t b, std::size_t c) {
+    const std::array<std::size_t, 3> vertices = {vertex_at(a), vertex_at(b), vertex_at(c)};
+    if (std::any_of(vertices.begin(), vertices.end(),
+                    [&](std::size_t v) { return v >= number_.size(); })) {
+      ++oddities_.bad_triangles;
+      return;
+    }
+    for (const std::size_t vertex : vertices) {
+      std::uint32_t& number = number_[vertex];
+      if (number == kNone) {
+        number = static_cast<std::uint32_t>(result_.vertices.size());
+        result_.vertices.push_back(static_cast<std::uint32_t>(vertex));
+      }
+      result_.corners.push_back(number);
+    }
+  }
+
+  const GltfDocument& document_;
+  const MeshSource& source_;
+  GltfBuffers& buffers_;
+  const GltfJson& json_;
+  GltfOddities& oddities_;
+  ReadGuard guard_;
+  const GltfJson* attributes_ = nullptr;
+  std::optional<GltfAccessor> indices_;
+  std::optional<std::vector<std::uint32_t>> corners_;  // decompressed
+  bool has_positions_ = false;
+  std::vector<std::uint32_t> number_;  // of each vertex, among those in use
+  GltfPrimitive result_;
+};
+
+}  // namespace
+
+void GltfOddities::report(ReadReport& report) const {
+  const auto warn = [&](std::size_t count, std::string_view noun, std::string_view what) {
+    if (count > 0) report.warnings.push_back(counted(count, noun) + " " + std::string(what));
+  };
+  report.bad_faces += bad_triangles;
+  warn(not_triangles, "primitive", "of points or lines left out");
+  warn(without_positions, "primitive", "without positions left out");
+  warn(bad_triangles, "triangle", "left out: corners that are not there");
+  warn(morphed, "primitive", "read without morph targets");
+}
+
+std::optional<GltfPrimitive> read_primitive(const GltfDocument& document, GltfBuffers& buffers,
+                                            const GltfJson& primitive, GltfOddities& oddities) {
+  return PrimitiveReader(document, buffers, primitive, oddities).run();
+}
+
+}  // namespace meshrepair

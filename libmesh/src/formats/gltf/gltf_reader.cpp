@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include <base/error.h>
+#include <mesh/read_guard.h>
+#include <mesh/weld_points.h>
+
+#include "gltf_io.h"
+#include "gltf_keepsake.h"
+#include "gltf_materials.h"
+#include "gltf_primitive.h"
+#include "gltf_scene.h"
+#include "gltf_values.h"
+
+namespace meshrepair {
+namespace {
+
+class GltfReader {
+ public:
+  explicit GltfReader(const MeshSource& source)
+      : source_(source), document_(source), buffers_(document_), guard_(source) {}
+
+  ReadResult run() {
+    result_.report.format = document_.is_binary() ? SoupFormat::glb : SoupFormat::gltf;
+    scene_ = read_scene(document_, buffers_);
+    read_meshes();
+    GltfValues values(primitives());
+    read_labels();
+    const std::size_t triangles = count_triangles();
+    result_.soup.triangles.reserve(triangles);
+    PointWelder welder(result_.soup.points, triangles / 2);
+    for (const GltfInstance& instance : scene_.instances) {
+      const std::uint32_t object = object_of(instance);
+      for (const GltfPrimitive& primitive : meshes_[instance.mesh]) {
+        append(primitive, instance.placement, object, welder, values);
+      }
+    }
+    guard_.step(triangles, source_.bytes.size());
+    finish(values);
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] bool wants_attributes() const { return source_.options.attributes; }
+
+  void read_meshes() {
+    for (const GltfInstance& instance : scene_.instances) {
+      const auto [found, is_new] = meshes_.try_emplace(instance.mesh);
+      if (!is_new) continue;
+      const GltfJson& mesh = document_.entry("meshes", instance.mesh);
+      const GltfJson* const list = gltf_member(mesh, "primitives");
+      if (list == nullptr || !list->is_array()) continue;
+      for (const GltfJson& json : *list) {
+        guard_.step(0, 0);
+        auto primitive = read_primitive(document_, buffers_, json, oddities_);
+        if (!primitive) continue;
+        guard_.require(read_ += primitive->triangles());
+        found->second.push_back(std::move(*primitive));
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<const GltfPrimitive*> primitives() const {
+    std::vector<const GltfPrimitive*> all;
+    for (const auto& [number, mesh] : meshes_) {
+      for (const GltfPrimitive& primitive : mesh) all.push_back(&primitive);
+    }
+    return all;
+  }
+
+  // Instances are cheap in the file, so they are counted before memory is taken.
+  std::size_t count_triangles() const {
+    constexpr std::size_t kMost = ~std::uint32_t{0} - 1;
+    std::map<std::size_t, std::size_t> of_mesh;
+    for (const auto& [number, mesh] : meshes_) {
+      for (const GltfPrimitive& primitive : mesh) of_mesh[number] += primitive.triangles();
+    }
+    std::size_t count = 0;
+    for (const GltfInstance& instance : scene_.instances) {
+      count += of_mesh[instance.mesh];
+      if (count > kMost) {
+        throw LimitError(source_.name + ": more than 4294967294 triangles, with all instances");
+      }
+    }
+    guard_.require(count);
+    return count;
+  }
+
+  void read_labels() {
+    if (!wants_attributes()) return;
+    read_materials(document_, buffers_, result_.attributes);
+    kept_ = make_gltf_keepsake(document_, buffers_, result_.attributes);
+  }
+
+  std::uint32_t object_of(const GltfInstance& instance) {
+    if (!wants_attributes()) return kNone;
+    std::string name = gltf_text(document_.entry("nodes", instance.node), "name");
+    if (name.empty()) name = gltf_text(document_.entry("meshes", instance.mesh), "name");
+    if (name.empty()) return kNone;
+    std::vector<std::string>& names = result_.attributes.objects.names;
+    const auto [found, is_new] =
+        objects_.try_emplace(name, static_cast<std::uint32_t>(names.size()));
+    if (is_new) names.push_back(name);
+    return found->second;
+  }
+
+  void append(const GltfPrimitive& primitive, const GltfPlacement& placement, std::uint32_t object,
+              PointWelder& welder, GltfValues& values) {
+    const std::vector<std::uint32_t> points = add_points(primitive, placement, welder);
+    // Seen in a mirror triangles turn.
+    const bool is_mirrored = placement.linear.determinant() < 0;
+    std::vector<std::uint32_t> turned;
+    if (is_mirrored) {
+      turned = primitive.corners;
+      for (std::size_t i = 0; i < turned.size(); i += 3) std::swap(turned[i + 1], turned[i + 2]);
+    }
+    const std::vector<std::uint32_t>& corners = is_mirrored ? turned : primitive.corners;
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+      guard_.step(result_.soup.triangles.size(), 0);
+      result_.soup.triangles.push_back(
+          {points[corners[i]], points[corners[i + 1]], points[corners[i + 2]]});
+    }
+    if (!wants_attributes()) return;
+    values.append(primitive, placement, corners);
+    const std::size_t size = result_.soup.triangles.size();
+    const std::size_t material = primitive.material.value_or(kNone);
+    result_.attributes.materials.of_triangle.resize(size, static_cast<std::uint32_t>(material));
+    result_.attributes.objects.of_triangle.resize(size, object);
+  }
+
+  static std::vector<std::uint32_t> add_points(const GltfPrimitive& primitive,
+                                               const GltfPlacement& placement,
+                                               PointWelder& welder) {
+    const bool is_moved = !placement.is_identity();
+    std::vector<std::uint32_t> points;
+    points.reserve(primitive.vertices.size());
+    for (const std::uint32_t vertex : primitive.vertices) {
+      const GltfAccessor& positions = primitive.positions;
+      Vec3d point(positions.value(vertex, 0), positions.value(vertex, 1),
+                  positions.value(vertex, 2));
+      if (is_moved) point = placement.apply(point);
+      points.push_back(welder.index_of(point));
+    }
+    return points;
+  }
+
+  void finish(GltfValues& values) {
+    ReadReport& report = result_.report;
+    oddities_.report(report);
+    if (scene_.has_skins)
+      report.warnings.emplace_back("meshes with skins are read as without joints");
+    report.trailing_bytes = document_.trailing_bytes();
+    if (report.trailing_bytes > 0) {
+      report.warnings.push_back(counted(report.trailing_bytes, "byte") +
+                                " after the end of the binary glTF ignored");
+    }
+    if (!wants_attributes()) return;
+    Attributes& attributes = result_.attributes;
+    attributes.corners = values.take_corners();
+    if (attributes.materials.names.empty()) attributes.materials = {};
+    if (attributes.objects.names.empty()) attributes.objects = {};
+    kept_->small_v = values.take_small_v();
+    attributes.keepsake = std::move(kept_);
+  }
+
+  const MeshSource& source_;
+  GltfDocument document_;
+  GltfBuffers buffers_;
+  ReadGuard guard_;
+  GltfScene scene_;
+  GltfOddities oddities_;
+  std::map<std::size_t, std::vector<GltfPrimitive>> meshes_;
+  std::size_t read_ = 0;  // triangles, before instances
+  std::unordered_map<std::string, std::uint32_t> objects_;
+  std::shared_ptr<GltfKeepsake> kept_;
+  ReadResult result_;
+};
+
+}  // namespace
+
+bool is_glb(std::string_view bytes) { return bytes.starts_with("glTF"); }
+
+bool is_gltf_text(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && bytes[first] == '{' &&
+         bytes.find("\"asset\"") != std::string_view::npos;
+}
+
+ReadResult read_gltf(const MeshSource& source) { return GltfReader(source).run(); }
+
+}  // namespace meshrepair

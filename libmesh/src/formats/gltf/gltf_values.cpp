@@ -1,0 +1,182 @@
+#include "gltf_values.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+#include <base/error.h>
+#include <mesh/float32.h>
+
+namespace meshrepair {
+namespace {
+
+using Kind = CornerAttribute::Kind;
+using Storage = CornerAttribute::Storage;
+
+// What a name stands for, and which of its kind.
+struct Semantic {
+  Kind kind;
+  std::size_t number;
+};
+
+std::optional<Semantic> semantic_of(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, Kind>, 2> kNumbered = {
+      {{"TEXCOORD_", Kind::texture}, {"COLOR_", Kind::colour}}};
+  if (name == "NORMAL") return Semantic{Kind::normal, 0};
+  if (name == "TANGENT") return Semantic{Kind::tangent, 0};
+  if (name.starts_with('_')) return Semantic{Kind::other, 0};
+  for (const auto& [begin, kind] : kNumbered) {
+    if (!name.starts_with(begin)) continue;
+    const char* const last = name.data() + name.size();
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(name.data() + begin.size(), last, number);
+    if (error == std::errc() && end == last) return Semantic{kind, number};
+  }
+  return std::nullopt;
+}
+
+std::size_t components_of(Kind kind, std::size_t in_file) {
+  switch (kind) {
+    case Kind::texture:
+      return 2;
+    case Kind::normal:
+      return 3;
+    case Kind::tangent:
+      return 4;
+    case Kind::colour:
+      return std::clamp<std::size_t>(in_file, 3, 4);
+    case Kind::other:
+      break;
+  }
+  return in_file;
+}
+
+// Of length 1, as single precision, unless it has no direction.
+void set_direction(std::vector<double>& value, const Vec3d& direction) {
+  const double length = direction.stableNorm();
+  if (!std::isfinite(length) || !(length > 0)) return;
+  for (int i = 0; i < 3; ++i) {
+    value[static_cast<std::size_t>(i)] = rounded_to_float32(direction[i] / length);
+  }
+}
+
+// The cofactors are the transposed inverse times the determinant, and exist without it.
+Vec3d turned_normal(const Eigen::Matrix3d& m, const Vec3d& normal) {
+  Eigen::Matrix3d cofactors;
+  cofactors.col(0) = m.col(1).cross(m.col(2));
+  cofactors.col(1) = m.col(2).cross(m.col(0));
+  cofactors.col(2) = m.col(0).cross(m.col(1));
+  const Vec3d turned = cofactors * normal;
+  return m.determinant() < 0 ? Vec3d(-turned) : turned;
+}
+
+}  // namespace
+
+GltfValues::GltfValues(const std::vector<const GltfPrimitive*>& primitives) {
+  std::map<Key, CornerAttribute> found;
+  for (const GltfPrimitive* primitive : primitives) {
+    for (const auto& [name, accessor] : primitive->attributes) {
+      const auto semantic = semantic_of(name);
+      if (!semantic) continue;
+      const std::size_t components = components_of(semantic->kind, accessor.components());
+      const bool is_byte = semantic->kind == Kind::colour && accessor.is_byte_share();
+      const Storage storage = is_byte ? Storage::byte : Storage::real32;
+      const auto [at, is_new] = found.try_emplace({semantic->kind, {semantic->number, name}});
+      CornerAttribute& set = at->second;
+      set.components = is_new ? components : std::max(set.components, components);
+      set.storage = is_new || set.storage == storage ? storage : Storage::real32;
+      set.kind = semantic->kind;
+      set.name = name;
+      set.place = CornerAttribute::Place::point;
+    }
+  }
+  for (auto& [key, attribute] : found) {
+    sets_.emplace_back();
+    sets_.back().attribute = std::move(attribute);
+  }
+}
+
+void GltfValues::append(const GltfPrimitive& primitive, const GltfPlacement& placement,
+                        const std::vector<std::uint32_t>& corners) {
+  std::vector<std::uint32_t> number_of(primitive.vertices.size());
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    Set& set = sets_[s];
+    const auto own =
+        std::find_if(primitive.attributes.begin(), primitive.attributes.end(),
+                     [&](const auto& attribute) { return attribute.first == set.attribute.name; });
+    std::vector<std::uint32_t>& of_corner = set.attribute.of_corner;
+    if (own == primitive.attributes.end()) {
+      of_corner.resize(of_corner.size() + corners.size(), kNone);
+      continue;
+    }
+    for (std::size_t v = 0; v < number_of.size(); ++v) {
+      number_of[v] = kNone;
+      if (primitive.vertices[v] >= own->second.count()) continue;
+      fill(own->second, primitive.vertices[v], placement, s);
+      number_of[v] = number_of_value(set);
+    }
+    for (const std::uint32_t corner : corners) of_corner.push_back(number_of[corner]);
+  }
+}
+
+void GltfValues::fill(const GltfAccessor& accessor, std::uint32_t vertex,
+                      const GltfPlacement& placement, std::size_t set) {
+  const CornerAttribute& attribute = sets_[set].attribute;
+  value_.assign(attribute.components, attribute.kind == Kind::colour ? 1 : 0);
+  const std::size_t count = std::min(attribute.components, accessor.components());
+  for (std::size_t k = 0; k < count; ++k) {
+    const double number = accessor.value(vertex, k);
+    value_[k] = attribute.storage == Storage::byte ? number : rounded_to_float32(number);
+  }
+  if (attribute.kind == Kind::texture) {
+    const double v = value_[1];
+    value_[1] = 1 - v;
+    small_v_.add(set, value_[0], value_[1], static_cast<float>(v));
+  } else if (attribute.kind == Kind::normal && !placement.is_identity()) {
+    set_direction(value_, turned_normal(placement.linear, {value_[0], value_[1], value_[2]}));
+  } else if (attribute.kind == Kind::tangent && !placement.is_identity()) {
+    set_direction(value_, placement.linear * Vec3d(value_[0], value_[1], value_[2]));
+    if (placement.linear.determinant() < 0) value_[3] = -value_[3];
+  }
+}
+
+std::uint32_t GltfValues::number_of_value(Set& set) {
+  std::vector<double>& values = set.attribute.values;
+  const std::size_t n = set.attribute.components;
+  const auto hash_at = [n](const double* at) {
+    std::uint64_t hash = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      hash = internal::hash_mix(hash, std::bit_cast<std::uint64_t>(at[k]));
+    }
+    return hash;
+  };
+  const auto same = [&](std::uint32_t number) {
+    return std::equal(value_.begin(), value_.end(), values.data() + n * number,
+                      [](double a, double b) {
+                        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+                      });
+  };
+  const auto fresh = static_cast<std::uint32_t>(values.size() / n);
+  if (fresh == kNone) throw LimitError("more than 4294967294 values of an attribute");
+  if (set.numbers.full(fresh)) {
+    set.numbers.grow(fresh, [&](std::uint32_t i) { return hash_at(values.data() + n * i); });
+  }
+  const std::uint32_t number = set.numbers.find_or_insert(hash_at(value_.data()), fresh, same);
+  if (number == fresh) values.insert(values.end(), value_.begin(), value_.end());
+  return number;
+}
+
+std::vector<CornerAttribute> GltfValues::take_corners() {
+  std::vector<CornerAttribute> corners;
+  for (Set& set : sets_) corners.push_back(std::move(set.attribute));
+  sets_.clear();
+  return corners;
+}
+
+}  // namespace meshrepair

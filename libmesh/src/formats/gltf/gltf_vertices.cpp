@@ -1,0 +1,285 @@
+#include "gltf_vertices.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <base/error.h>
+#include <base/hash_index.h>
+
+namespace meshrepair {
+namespace {
+
+using Kind = CornerAttribute::Kind;
+using Storage = CornerAttribute::Storage;
+
+float coordinate_to_float(double coordinate) {
+  if (std::abs(coordinate) > std::numeric_limits<float>::max() && !std::isinf(coordinate)) {
+    throw OutputError("a coordinate of " + std::to_string(coordinate) +
+                      " does not fit into glTF; write another format");
+  }
+  return static_cast<float>(coordinate) + 0.0f;  // no -0: as it will be read back
+}
+
+// glTF has no values that are not finite.
+float value_to_float(double value) {
+  if (std::isnan(value)) return 0;
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(value, -kMost, kMost));
+}
+
+std::size_t written_components(const CornerAttribute& attribute) {
+  const std::size_t n = attribute.components;
+  switch (attribute.kind) {
+    case Kind::texture:
+      return n >= 2 ? 2 : 0;
+    case Kind::normal:
+      return n == 3 ? 3 : 0;
+    case Kind::tangent:
+      return n == 4 ? 4 : 0;
+    case Kind::colour:
+      return n == 3 || n == 4 ? n : 0;
+    case Kind::other:
+      break;
+  }
+  return (n >= 1 && n <= 4) || n == 9 || n == 16 ? n : 0;
+}
+
+// "_NAME" in the letters that glTF asks for; another number behind it if there is one already.
+std::string name_of_other(const std::string& name, std::set<std::string>& taken) {
+  std::string clean = name.starts_with('_') ? "" : "_";
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    clean += byte < 128 && std::isalnum(byte) != 0 ? c : '_';
+  }
+  if (clean == "_") clean = "_VALUE";
+  std::string unique = clean;
+  for (int i = 1; !taken.insert(unique).second; ++i) unique = clean + "_" + std::to_string(i);
+  return unique;
+}
+
+// An attribute that is written.
+struct Source {
+  const CornerAttribute* attribute;
+  std::string name;
+  std::size_t number;  // among those of its kind
+  std::size_t components;
+  bool is_used = false;
+};
+
+std::vector<Source> sources_of(const Attributes& attributes) {
+  std::vector<Source> sources;
+  std::set<std::string> taken;
+  std::array<std::size_t, 5> counts{};
+  for (const CornerAttribute& attribute : attributes.corners) {
+    const std::size_t components = written_components(attribute);
+    const std::size_t number = counts[static_cast<std::size_t>(attribute.kind)];
+    const bool is_single = attribute.kind == Kind::normal || attribute.kind == Kind::tangent;
+    if (components == 0 || attribute.of_corner.empty() || (is_single && number > 0)) continue;
+    ++counts[static_cast<std::size_t>(attribute.kind)];
+    std::string name;
+    switch (attribute.kind) {
+      case Kind::texture:
+        name = "TEXCOORD_" + std::to_string(number);
+        break;
+      case Kind::normal:
+        name = "NORMAL";
+        break;
+      case Kind::tangent:
+        name = "TANGENT";
+        break;
+      case Kind::colour:
+        name = "COLOR_" + std::to_string(number);
+        break;
+      case Kind::other:
+        name = name_of_other(attribute.name, taken);
+        break;
+    }
+    sources.push_back({&attribute, std::move(name), number, components});
+  }
+  return sources;
+}
+
+class VertexMaker {
+ public:
+  VertexMaker(const TriangleSoup& soup, std::span<const std::uint32_t> triangles,
+              const Attributes* attributes, const GltfKeepsake* kept)
+      : soup_(soup), triangles_(triangles), kept_(kept) {
+    if (attributes != nullptr) sources_ = used(sources_of(*attributes));
+  }
+
+  GltfVertices run() {
+    add_columns();
+    internal::HashIndex index(triangles_.size() / 2);
+    for (const std::uint32_t t : triangles_) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        fill_record(t, k);
+        vertices_.corners.push_back(number_of_record(index));
+      }
+    }
+    vertices_.count = records_.size() / record_.size();
+    split_records();
+    return std::move(vertices_);
+  }
+
+ private:
+  // Those below a set that is used are written, too: sets are numbered from 0 on.
+  std::vector<Source> used(std::vector<Source> all) const {
+    for (Source& source : all) {
+      const auto& of_corner = source.attribute->of_corner;
+      source.is_used = std::any_of(triangles_.begin(), triangles_.end(), [&](std::size_t t) {
+        return of_corner[3 * t] != kNone || of_corner[3 * t + 1] != kNone ||
+               of_corner[3 * t + 2] != kNone;
+      });
+    }
+    std::vector<Source> kept;
+    for (const Source& source : all) {
+      const bool is_below = std::any_of(all.begin(), all.end(), [&](const Source& other) {
+        return other.is_used && other.attribute->kind == source.attribute->kind &&
+               source.attribute->kind != Kind::other && other.number > source.number;
+      });
+      if (source.is_used || is_below) kept.push_back(source);
+    }
+    return kept;
+  }
+
+  void add_columns() {
+    vertices_.columns.push_back({"POSITION", {GltfComponent::real32, false, 3, 3}, 12, {}});
+    for (const Source& source : sources_) {
+      const bool is_byte =
+          source.attribute->kind == Kind::colour && source.attribute->storage == Storage::byte;
+      GltfLayout layout{is_byte ? GltfComponent::uint8 : GltfComponent::real32, is_byte,
+                        source.components, source.components};
+      const std::size_t stride = (layout.size() + 3) / 4 * 4;
+      vertices_.columns.push_back({source.name, layout, stride, {}});
+    }
+    std::size_t size = 0;
+    for (const GltfColumn& column : vertices_.columns) size += column.stride;
+    record_.assign(size, '\0');
+  }
+
+  void fill_record(std::size_t t, std::size_t k) {
+    const Vec3d& point = soup_.points[soup_.triangles[t][k]];
+    char* at = record_.data();
+    const auto put = [&](float value) {
+      std::memcpy(at, &value, sizeof value);
+      at += sizeof value;
+    };
+    for (const double coordinate : point) put(coordinate_to_float(coordinate));
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      const GltfColumn& column = vertices_.columns[s + 1];
+      fill_value(sources_[s], t, k);
+      if (column.layout.component == GltfComponent::real32) {
+        for (const float value : value_) put(value);
+        continue;
+      }
+      for (std::size_t i = 0; i < value_.size(); ++i) {
+        at[i] = static_cast<char>(std::lround(255 * std::clamp(value_[i], 0.0f, 1.0f)));
+      }
+      at += column.stride;
+    }
+  }
+
+  void fill_value(const Source& source, std::size_t t, std::size_t k) {
+    const CornerAttribute& attribute = *source.attribute;
+    const std::uint32_t number = attribute.of_corner[3 * t + k];
+    value_.assign(source.components, attribute.kind == Kind::colour ? 1.0f : 0.0f);
+    if (number != kNone) {
+      const double* const given = attribute.values.data() + attribute.components * number;
+      for (std::size_t i = 0; i < value_.size(); ++i) value_[i] = value_to_float(given[i]);
+      if (attribute.kind == Kind::texture) value_[1] = downwards(source, given[0], given[1]);
+    }
+    if (attribute.kind == Kind::normal) {
+      make_unit(normal_of(t));
+    } else if (attribute.kind == Kind::tangent) {
+      make_unit({1, 0, 0});
+      value_[3] = value_[3] < 0 ? -1.0f : 1.0f;
+    }
+  }
+
+  [[nodiscard]] float downwards(const Source& source, double u, double v) const {
+    if (kept_ != nullptr)
+      return value_to_float(double{kept_->small_v.original(source.number, u, v)});
+    return value_to_float(1 - v);
+  }
+
+  [[nodiscard]] Vec3d normal_of(std::size_t t) const {
+    const auto& [a, b, c] = soup_.triangles[t];
+    const Vec3d normal =
+        (soup_.points[b] - soup_.points[a]).cross(soup_.points[c] - soup_.points[a]);
+    const double length = normal.stableNorm();
+    return std::isfinite(length) && length > 0 ? Vec3d(normal / length) : Vec3d(0, 0, 1);
+  }
+
+  // Those that are nearly of length 1 keep their bits.
+  void make_unit(const Vec3d& otherwise) {
+    constexpr double kNearly = 1e-4;
+    const Vec3d given(double{value_[0]}, double{value_[1]}, double{value_[2]});
+    const double length = given.stableNorm();
+    if (std::abs(length - 1) <= kNearly) return;
+    const Vec3d unit = length > 0 ? Vec3d(given / length) : otherwise;
+    for (int i = 0; i < 3; ++i) value_[static_cast<std::size_t>(i)] = static_cast<float>(unit[i]);
+  }
+
+  std::uint32_t number_of_record(internal::HashIndex& index) {
+    const std::size_t size = record_.size();
+    const auto hash_at = [size](const char* at) {
+      std::uint64_t hash = 0;
+      for (std::size_t i = 0; i < size; i += 4) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, at + i, sizeof word);
+        hash = internal::hash_mix(hash, word);
+      }
+      return hash;
+    };
+    const std::size_t fresh = records_.size() / size;
+    if (fresh >= kNone) throw OutputError("glTF holds no more than 4294967294 vertices");
+    const auto number = static_cast<std::uint32_t>(fresh);
+    if (index.full(fresh)) {
+      index.grow(number, [&](std::size_t i) { return hash_at(records_.data() + size * i); });
+    }
+    const std::uint32_t found =
+        index.find_or_insert(hash_at(record_.data()), number, [&](std::size_t i) {
+          return std::memcmp(records_.data() + size * i, record_.data(), size) == 0;
+        });
+    if (found == number) records_ += record_;
+    return found;
+  }
+
+  void split_records() {
+    std::size_t offset = 0;
+    for (GltfColumn& column : vertices_.columns) {
+      column.bytes.reserve(column.stride * vertices_.count);
+      for (std::size_t i = 0; i < vertices_.count; ++i) {
+        column.bytes.append(records_, record_.size() * i + offset, column.stride);
+      }
+      offset += column.stride;
+    }
+    records_ = {};
+  }
+
+  const TriangleSoup& soup_;
+  std::span<const std::uint32_t> triangles_;
+  const GltfKeepsake* kept_;
+  std::vector<Source> sources_;
+  std::string records_;  // of the vertices, all columns of one side by side
+  std::string record_;   // of the corner that is looked at
+  std::vector<float> value_;
+  GltfVertices vertices_;
+};
+
+}  // namespace
+
+GltfVertices make_vertices(const TriangleSoup& soup, std::span<const std::uint32_t> triangles,
+                           const Attributes* attributes, const GltfKeepsake* kept) {
+  return VertexMaker(soup, triangles, attributes, kept).run();
+}
+
+}  // namespace meshrepair

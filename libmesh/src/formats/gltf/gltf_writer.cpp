@@ -1,0 +1,274 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "gltf_builder.h"
+#include "gltf_io.h"
+#include "gltf_keepsake.h"
+#include "gltf_uri.h"
+#include "gltf_vertices.h"
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path full_path(const fs::path& path) {
+  return fs::absolute(path.empty() ? "." : path).lexically_normal();
+}
+
+const char* type_of(std::size_t components) {
+  constexpr std::array<const char*, 5> kTypes = {"SCALAR", "SCALAR", "VEC2", "VEC3", "VEC4"};
+  if (components < kTypes.size()) return kTypes[components];
+  return components == 9 ? "MAT3" : "MAT4";
+}
+
+std::string media_type_of(const Image& image) {
+  if (!image.media_type.empty()) return image.media_type;
+  return image.bytes->starts_with("\xFF\xD8") ? "image/jpeg" : "image/png";
+}
+
+class GltfWriter {
+ public:
+  GltfWriter(const TriangleSoup& soup, const Attributes* attributes, const fs::path& folder)
+      : soup_(soup),
+        attributes_(attributes),
+        kept_(attributes == nullptr
+                  ? nullptr
+                  : dynamic_cast<const GltfKeepsake*>(attributes->keepsake.get())),
+        folder_(full_path(folder)),
+        builder_(kept_) {}
+
+  std::string run(const std::vector<std::string>& comments, bool binary) {
+    add_comments(comments);
+    move_image_names();
+    if (!soup_.triangles.empty()) {
+      add_node(add_mesh());
+    }
+    return builder_.finish(binary);
+  }
+
+ private:
+  void add_comments(const std::vector<std::string>& comments) {
+    if (comments.empty()) return;
+    GltfJson& extras = builder_.root()["asset"]["extras"];
+    if (extras.is_null()) extras = GltfJson::object();
+    if (extras.is_object()) extras["comments"] = comments;
+  }
+
+  // Of the file that was read: they were relative to its folder.
+  void move_image_names() {
+    if (kept_ == nullptr) return;
+    const auto images = builder_.root().find("images");
+    if (images == builder_.root().end()) return;
+    const std::size_t count = std::min(images->size(), attributes_->images.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Image& image = attributes_->images[i];
+      if (image.path.empty()) continue;
+      GltfJson& uri = (*images)[i]["uri"];
+      const std::string moved = relative_name(image);
+      if (!uri.is_string() ||
+          fs::path(decode_percent(uri.get<std::string>())).lexically_normal() != moved) {
+        uri = encode_percent(moved);
+      }
+    }
+  }
+
+  [[nodiscard]] std::string relative_name(const Image& image) const {
+    return full_path(image.path).lexically_relative(folder_).generic_string();
+  }
+
+  std::size_t add_mesh() {
+    GltfJson primitives = GltfJson::array();
+    for (const auto& [label, triangles] : triangles_by_label()) {
+      GltfJson primitive = make_primitive(triangles);
+      if (label != kNone) primitive["material"] = material_of(label);
+      primitives.push_back(std::move(primitive));
+    }
+    return builder_.append("meshes", {{"primitives", std::move(primitives)}});
+  }
+
+  // In the order of the labels, those without at the end.
+  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_by_label() const {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> lists;
+    const bool has_labels = attributes_ != nullptr && !attributes_->materials.empty();
+    for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
+      lists[has_labels ? attributes_->materials.of_triangle[t] : kNone].push_back(t);
+    }
+    return lists;
+  }
+
+  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles) {
+    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_);
+    GltfJson attributes = GltfJson::object();
+    for (const GltfColumn& column : vertices.columns) {
+      attributes[column.name] = add_column(column, vertices.count);
+    }
+    return {{"attributes", std::move(attributes)}, {"indices", add_indices(vertices)}, {"mode", 4}};
+  }
+
+  std::size_t add_column(const GltfColumn& column, std::size_t count) {
+    const std::size_t view =
+        builder_.append_view(column.bytes, GltfBuilder::Target::vertices, column.stride);
+    GltfJson accessor = {{"bufferView", view},
+                         {"componentType", static_cast<std::uint32_t>(column.layout.component)},
+                         {"count", count},
+                         {"type", type_of(column.layout.components)}};
+    if (column.layout.normalized) accessor["normalized"] = true;
+    if (column.name == "POSITION") add_bounds(column, accessor);
+    return builder_.append("accessors", std::move(accessor));
+  }
+
+  static void add_bounds(const GltfColumn& column, GltfJson& accessor) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    std::array<float, 3> low, high;
+    low.fill(kInfinity);
+    high.fill(-kInfinity);
+    for (std::size_t at = 0; at + sizeof low <= column.bytes.size(); at += column.stride) {
+      std::array<float, 3> point;
+      std::memcpy(point.data(), column.bytes.data() + at, sizeof point);
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (!std::isfinite(point[i])) continue;
+        low[i] = std::min(low[i], point[i]);
+        high[i] = std::max(high[i], point[i]);
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (low[i] > high[i]) low[i] = high[i] = 0;
+    }
+    accessor["min"] = low;
+    accessor["max"] = high;
+  }
+
+  std::size_t add_indices(const GltfVertices& vertices) {
+    // The largest number of each width is none.
+    const bool is_short = vertices.count < std::numeric_limits<std::uint16_t>::max();
+    std::string bytes;
+    bytes.reserve(vertices.corners.size() * (is_short ? 2 : 4));
+    for (const std::uint32_t corner : vertices.corners) {
+      bytes.append(reinterpret_cast<const char*>(&corner), is_short ? 2 : 4);
+    }
+    const std::size_t view = builder_.append_view(bytes, GltfBuilder::Target::indices);
+    const auto component = is_short ? GltfComponent::uint16 : GltfComponent::uint32;
+    return builder_.append("accessors", {{"bufferView", view},
+                                         {"componentType", static_cast<std::uint32_t>(component)},
+                                         {"count", vertices.corners.size()},
+                                         {"type", "SCALAR"}});
+  }
+
+  std::size_t material_of(std::uint32_t label) {
+    const std::string& name = attributes_->materials.names[label];
+    if (kept_ != nullptr) {
+      const auto known = std::find(kept_->materials.begin(), kept_->materials.end(), name);
+      if (known != kept_->materials.end()) {
+        return static_cast<std::size_t>(known - kept_->materials.begin());
+      }
+    }
+    GltfJson material = {{"name", name}};
+    if (label < attributes_->looks.size()) add_look(attributes_->looks[label], material);
+    return builder_.append("materials", std::move(material));
+  }
+
+  void add_look(const Material& look, GltfJson& material) {
+    std::array<double, 4> colour = look.colour;
+    for (double& part : colour) part = std::isfinite(part) ? std::clamp(part, 0.0, 1.0) : 1.0;
+    GltfJson shading = {{"metallicFactor", 0.0}};
+    if (colour != Material().colour) shading["baseColorFactor"] = colour;
+    if (look.image < attributes_->images.size()) {
+      shading["baseColorTexture"] = {{"index", texture_of(look.image)}};
+    }
+    material["pbrMetallicRoughness"] = std::move(shading);
+    if (colour[3] < 1) material["alphaMode"] = "BLEND";
+  }
+
+  std::size_t texture_of(std::uint32_t image) {
+    const auto known = textures_.find(image);
+    if (known != textures_.end()) return known->second;
+    const std::size_t texture = builder_.append("textures", {{"source", image_of(image)}});
+    textures_.emplace(image, texture);
+    return texture;
+  }
+
+  // The images of the file that was read come first, as they do there.
+  std::size_t image_of(std::uint32_t number) {
+    if (kept_ != nullptr) {
+      const GltfJson* const images = gltf_member(kept_->root, "images");
+      if (images != nullptr && number < images->size()) return number;
+    }
+    const Image& image = attributes_->images[number];
+    GltfJson json = GltfJson::object();
+    if (!image.name.empty()) json["name"] = image.name;
+    if (image.bytes) {
+      json["mimeType"] = media_type_of(image);
+      json["bufferView"] = builder_.append_view(*image.bytes, GltfBuilder::Target::none);
+    } else {
+      json["uri"] = encode_percent(relative_name(image));
+    }
+    return builder_.append("images", std::move(json));
+  }
+
+  void add_node(std::size_t mesh) {
+    GltfJson node = {{"mesh", mesh}};
+    if (attributes_ != nullptr && attributes_->objects.names.size() == 1) {
+      node["name"] = attributes_->objects.names.front();
+    }
+    GltfJson& root = builder_.root();
+    const std::vector<std::size_t> roots = root_nodes();
+    const std::size_t number = builder_.append("nodes", std::move(node));
+    const auto scenes = root.find("scenes");
+    if (scenes == root.end() || !scenes->is_array() || scenes->empty()) {
+      GltfJson nodes = roots;
+      nodes.push_back(number);
+      root["scenes"] = GltfJson::array({{{"nodes", std::move(nodes)}}});
+      root["scene"] = 0;
+      return;
+    }
+    const GltfJson* const chosen = gltf_member(root, "scene");
+    const std::size_t scene = chosen == nullptr ? 0 : chosen->get<std::size_t>();
+    root["scene"] = scene;
+    GltfJson& nodes = root["scenes"][scene]["nodes"];
+    if (!nodes.is_array()) nodes = GltfJson::array();
+    nodes.push_back(number);
+  }
+
+  // Those without parents.
+  [[nodiscard]] std::vector<std::size_t> root_nodes() {
+    std::vector<std::size_t> roots;
+    const GltfJson* const nodes = gltf_member(builder_.root(), "nodes");
+    if (nodes == nullptr) return roots;
+    std::vector<char> is_child(nodes->size(), 0);
+    for (const GltfJson& node : *nodes) {
+      const GltfJson* const children = gltf_member(node, "children");
+      if (children == nullptr) continue;
+      for (const GltfJson& child : *children) {
+        const auto number = child.get<std::size_t>();
+        if (number < is_child.size()) is_child[number] = 1;
+      }
+    }
+    for (std::size_t n = 0; n < is_child.size(); ++n) {
+      if (is_child[n] == 0) roots.push_back(n);
+    }
+    return roots;
+  }
+
+  const TriangleSoup& soup_;
+  const Attributes* attributes_;
+  const GltfKeepsake* kept_;
+  fs::path folder_;
+  GltfBuilder builder_;
+  std::unordered_map<std::uint32_t, std::size_t> textures_;
+};
+
+}  // namespace
+
+std::string format_gltf(const TriangleSoup& soup, const std::vector<std::string>& comments,
+                        const Attributes* attributes, bool binary, const fs::path& folder) {
+  return GltfWriter(soup, attributes, folder).run(comments, binary);
+}
+
+}  // namespace meshrepair
