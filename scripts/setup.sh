@@ -22,16 +22,19 @@ build_packages=(
   cmake
   g++
   git
+  lib3mf-dev
   libbenchmark-dev
   libboost-dev
   libcli11-dev
   libeigen3-dev
+  libexpat1-dev
   libgmock-dev
   libgtest-dev
   libnanoflann-dev
   libopenmesh-dev
   libspdlog-dev
   libtbb-dev
+  libzip-dev
   ninja-build
   nlohmann-json3-dev
   python3

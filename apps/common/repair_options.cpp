@@ -25,12 +25,13 @@ constexpr std::array<Choice<HoleMode>, 4> kHoleModes = {{{"patch", HoleMode::pat
 constexpr std::array<Choice<Cavities>, 2> kCavities = {
     {{"keep", Cavities::keep}, {"fill", Cavities::fill}}};
 
-constexpr std::array<Choice<SoupFormat>, 6> kFormats = {{{"stl", SoupFormat::stl_binary},
+constexpr std::array<Choice<SoupFormat>, 7> kFormats = {{{"stl", SoupFormat::stl_binary},
                                                          {"stl-ascii", SoupFormat::stl_ascii},
                                                          {"obj", SoupFormat::obj},
                                                          {"off", SoupFormat::off},
                                                          {"ply", SoupFormat::ply_binary},
-                                                         {"ply-ascii", SoupFormat::ply_ascii}}};
+                                                         {"ply-ascii", SoupFormat::ply_ascii},
+                                                         {"3mf", SoupFormat::threemf}}};
 
 constexpr std::array<Choice<bool>, 2> kAttributes = {{{"keep", true}, {"drop", false}}};
 
@@ -137,7 +138,8 @@ void add_output_option(CLI::App& app, std::string& output, const std::string& ty
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
-      "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii")
+      "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii,\n"
+      "3mf")
       ->default_str("by the name of OUT")
       ->group("Output");
 }

@@ -1,4 +1,4 @@
-// Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects.
+// Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects, 3MF.
 //
 // Reading: the format is told by content first, then by extension. Coordinates are kept in double.
 // STL corners with bit-identical coordinates (-0 is 0) are welded into one point; the points of
@@ -45,7 +45,7 @@ struct WriteOptions {
   // For PLY alone, not owned: one number for each triangle, written as the property
   // `source_triangle` of its face, with all ones as -1. Empty: no such property.
   std::span<const std::uint32_t> sources = {};
-  // For OBJ alone, not owned: of the triangles. Null: none.
+  // For OBJ and 3MF, not owned: of the triangles. Null: none.
   const Attributes* attributes = nullptr;
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
 };

@@ -20,6 +20,8 @@ std::string_view format_name(SoupFormat format) {
       return "OFF";
     case SoupFormat::ply_binary:
       return "binary PLY";
+    case SoupFormat::threemf:
+      return "3MF";
     case SoupFormat::ply_ascii:
       break;
   }
@@ -27,11 +29,12 @@ std::string_view format_name(SoupFormat format) {
 }
 
 std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
-  constexpr std::array<std::pair<std::string_view, SoupFormat>, 4> kExtensions = {{
+  constexpr std::array<std::pair<std::string_view, SoupFormat>, 5> kExtensions = {{
       {".stl", SoupFormat::stl_binary},
       {".obj", SoupFormat::obj},
       {".off", SoupFormat::off},
       {".ply", SoupFormat::ply_binary},
+      {".3mf", SoupFormat::threemf},
   }};
   const std::string extension = path.extension().string();
   for (const auto& [name, format] : kExtensions) {
@@ -40,7 +43,7 @@ std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path)
   return std::nullopt;
 }
 
-std::string_view known_extensions() { return ".stl, .obj, .off, .ply"; }
+std::string_view known_extensions() { return ".stl, .obj, .off, .ply, .3mf"; }
 
 bool welds_points(SoupFormat format) {
   return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
@@ -52,6 +55,8 @@ bool holds_sources(SoupFormat format) {
   return format == SoupFormat::ply_binary || format == SoupFormat::ply_ascii;
 }
 
-bool holds_attributes(SoupFormat format) { return format == SoupFormat::obj || holds_sources(format); }
+bool holds_attributes(SoupFormat format) {
+  return format == SoupFormat::obj || format == SoupFormat::threemf || holds_sources(format);
+}
 
 }  // namespace meshrepair

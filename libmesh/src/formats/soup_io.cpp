@@ -16,6 +16,7 @@
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
+#include "formats/threemf/threemf_io.h"
 #include "mesh_readers.h"
 
 namespace meshrepair {
@@ -99,6 +100,8 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format,
       return format_off(soup, comments);
     case SoupFormat::ply_binary:
       return format_ply_binary(soup, comments, sources);
+    case SoupFormat::threemf:
+      return format_threemf(soup, comments, attributes);
     case SoupFormat::ply_ascii:
       break;
   }
