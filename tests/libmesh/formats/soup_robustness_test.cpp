@@ -51,6 +51,7 @@ std::vector<Sample> samples() {
       {"OffBinary", ".off", binary_off()},
       {"PlyBinary", ".ply", format_soup(soup, SoupFormat::ply_binary)},
       {"PlyAscii", ".ply", format_soup(soup, SoupFormat::ply_ascii)},
+      {"Threemf", ".3mf", format_soup(soup, SoupFormat::threemf)},
       {"PlyBigEndian", ".ply", big_endian_ply()},
   };
 }

@@ -1,15 +1,15 @@
 #include "model_instances.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include <base/progress.h>
 #include <mesh/read_guard.h>
+
+#include "model_values.h"
 
 namespace meshrepair {
 namespace {
@@ -36,18 +36,6 @@ struct MeshTotal {
     height = std::max(height, other.height);
   }
 };
-
-double millimeters(std::string_view unit) {
-  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits = {{{"micron", 0.001},
-                                                                          {"millimeter", 1},
-                                                                          {"centimeter", 10},
-                                                                          {"inch", 25.4},
-                                                                          {"foot", 304.8},
-                                                                          {"meter", 1000}}};
-  const auto* const found = std::find_if(kUnits.begin(), kUnits.end(),
-                                         [&](const auto& one) { return one.first == unit; });
-  return found == kUnits.end() ? 1 : found->second;
-}
 
 class InstancePlacer {
  public:
@@ -175,8 +163,8 @@ class InstancePlacer {
 
   // In the unit of the part that names it.
   [[nodiscard]] Placement placement_in(std::uint32_t part, const ObjectReference& reference) const {
-    const double from = millimeters(parts_[reference.part].unit);
-    const double to = millimeters(parts_[part].unit);
+    const double from = millimeters_of(parts_[reference.part].unit).value_or(1);
+    const double to = millimeters_of(parts_[part].unit).value_or(1);
     if (from == to) return reference.placement;
     Placement scale;
     scale.identity = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "formats/common/text_scanner.h"
 
@@ -56,6 +57,18 @@ std::optional<ModelColour> read_model_colour(std::string_view text) {
     colour.values[i] = byte / 255.0;
   }
   return colour;
+}
+
+std::optional<double> millimeters_of(std::string_view unit) {
+  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits = {{{"micron", 0.001},
+                                                                          {"millimeter", 1},
+                                                                          {"centimeter", 10},
+                                                                          {"inch", 25.4},
+                                                                          {"foot", 304.8},
+                                                                          {"meter", 1000}}};
+  const auto* const found = std::find_if(kUnits.begin(), kUnits.end(),
+                                         [&](const auto& one) { return one.first == unit; });
+  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::optional<Placement> read_placement(std::string_view text) {

@@ -27,6 +27,9 @@ struct ModelColour {
 // "#RRGGBB" or "#RRGGBBAA".
 [[nodiscard]] std::optional<ModelColour> read_model_colour(std::string_view text);
 
+// Nothing where it is no unit of the format.
+[[nodiscard]] std::optional<double> millimeters_of(std::string_view unit);
+
 // Twelve numbers, all finite. Nothing where it is no such thing.
 [[nodiscard]] std::optional<Placement> read_placement(std::string_view text);
 

@@ -126,6 +126,10 @@ class ThreemfReader {
     warn_if(missing_parts_, "part", " with objects missing");
     warn_if(placed.missing, "reference", " to objects that are not there");
     warn_if(placed.left_out, "object", left_out + "supports, and what is not to be built");
+    if (!oddities_.unknown_unit.empty()) {
+      warn("the unit " + printable(oddities_.unknown_unit) +
+           " is not known: taken for millimeters");
+    }
     for (const std::string& extension : oddities_.unknown_extensions) {
       warn("the file needs the extension " + printable(extension) + ", which is not known here");
     }
