@@ -149,7 +149,7 @@ class LibraryReader {
       TextScanner text(line.rest);
       if (!text.next_on_line() || !text.read_real(value)) return;
       look_->colour[3] = std::clamp(line.key == "d" ? value : 1 - value, 0.0, 1.0);
-    } else if (equals_ignoring_case(line.key, "map_Kd")) {
+    } else if (equals_ignoring_case(line.key, "map_kd")) {
       look_->image = image_of(with_slashes(picture_of(line.rest)));
     }
   }

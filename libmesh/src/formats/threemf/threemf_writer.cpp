@@ -296,8 +296,9 @@ class PackageWriter {
   std::size_t next_ = 0;
 };
 
-bool is_packed_type(std::string_view media_type) {
-  return media_type == "image/png" || media_type == "image/jpeg";
+bool is_packed_already(std::string_view part) {
+  const std::string extension = extension_of_part(part);
+  return extension == "png" || extension == "jpg" || extension == "jpeg";
 }
 
 }  // namespace
@@ -322,7 +323,7 @@ std::string format_threemf(const TriangleSoup& soup, const std::vector<std::stri
   }
   if (kept != nullptr) {
     for (const KeptPackage::Part& part : kept->parts) {
-      archive.add(part.name, *part.bytes, is_packed_type(part.media_type));
+      archive.add(part.name, *part.bytes, is_packed_already(part.name));
     }
   }
   return archive.finish();
