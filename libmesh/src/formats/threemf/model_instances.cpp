@@ -168,7 +168,7 @@ class InstancePlacer {
     if (from == to) return reference.placement;
     Placement scale;
     scale.identity = false;
-    for (const std::size_t i : {0, 4, 8}) scale.m[i] = from / to;
+    scale.m[0] = scale.m[4] = scale.m[8] = from / to;
     return scale.then(reference.placement);
   }
 

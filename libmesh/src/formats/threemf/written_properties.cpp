@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <system_error>
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
@@ -29,7 +31,8 @@ std::string_view picture_type(std::string_view bytes) {
 }
 
 std::shared_ptr<const std::string> bytes_of_picture(const Image& image) {
-  if (image.bytes || image.path.empty()) return image.bytes;
+  std::error_code error;
+  if (image.bytes || !std::filesystem::is_regular_file(image.path, error)) return image.bytes;
   try {
     return std::make_shared<const std::string>(FileBytes(image.path).bytes());
   } catch (const InputError&) {
