@@ -9,13 +9,15 @@ Usage: make_fuzz_seeds.py [--check]   (--check: compare with what is there, writ
 """
 
 import base64
-import json
+import io
 import itertools
+import json
 import math
 import pathlib
 import random
 import struct
 import sys
+import zipfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "tests" / "fuzz" / "seeds"
 
@@ -74,6 +76,57 @@ def obj_seeds():
         "bad_faces": points + "f 1 2 9\nf 0 1 2\nf 1 2\nf a b c\nf 1 2 3 99999999999999999999\nf 1 2 3\n",
     }
     return {name: text.encode() for name, text in texts.items()}
+
+
+def threemf_seeds():
+    """Models, which the target puts into packages, and packages."""
+    core = "http://schemas.microsoft.com/3dmanufacturing/"
+    points, faces = TETRAHEDRON
+    vertices = "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in points)
+
+    def mesh(number, triangle="", attributes=""):
+        triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"{triangle}/>' for a, b, c in faces)
+        return (f'<object id="{number}"{attributes}><mesh><vertices>{vertices}</vertices>'
+                f"<triangles>{triangles}</triangles></mesh></object>")
+
+    def model(resources, items='<item objectid="1"/>', head=""):
+        return (f'<model unit="millimeter" xmlns="{core}core/2015/02" xmlns:m="{core}material/2015/02" '
+                f'xmlns:p="{core}production/2015/06">{head}<resources>{resources}</resources>'
+                f"<build>{items}</build></model>").encode()
+
+    def package(parts):
+        data = io.BytesIO()
+        with zipfile.ZipFile(data, "w", zipfile.ZIP_STORED) as archive:
+            for name, content in parts.items():
+                archive.writestr(zipfile.ZipInfo(name), content)
+        return data.getvalue()
+
+    def relationships(target):
+        return (f'<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+                f'<Relationship Target="{target}" Id="r" Type="{core}2013/01/3dmodel"/></Relationships>')
+
+    turn = 'transform="0 -1 0 1 0 0 0 0 -1 5 6 7.5"'
+    base = '<basematerials id="5"><base name="a" displaycolor="#FF0000"/></basematerials>'
+    colours = '<m:colorgroup id="6"><m:color color="#000000"/><m:color color="#0000FF80"/></m:colorgroup>'
+    texture = ('<m:texture2d id="7" path="/3D/a.png" contenttype="image/png"/><m:texture2dgroup id="8" texid="7">'
+               '<m:tex2coord u="0.5" v="1e-3"/></m:texture2dgroup>')
+    layers = '<m:multiproperties id="9" pids="5 8 6"><m:multi pindices="0 0 1"/></m:multiproperties>'
+    plain = model(mesh(1))
+    return {
+        "plain": plain,
+        "components": model(mesh(1) + f'<object id="2"><components><component objectid="1" {turn}/>'
+                            '<component objectid="1"/></components></object>', f'<item objectid="2" {turn}/>'),
+        "materials": model(base + mesh(1, ' pid="5" p1="0"', ' name="n" pid="5" pindex="0"')),
+        "colours": model(colours + mesh(1, ' pid="6" p1="0" p2="1" p3="1"')),
+        "layers": model(base + colours + texture + layers + mesh(1, ' pid="9" p1="0"')),
+        "metadata": model(mesh(1), head='<metadata name="Title" preserve="1">a &amp; b</metadata>'),
+        "numbers": model(mesh(1).replace('"1"', '"nan"', 3).replace('"0"', '"1,5"', 2)),
+        "package": package({"[Content_Types].xml": "<Types/>", "_rels/.rels": relationships("/3D/a.model"),
+                            "3D/a.model": plain, "Metadata/thumbnail.png": "x"}),
+        "package_of_parts": package({"_rels/.rels": relationships("a.model"), "b.model": plain,
+                                     "a.model": model("", '<item objectid="1" p:path="/b.model"/>')}),
+        "package_texture": package({"a.model": model(texture + mesh(1, ' pid="8" p1="0"')), "3D/a.png": "\x89PNG"}),
+    }
 
 
 def off_seeds():
@@ -489,7 +542,7 @@ def repair_seeds():
 
 
 SEEDS = {"stl": stl_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds, "gltf": gltf_seeds, "om": om_seeds,
-         "points": point_seeds, "tree": tree_seeds, "clip": clip_seeds, "repair": repair_seeds}
+         "threemf": threemf_seeds, "points": point_seeds, "tree": tree_seeds, "clip": clip_seeds, "repair": repair_seeds}
 
 
 def main():

@@ -22,11 +22,13 @@ build_packages=(
   cmake
   g++
   git
+  lib3mf-dev
   libbenchmark-dev
   libboost-dev
   libcli11-dev
   libdraco-dev
   libeigen3-dev
+  libexpat1-dev
   libgmock-dev
   libgtest-dev
   libmeshoptimizer-dev
@@ -34,6 +36,7 @@ build_packages=(
   libopenmesh-dev
   libspdlog-dev
   libtbb-dev
+  libzip-dev
   ninja-build
   nlohmann-json3-dev
   python3

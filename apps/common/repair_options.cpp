@@ -25,14 +25,15 @@ constexpr std::array<Choice<HoleMode>, 4> kHoleModes = {{{"patch", HoleMode::pat
 constexpr std::array<Choice<Cavities>, 2> kCavities = {
     {{"keep", Cavities::keep}, {"fill", Cavities::fill}}};
 
-constexpr std::array<Choice<SoupFormat>, 8> kFormats = {{{"stl", SoupFormat::stl_binary},
+constexpr std::array<Choice<SoupFormat>, 9> kFormats = {{{"stl", SoupFormat::stl_binary},
                                                          {"stl-ascii", SoupFormat::stl_ascii},
                                                          {"obj", SoupFormat::obj},
                                                          {"off", SoupFormat::off},
                                                          {"ply", SoupFormat::ply_binary},
                                                          {"ply-ascii", SoupFormat::ply_ascii},
                                                          {"glb", SoupFormat::glb},
-                                                         {"gltf", SoupFormat::gltf}}};
+                                                         {"gltf", SoupFormat::gltf},
+                                                         {"3mf", SoupFormat::threemf}}};
 
 constexpr std::array<Choice<bool>, 2> kAttributes = {{{"keep", true}, {"drop", false}}};
 
@@ -139,7 +140,8 @@ void add_output_option(CLI::App& app, std::string& output, const std::string& ty
 void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
-      "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii")
+      "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii,\n"
+      "3mf")
       ->default_str("by the name of OUT")
       ->group("Output");
 }

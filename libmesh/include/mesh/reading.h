@@ -40,7 +40,7 @@ struct ReadResult {
 struct ReadOptions {
   // More throw LimitError, as soon as it is known; polygons count as what they will become.
   std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
-  // Read texture coordinates, normals, colours, materials and groups, too. OBJ has them.
+  // Read texture coordinates, normals, colours, materials and groups, too. OBJ and 3MF have them.
   bool attributes = false;
   // A file that holds no points and no faces, and promises none, is no error.
   bool may_be_empty = false;

@@ -19,8 +19,8 @@ inline constexpr std::string_view kTreeSignature("BSP\r\n\x1A\n\0", 8);
 // As far as text mode transfers leave the signature alone.
 [[nodiscard]] bool looks_like_tree(std::string_view bytes);
 
-// What the file is when it is no mesh format of ours but one that people try: "a ZIP archive
-// (3MF?)". Empty if it is not known.
+// What the file is when it is no mesh format of ours but one that people try: "a STEP file".
+// Empty if it is not known.
 [[nodiscard]] std::string_view name_foreign_format(std::string_view bytes);
 
 }  // namespace meshrepair

@@ -7,7 +7,17 @@
 
 namespace meshrepair {
 
-enum class SoupFormat { stl_binary, stl_ascii, obj, off, ply_binary, ply_ascii, glb, gltf };
+enum class SoupFormat {
+  stl_binary,
+  stl_ascii,
+  obj,
+  off,
+  ply_binary,
+  ply_ascii,
+  glb,
+  gltf,
+  threemf
+};
 
 // "binary STL", "OBJ", ...: for messages.
 [[nodiscard]] std::string_view format_name(SoupFormat format);
@@ -16,7 +26,7 @@ enum class SoupFormat { stl_binary, stl_ascii, obj, off, ply_binary, ply_ascii, 
 // Case does not matter.
 [[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
 
-// ".stl, .obj, .off, .ply, .glb, .gltf": for messages.
+// ".stl, .obj, .off, .ply, .glb, .gltf, .3mf": for messages.
 [[nodiscard]] std::string_view known_extensions();
 
 // Whether readers weld points with equal coordinates, as the format has no indices, or splits

@@ -1,4 +1,4 @@
-// Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects.
+// Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects, 3MF.
 //
 // Reading: the format is told by content first, then by extension. Coordinates are kept in double.
 // STL corners with bit-identical coordinates (-0 is 0) are welded into one point; the points of

@@ -29,6 +29,8 @@ Held held_by(SoupFormat format) {
       return {};
     case SoupFormat::obj:
       return {.textures = 1, .normals = true, .colours = true, .materials = true, .groups = true};
+    case SoupFormat::threemf:
+      return {.textures = 1, .colours = true, .materials = true};
     case SoupFormat::ply_binary:
     case SoupFormat::ply_ascii:
     case SoupFormat::glb:

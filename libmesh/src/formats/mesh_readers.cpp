@@ -15,6 +15,7 @@
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
+#include "formats/threemf/threemf_io.h"
 
 namespace meshrepair {
 namespace {
@@ -60,7 +61,8 @@ SoupFormat recognize_mesh(const MeshSource& source) {
   const auto format = format_of_extension(source.name);
   if (!format)
     source.fail(
-        "is in no known format: neither a mesh (STL, OBJ, OFF, PLY, glTF) nor points (XYZ, PTS, "
+        "is in no known format: neither a mesh (STL, OBJ, OFF, PLY, glTF, 3MF) nor points (XYZ, "
+        "PTS, "
         "PWN, "
         "PCD, PLY, OBJ)");
   const bool is_text = looks_like_text(source.bytes);
@@ -68,6 +70,7 @@ SoupFormat recognize_mesh(const MeshSource& source) {
   if (*format == SoupFormat::glb) source.fail("does not begin with 'glTF' as a .glb file does");
   if (*format == SoupFormat::ply_binary)
     source.fail("does not begin with 'ply' as a PLY file does");
+  if (*format == SoupFormat::threemf) source.fail("is not 3MF: it is no ZIP archive");
   if (*format != SoupFormat::stl_binary && !is_text) {
     source.fail("is not " + std::string(format_name(*format)) +
                 ": it holds bytes that are no text");
@@ -85,6 +88,8 @@ ReadResult read_mesh_as(SoupFormat format, const MeshSource& source) {
       return read_obj(source);
     case SoupFormat::off:
       return read_off(source);
+    case SoupFormat::threemf:
+      return read_threemf(source);
     case SoupFormat::ply_binary:
     case SoupFormat::ply_ascii:
       return read_ply(source);

@@ -9,6 +9,7 @@
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
+#include "formats/threemf/threemf_io.h"
 
 namespace meshrepair {
 namespace {
@@ -34,6 +35,9 @@ bool is_count(std::string_view word) {
 
 std::optional<SoupFormat> recognize_content(std::string_view bytes) {
   if (is_glb(bytes)) return SoupFormat::glb;
+  if (begins_with_zip(bytes)) {
+    return is_threemf(bytes) ? std::optional(SoupFormat::threemf) : std::nullopt;
+  }
   if (begins_with_ply(bytes)) return SoupFormat::ply_binary;
   if (begins_with_off(bytes)) return SoupFormat::off;
   if (is_binary_stl(bytes)) return SoupFormat::stl_binary;
@@ -55,7 +59,7 @@ bool looks_like_tree(std::string_view bytes) {
 std::string_view name_foreign_format(std::string_view bytes) {
   using namespace std::string_view_literals;
   constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSignatures = {{
-      {"PK\x03\x04"sv, "a ZIP archive (a 3MF?)"},
+      {"PK\x03\x04"sv, "a ZIP archive without a 3D model, or a broken one"},
       {"\x1F\x8B"sv, "compressed by gzip"},
       {"OM"sv, "a mesh of OpenMesh (.om)"},
       {"\xFF\xFE"sv, "text in UTF-16, not in UTF-8"},

@@ -27,6 +27,8 @@ std::string_view format_name(SoupFormat format) {
       return "OFF";
     case SoupFormat::ply_binary:
       return "binary PLY";
+    case SoupFormat::threemf:
+      return "3MF";
     case SoupFormat::ply_ascii:
       return "ASCII PLY";
     case SoupFormat::glb:
@@ -38,13 +40,14 @@ std::string_view format_name(SoupFormat format) {
 }
 
 std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
-  constexpr std::array<std::pair<std::string_view, SoupFormat>, 6> kExtensions = {{
+  constexpr std::array<std::pair<std::string_view, SoupFormat>, 7> kExtensions = {{
       {".stl", SoupFormat::stl_binary},
       {".obj", SoupFormat::obj},
       {".off", SoupFormat::off},
       {".ply", SoupFormat::ply_binary},
       {".glb", SoupFormat::glb},
       {".gltf", SoupFormat::gltf},
+      {".3mf", SoupFormat::threemf},
   }};
   const std::string extension = path.extension().string();
   for (const auto& [name, format] : kExtensions) {
@@ -53,7 +56,7 @@ std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path)
   return std::nullopt;
 }
 
-std::string_view known_extensions() { return ".stl, .obj, .off, .ply, .glb, .gltf"; }
+std::string_view known_extensions() { return ".stl, .obj, .off, .ply, .glb, .gltf, .3mf"; }
 
 bool welds_points(SoupFormat format) {
   return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii || is_any_gltf(format);
@@ -68,8 +71,8 @@ bool holds_sources(SoupFormat format) {
 }
 
 bool holds_attributes(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::obj || is_any_gltf(format) ||
-         holds_sources(format);
+  return format == SoupFormat::stl_binary || format == SoupFormat::obj ||
+         format == SoupFormat::threemf || is_any_gltf(format) || holds_sources(format);
 }
 
 }  // namespace meshrepair

@@ -17,6 +17,7 @@
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_writer.h"
 #include "formats/stl/stl_io.h"
+#include "formats/threemf/threemf_io.h"
 #include "mesh_readers.h"
 
 namespace meshrepair {
@@ -98,13 +99,16 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupE
       return format_off(soup, extras.comments);
     case SoupFormat::ply_binary:
       return format_ply_binary(soup, extras);
+    case SoupFormat::threemf:
+      return format_threemf(soup, extras.comments, extras.attributes);
     case SoupFormat::ply_ascii:
       return format_ply_ascii(soup, extras);
     case SoupFormat::glb:
     case SoupFormat::gltf:
       break;
   }
-  return format_gltf(soup, extras.comments, extras.attributes, format == SoupFormat::glb, extras.folder);
+  return format_gltf(soup, extras.comments, extras.attributes, format == SoupFormat::glb,
+                     extras.folder);
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {

@@ -53,6 +53,7 @@ std::vector<Sample> samples() {
       {"PlyAscii", ".ply", format_soup(soup, SoupFormat::ply_ascii)},
       {"Glb", ".glb", format_soup(soup, SoupFormat::glb)},
       {"Gltf", ".gltf", format_soup(soup, SoupFormat::gltf)},
+      {"Threemf", ".3mf", format_soup(soup, SoupFormat::threemf)},
       {"PlyBigEndian", ".ply", big_endian_ply()},
   };
 }

@@ -3,7 +3,7 @@
 namespace meshrepair {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_dimension_digit(char c) { return c >= '0' && c <= '9'; }
 
 class OffHeaderReader {
  public:
@@ -72,7 +72,7 @@ std::size_t parse_off_keyword(std::string_view token, OffHeader& header) {
   parsed.homogeneous = take("4");
   parsed.dimension = take("n");
   if (!take("off")) return 0;
-  if (at < token.size() && !is_digit(token[at])) return 0;
+  if (at < token.size() && !is_dimension_digit(token[at])) return 0;
   parsed.has_keyword = true;
   header = parsed;
   return at;

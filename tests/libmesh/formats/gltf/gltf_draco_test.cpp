@@ -102,7 +102,8 @@ TEST(GltfDraco, ExactTrianglesComeBack) {
     EXPECT_EQ(static_cast<float>(1 - uv[1]), static_cast<float>(point.y()) / 5.0f);
   }
   // What is written is not compressed, and says so.
-  const std::string written = format_soup(read.soup, SoupFormat::glb, {}, {}, &read.attributes);
+  const std::string written =
+      format_soup(read.soup, SoupFormat::glb, {.attributes = &read.attributes});
   EXPECT_EQ(written.find("draco"), std::string::npos);
   EXPECT_EQ(read_text(written, "a").soup.points.size(), 36u);
 }

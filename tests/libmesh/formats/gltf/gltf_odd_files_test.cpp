@@ -314,7 +314,8 @@ TEST(GltfOddFile, BrokenAnimationsAreLeftOut) {
   ReadOptions options;
   options.attributes = true;
   const ReadResult read = read_soup(std::string_view(bytes), "a", options);
-  const std::string written = format_soup(read.soup, SoupFormat::gltf, {}, {}, &read.attributes);
+  const std::string written =
+      format_soup(read.soup, SoupFormat::gltf, {.attributes = &read.attributes});
   EXPECT_EQ(written.find("animations"), std::string::npos);
 }
 

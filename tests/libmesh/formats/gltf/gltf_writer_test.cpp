@@ -72,20 +72,22 @@ class GltfDialects : public ::testing::TestWithParam<SoupFormat> {};
 TEST_P(GltfDialects, TexturedSoupsComeBackBitForBit) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     const TexturedSoup made = random_textured_soup(seed);
-    const std::string bytes = format_soup(made.soup, GetParam(), {}, {}, &made.attributes);
+    const std::string bytes = format_soup(made.soup, GetParam(), {.attributes = &made.attributes});
     const ReadResult back = read_with_attributes(bytes, "a");
     ASSERT_TRUE(back.report.warnings.empty());
     ASSERT_EQ(differences(back, made), "") << seed;
     // And once more, now with what was kept.
-    const ReadResult again =
-        read_with_attributes(format_soup(back.soup, GetParam(), {}, {}, &back.attributes), "a");
+    const ReadResult again = read_with_attributes(
+        format_soup(back.soup, GetParam(), {.attributes = &back.attributes}), "a");
     ASSERT_EQ(differences(again, made), "") << seed;
   }
 }
 
 TEST_P(GltfDialects, WritingTwiceGivesTheSameBytes) {
   const TexturedSoup made = random_textured_soup(5);
-  const auto write = [&] { return format_soup(made.soup, GetParam(), {}, {}, &made.attributes); };
+  const auto write = [&] {
+    return format_soup(made.soup, GetParam(), {.attributes = &made.attributes});
+  };
   EXPECT_EQ(write(), write());
 }
 
@@ -98,10 +100,11 @@ TEST_P(GltfDialects, ObjComesBackThroughIt) {
   std::erase(made.attributes.materials.of_triangle, kNone);
   made.attributes.materials.of_triangle.resize(made.soup.triangles.size(), 1);
   const auto through = [](const ReadResult& read, SoupFormat format) {
-    return read_with_attributes(format_soup(read.soup, format, {}, {}, &read.attributes), "a");
+    return read_with_attributes(format_soup(read.soup, format, {.attributes = &read.attributes}),
+                                "a");
   };
-  const ReadResult obj =
-      read_with_attributes(format_soup(made.soup, SoupFormat::obj, {}, {}, &made.attributes), "a");
+  const ReadResult obj = read_with_attributes(
+      format_soup(made.soup, SoupFormat::obj, {.attributes = &made.attributes}), "a");
   ASSERT_EQ(differences(obj, made), "");
   const ReadResult back = through(through(obj, GetParam()), SoupFormat::obj);
   EXPECT_EQ(differences(back, made), "");
@@ -111,8 +114,8 @@ TEST_P(GltfDialects, CornersWithoutValuesGetSomeThatSayNothing) {
   TexturedSoup made = random_textured_soup(3);
   made.attributes.materials = {};
   for (CornerAttribute& set : made.attributes.corners) set.of_corner[4] = kNone;
-  const ReadResult back =
-      read_with_attributes(format_soup(made.soup, GetParam(), {}, {}, &made.attributes), "a");
+  const ReadResult back = read_with_attributes(
+      format_soup(made.soup, GetParam(), {.attributes = &made.attributes}), "a");
   ASSERT_EQ(back.attributes.corners.size(), made.attributes.corners.size());
   const auto value = [&](std::size_t set, std::size_t i) {
     const CornerAttribute& attribute = back.attributes.corners[set];
@@ -125,7 +128,7 @@ TEST_P(GltfDialects, CornersWithoutValuesGetSomeThatSayNothing) {
 }
 
 TEST_P(GltfDialects, CommentsAndTheProgramAreInTheAsset) {
-  const TestJson root = json_of(format_soup(tetrahedron(), GetParam(), {"one", "two"}));
+  const TestJson root = json_of(format_soup(tetrahedron(), GetParam(), {{"one", "two"}}));
   EXPECT_EQ(root["asset"]["generator"], "meshrepair");
   EXPECT_EQ(root["asset"]["extras"]["comments"], TestJson({"one", "two"}));
 }
@@ -154,7 +157,7 @@ TEST(GltfWriter, LooksBecomeMaterialsAndImagesStayAsTheyAre) {
   TexturedSoup made = random_textured_soup(2);
   made.attributes.images = {{"a.png", "image/png", {}, std::make_shared<std::string>(kPicture)}};
   made.attributes.looks = {{{1, 0, 0, 0.5}, kNone}, {{1, 1, 1, 1}, 0}, {}};
-  const std::string glb = format_soup(made.soup, SoupFormat::glb, {}, {}, &made.attributes);
+  const std::string glb = format_soup(made.soup, SoupFormat::glb, {.attributes = &made.attributes});
   const TestJson root = json_of(glb);
   EXPECT_EQ(root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"],
             TestJson({1.0, 0.0, 0.0, 0.5}));
@@ -180,7 +183,7 @@ TEST(GltfWriter, NamesOfImagesAreRelativeToTheFile) {
   EXPECT_EQ(read.attributes.images[0].path, folder.path() / "in" / "my pictures" / "a.png");
   const auto uri_in = [&](const std::filesystem::path& path) {
     std::filesystem::create_directories(path.parent_path());
-    write_soup(read.soup, path, {.format = {}, .comments = {}, .attributes = &read.attributes});
+    write_soup(read.soup, path, {.extras = {.attributes = &read.attributes}});
     return json_of(file_bytes(path))["images"][0]["uri"];
   };
   EXPECT_EQ(uri_in(folder.path() / "in" / "b.glb"), "my%20pictures/a.png");
@@ -234,7 +237,7 @@ TEST(GltfWriter, WhatIsNoMeshStaysUntouched) {
   read.attributes.materials.names.emplace_back("meshrepair_patch");
   read.attributes.materials.of_triangle.push_back(2);
   read.soup.triangles.push_back(read.soup.triangles.front());
-  const std::string glb = format_soup(read.soup, SoupFormat::glb, {}, {}, &read.attributes);
+  const std::string glb = format_soup(read.soup, SoupFormat::glb, {.attributes = &read.attributes});
   const TestJson root = json_of(glb);
   for (const char* key : {"samplers", "textures", "cameras", "extensions", "extras"}) {
     EXPECT_EQ(root[key], maker.root[key]) << key;
@@ -254,7 +257,7 @@ TEST(GltfWriter, WhatIsNoMeshStaysUntouched) {
 TEST(GltfWriter, OneNodeHasTheMeshAndTheOthersStay) {
   const GltfMaker maker = rich_file();
   const ReadResult read = read_with_attributes(maker.glb(), "a.glb");
-  const std::string glb = format_soup(read.soup, SoupFormat::glb, {}, {}, &read.attributes);
+  const std::string glb = format_soup(read.soup, SoupFormat::glb, {.attributes = &read.attributes});
   const TestJson root = json_of(glb);
   EXPECT_FALSE(root.contains("skins"));
   ASSERT_EQ(root["nodes"].size(), 3u);
@@ -268,7 +271,7 @@ TEST(GltfWriter, OneNodeHasTheMeshAndTheOthersStay) {
 
 TEST(GltfWriter, AnimationsOfNodesStayThoseOfWeightsGo) {
   const ReadResult read = read_with_attributes(rich_file().glb(), "a.glb");
-  const std::string glb = format_soup(read.soup, SoupFormat::glb, {}, {}, &read.attributes);
+  const std::string glb = format_soup(read.soup, SoupFormat::glb, {.attributes = &read.attributes});
   const TestJson root = json_of(glb);
   ASSERT_EQ(root["animations"].size(), 1u);
   const TestJson& animation = root["animations"][0];
@@ -289,7 +292,8 @@ TEST(GltfWriter, TextureCoordinatesComeBackToTheLastBit) {
         maker.add_accessor<float>({0.5f, v, 0, 0.1f, 1, 0.3f}, "VEC2");
     const ReadResult read = read_with_attributes(maker.glb(), "a.glb");
     EXPECT_EQ(read.attributes.corners[0].values[1], 1 - static_cast<double>(v));
-    const std::string glb = format_soup(read.soup, SoupFormat::glb, {}, {}, &read.attributes);
+    const std::string glb =
+        format_soup(read.soup, SoupFormat::glb, {.attributes = &read.attributes});
     const TestJson root = json_of(glb);
     const std::size_t accessor =
         root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"].get<std::size_t>();

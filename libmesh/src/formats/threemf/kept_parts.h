@@ -1,0 +1,47 @@
+// What a 3MF package holds besides meshes and what they look like, for packages that are written.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include <mesh/attributes.h>
+#include <mesh/mesh_source.h>
+
+#include "model_part.h"
+#include "package_parts.h"
+#include "zip_reader.h"
+
+namespace meshrepair {
+
+struct KeptPackage final : Keepsake {
+  struct Part {
+    std::string name;
+    std::string media_type;  // may be empty
+    std::shared_ptr<const std::string> bytes;
+  };
+  // How pictures were laid over triangles, as the file had it.
+  struct Tiling {
+    std::shared_ptr<const std::string> picture;
+    std::string u, v, filter;
+  };
+
+  std::string unit;  // empty: not known
+  std::vector<ModelNamespace> namespaces;
+  std::vector<ModelMetadata> metadata;
+  std::vector<Part> parts;
+  std::vector<PackageRelationship> of_package, of_model;  // to these parts
+  std::vector<Tiling> tilings;
+};
+
+// Reads all parts but those that are written anew: models, relationships, types of content and the
+// parts in `taken` (by part_key()). Left out, with a warning, is what belongs to the meshes as they
+// were: slicers' lists of objects and of what was painted on them or cut out of them, toolpaths,
+// signatures. `model` is the name of the first model.
+void keep_parts(const MeshSource& source, ZipReader& archive, const ContentTypes& types,
+                const std::string& model, const std::unordered_set<std::string>& taken,
+                KeptPackage& kept, ReadReport& report);
+
+}  // namespace meshrepair

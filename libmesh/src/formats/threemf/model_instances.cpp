@@ -1,0 +1,202 @@
+#include "model_instances.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <base/progress.h>
+#include <mesh/read_guard.h>
+
+#include "model_values.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr std::size_t kDeepestComponent = 64;
+
+// Triangles and points that copies may make beyond what is in the file: a full plate of copies of
+// one mesh, not more.
+constexpr std::uint64_t kCopiesAlways = 10'000'000;
+constexpr std::uint64_t kCopiesPerByte = 64;
+constexpr std::uint64_t kMostCopies = 200'000'000;
+
+struct MeshTotal {
+  static constexpr std::uint64_t kMany = std::uint64_t{1} << 48;
+
+  std::uint64_t points = 0, triangles = 0;
+  std::uint64_t steps = 0;  // to place it
+  std::size_t height = 0;   // objects one inside the other
+
+  void add(const MeshTotal& other) {
+    points = std::min(points + other.points, kMany);
+    triangles = std::min(triangles + other.triangles, kMany);
+    steps = std::min(steps + other.steps, kMany);
+    height = std::max(height, other.height);
+  }
+};
+
+class InstancePlacer {
+ public:
+  InstancePlacer(const MeshSource& source, const std::vector<ModelPart>& parts)
+      : source_(source), parts_(parts), cancel_(source.options.progress) {
+    for (const ModelPart& part : parts) known_.emplace_back(part.objects.size());
+  }
+
+  InstanceResult run() {
+    const std::vector<ObjectReference> items = items_of_build();
+    MeshTotal total;
+    for (const ObjectReference& item : items) total.add(count(item, 1));
+    require_sane(total);
+    result_.soup.points.reserve(total.points);
+    result_.soup.triangles.reserve(total.triangles);
+    for (const ObjectReference& item : items) {
+      if (const auto number = number_of(item)) {
+        place(item.part, *number, placement_in(0, item), {});
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  // What is known of an object.
+  struct Known {
+    enum class State : char { fresh, open, done };
+    State state = State::fresh;
+    MeshTotal total;
+  };
+  // The object around that has a name.
+  struct Named {
+    std::uint32_t part = kNone, object = kNone;
+  };
+
+  [[nodiscard]] std::vector<ObjectReference> items_of_build() const {
+    const ModelPart& part = parts_.front();
+    if (!part.items.empty()) return part.items;
+    std::vector<char> is_component(part.objects.size(), 0);
+    for (const ModelObject& object : part.objects) {
+      for (const ObjectReference& component : object.components) {
+        const auto number = component.part == 0 ? number_of(component) : std::nullopt;
+        if (number) is_component[*number] = 1;
+      }
+    }
+    std::vector<ObjectReference> items;
+    for (std::uint32_t i = 0; i < part.objects.size(); ++i) {
+      if (is_component[i] == 0) items.push_back({0, part.objects[i].id, {}});
+    }
+    return items;
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> number_of(const ObjectReference& reference) const {
+    if (reference.part >= parts_.size() || reference.object == kNone) return std::nullopt;
+    const auto& numbers = parts_[reference.part].object_of_id;
+    const auto found = numbers.find(reference.object);
+    return found == numbers.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  // What an object becomes. Each is looked into once, however often it is named.
+  MeshTotal count(const ObjectReference& reference, std::size_t depth) {
+    const auto number = number_of(reference);
+    if (!number) {
+      ++result_.missing;
+      return {0, 0, 1, 0};
+    }
+    const ModelObject& object = parts_[reference.part].objects[*number];
+    Known& known = known_[reference.part][*number];
+    if (known.state == Known::State::open) {
+      source_.fail("its object " + std::to_string(object.id) + " is a component of itself");
+    }
+    // One that was looked into before is counted with what is inside.
+    const bool is_known = known.state == Known::State::done;
+    if (depth + (is_known ? known.total.height : 0) > kDeepestComponent) {
+      source_.fail("its components are nested too deep");
+    }
+    if (is_known) return known.total;
+    cancel_.tick();
+    known.state = Known::State::open;
+    MeshTotal total;
+    if (object.is_left_out && object.components.empty()) {
+      ++result_.left_out;
+    } else {
+      total = {object.mesh.points.size(), object.mesh.triangles.size(), 0, 0};
+      in_file_.add(total);
+      for (const ObjectReference& component : object.components) {
+        total.add(count(component, depth + 1));
+      }
+    }
+    if (total.triangles == 0) total = {0, 0, 0, total.height};
+    ++total.steps;
+    ++total.height;
+    in_file_.steps += object.components.size();
+    known.total = total;
+    known.state = Known::State::done;
+    return total;
+  }
+
+  void require_sane(const MeshTotal& total) const {
+    ReadGuard(source_).require(total.triangles);
+    const std::uint64_t copies =
+        std::min(kCopiesAlways + kCopiesPerByte * source_.bytes.size(), kMostCopies);
+    if (total.triangles > in_file_.triangles + copies || total.points > in_file_.points + copies ||
+        total.steps > in_file_.steps + copies) {
+      source_.fail("its components would make " + counted(total.triangles, "triangle") + " of " +
+                   std::to_string(in_file_.triangles));
+    }
+    if (total.points >= std::numeric_limits<std::uint32_t>::max()) {
+      throw LimitError(source_.name + ": more than 4294967294 points");
+    }
+  }
+
+  void place(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {
+    if (known_[part][number].total.triangles == 0) return;
+    cancel_.tick();
+    const ModelObject& object = parts_[part].objects[number];
+    if (!object.name.empty()) named = {part, number};
+    if (!object.mesh.triangles.empty()) add_mesh(part, number, placement, named);
+    for (const ObjectReference& component : object.components) {
+      const auto inner = number_of(component);
+      if (!inner) continue;
+      place(component.part, *inner, placement_in(part, component).then(placement), named);
+    }
+  }
+
+  // In the unit of the part that names it.
+  [[nodiscard]] Placement placement_in(std::uint32_t part, const ObjectReference& reference) const {
+    const double from = millimeters_of(parts_[reference.part].unit).value_or(1);
+    const double to = millimeters_of(parts_[part].unit).value_or(1);
+    if (from == to) return reference.placement;
+    Placement scale;
+    scale.identity = false;
+    scale.m[0] = scale.m[4] = scale.m[8] = from / to;
+    return scale.then(reference.placement);
+  }
+
+  void add_mesh(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {
+    const TriangleSoup& mesh = parts_[part].objects[number].mesh;
+    TriangleSoup& soup = result_.soup;
+    const bool turned = placement.mirrors();
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    result_.instances.push_back(
+        {part, number, named.object, named.part, soup.triangles.size(), turned});
+    for (const Vec3d& point : mesh.points) soup.points.push_back(placement.of(point));
+    for (const auto& [a, b, c] : mesh.triangles) {
+      soup.triangles.push_back({first + a, first + (turned ? c : b), first + (turned ? b : c)});
+    }
+  }
+
+  const MeshSource& source_;
+  const std::vector<ModelPart>& parts_;
+  std::vector<std::vector<Known>> known_;
+  MeshTotal in_file_;
+  InstanceResult result_;
+  CancelCheck cancel_;
+};
+
+}  // namespace
+
+InstanceResult place_instances(const MeshSource& source, const std::vector<ModelPart>& parts) {
+  return InstancePlacer(source, parts).run();
+}
+
+}  // namespace meshrepair

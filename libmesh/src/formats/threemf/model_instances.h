@@ -1,0 +1,38 @@
+// Puts the instances that a build names into one soup.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <mesh/mesh_source.h>
+#include <mesh/soup.h>
+
+#include "model_part.h"
+
+namespace meshrepair {
+
+// A mesh as it stands in the soup.
+struct MeshInstance {
+  std::uint32_t part = 0;
+  std::uint32_t object = 0;  // its number in the part
+  std::uint32_t named = 0;   // of the same part or another: the innermost object around with a name
+  std::uint32_t named_part = 0;
+  std::size_t first = 0;  // its first triangle; the others follow
+  bool turned = false;    // second and third corners have changed places
+};
+
+struct InstanceResult {
+  TriangleSoup soup;
+  std::vector<MeshInstance> instances;
+  std::size_t missing = 0;   // references to objects that are not there
+  std::size_t left_out = 0;  // references to objects of types that are not built
+};
+
+// Of the items of the first part's build; where there are none, of all its objects that no other
+// has as a component. Throws InputError where components name each other in a circle, are nested
+// too deep, or make far more triangles than the file holds; LimitError.
+[[nodiscard]] InstanceResult place_instances(const MeshSource& source,
+                                             const std::vector<ModelPart>& parts);
+
+}  // namespace meshrepair

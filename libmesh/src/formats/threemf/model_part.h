@@ -1,0 +1,106 @@
+// What a 3D model part of a 3MF package says, as it says it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <base/ids.h>
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+// Where an instance is put: x' = x m0 + y m3 + z m6 + m9, y' = x m1 + ..., as the format lists
+// them.
+struct Placement {
+  std::array<double, 12> m = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  bool identity = true;
+
+  [[nodiscard]] Vec3d of(const Vec3d& p) const;
+  // This one first, then the other.
+  [[nodiscard]] Placement then(const Placement& next) const;
+  // Inside and outside change places.
+  [[nodiscard]] bool mirrors() const;
+};
+
+// Of a triangle or an object: which entry of which group its corners have.
+struct PropertyUse {
+  std::uint32_t group = kNone;  // its id; kNone: that of the object
+  std::array<std::uint32_t, 3> index = {kNone, kNone, kNone};
+};
+
+// An object of a part, by the number of the part and its own id.
+struct ObjectReference {
+  std::uint32_t part = 0;
+  std::uint32_t object = kNone;
+  Placement placement;
+};
+
+struct ModelObject {
+  std::uint32_t id = kNone;
+  bool is_left_out = false;  // of the types that are not built, or no part of the solid
+  std::string name;
+  PropertyUse property;  // of triangles that say nothing
+  TriangleSoup mesh;
+  std::vector<PropertyUse> properties;  // of the triangles, if asked for
+  std::vector<ObjectReference> components;
+};
+
+// Entries that triangles refer to by their number.
+struct PropertyGroup {
+  enum class Kind { base, colour, texture, multi, unknown };
+
+  Kind kind = Kind::unknown;
+  std::uint32_t id = kNone;
+  std::vector<std::string> names;              // of base materials
+  std::vector<std::array<double, 4>> colours;  // of base materials and of colours
+  bool has_opacity = false;                    // of a colour at least
+  std::uint32_t texture = kNone;               // its id
+  std::vector<std::array<double, 2>> points;   // in the texture
+  std::vector<std::uint32_t> layers;           // ids of other groups
+  std::vector<std::uint32_t> layer_entries;    // as many for each entry as there are layers
+};
+
+struct ModelTexture {
+  std::uint32_t id = kNone;
+  std::string path;
+  std::string media_type;
+  std::string tile_u, tile_v, filter;  // as they stand there; may be empty
+};
+
+// "Title", "Designer", ...
+struct ModelMetadata {
+  std::string name, value, preserve, type;
+};
+
+// Names of other programs' metadata begin with such a prefix.
+struct ModelNamespace {
+  std::string prefix, space;
+};
+
+struct ModelPart {
+  std::string name;  // of the part
+  std::string unit;
+  std::vector<ModelNamespace> namespaces;
+  std::vector<ModelMetadata> metadata;
+  std::vector<ModelObject> objects;
+  std::unordered_map<std::uint32_t, std::uint32_t> object_of_id;
+  std::vector<PropertyGroup> groups;
+  std::vector<ModelTexture> textures;
+  std::vector<ObjectReference> items;  // of the build
+};
+
+// Of all parts of a package: what could not be taken.
+struct ModelOddities {
+  std::size_t bad_triangles = 0;
+  std::size_t bad_points = 0;
+  std::size_t doubled_ids = 0;
+  std::size_t unknown_groups = 0;  // compositematerials, and layers beyond those that are read
+  std::vector<std::string> unknown_extensions;
+  std::string unknown_unit;
+};
+
+}  // namespace meshrepair

@@ -1,0 +1,331 @@
+#include "model_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include <mesh/edge_table.h>
+
+#include "model_values.h"
+
+namespace meshrepair {
+
+enum class ModelReader::Element : std::uint8_t {
+  none,  // outside of all
+  ignored,
+  model,
+  metadata,
+  resources,
+  build,
+  item,
+  object,
+  mesh,
+  vertices,
+  vertex,
+  triangles,
+  triangle,
+  components,
+  component,
+  basematerials,
+  base,
+  colorgroup,
+  color,
+  texture2d,
+  texture2dgroup,
+  tex2coord,
+  multiproperties,
+  multi,
+  compositematerials,
+};
+
+namespace {
+
+using Element = ModelReader::Element;
+
+constexpr std::string_view kCorePrefix = "http://schemas.microsoft.com/3dmanufacturing/core/";
+constexpr std::string_view kMaterialPrefix =
+    "http://schemas.microsoft.com/3dmanufacturing/material/";
+constexpr std::string_view kProductionPrefix =
+    "http://schemas.microsoft.com/3dmanufacturing/production/";
+constexpr std::string_view kPathAttribute =
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
+
+// Beyond these, layers of properties are passed over: there is one of each kind at most.
+constexpr std::size_t kMostLayers = 8;
+
+struct KnownElement {
+  Element parent;
+  std::string_view name;
+  Element element;
+};
+
+// The most frequent ones first.
+constexpr std::array<KnownElement, 23> kElements = {{
+    {Element::triangles, "triangle", Element::triangle},
+    {Element::vertices, "vertex", Element::vertex},
+    {Element::texture2dgroup, "tex2coord", Element::tex2coord},
+    {Element::multiproperties, "multi", Element::multi},
+    {Element::colorgroup, "color", Element::color},
+    {Element::basematerials, "base", Element::base},
+    {Element::components, "component", Element::component},
+    {Element::build, "item", Element::item},
+    {Element::none, "model", Element::model},
+    {Element::model, "metadata", Element::metadata},
+    {Element::model, "resources", Element::resources},
+    {Element::model, "build", Element::build},
+    {Element::resources, "object", Element::object},
+    {Element::resources, "basematerials", Element::basematerials},
+    {Element::resources, "colorgroup", Element::colorgroup},
+    {Element::resources, "texture2d", Element::texture2d},
+    {Element::resources, "texture2dgroup", Element::texture2dgroup},
+    {Element::resources, "multiproperties", Element::multiproperties},
+    {Element::resources, "compositematerials", Element::compositematerials},
+    {Element::object, "mesh", Element::mesh},
+    {Element::object, "components", Element::components},
+    {Element::mesh, "vertices", Element::vertices},
+    {Element::mesh, "triangles", Element::triangles},
+}};
+
+bool is_known_space(std::string_view space) {
+  return space.empty() || space.starts_with(kCorePrefix) || space.starts_with(kMaterialPrefix);
+}
+
+std::uint32_t index_in(const XmlAttributes& attributes, std::string_view name) {
+  const auto value = attributes.find(name);
+  return value ? read_model_index(*value) : kNone;
+}
+
+}  // namespace
+
+ModelReader::ModelReader(ModelPart& part, ModelOddities& oddities, std::uint32_t number,
+                         PartNumber number_of, bool properties)
+    : part_(part),
+      oddities_(oddities),
+      number_(number),
+      number_of_(std::move(number_of)),
+      properties_(properties) {}
+
+void ModelReader::declare(std::string_view prefix, std::string_view space) {
+  part_.namespaces.push_back({std::string(prefix), std::string(space)});
+}
+
+void ModelReader::start(std::string_view space, std::string_view name,
+                        const XmlAttributes& attributes) {
+  const Element parent = open_.empty() ? Element::none : open_.back();
+  Element element = Element::ignored;
+  if (is_known_space(space)) {
+    const auto* const known =
+        std::find_if(kElements.begin(), kElements.end(), [&](const KnownElement& candidate) {
+          return candidate.parent == parent && candidate.name == name;
+        });
+    if (known != kElements.end()) element = known->element;
+  }
+  open_.push_back(element);
+  open(element, attributes);
+}
+
+void ModelReader::end() {
+  if (open_.back() == Element::mesh) end_mesh();
+  open_.pop_back();
+}
+
+void ModelReader::text(std::string_view piece) {
+  if (properties_ && !open_.empty() && open_.back() == Element::metadata) {
+    part_.metadata.back().value += piece;
+  }
+}
+
+void ModelReader::open(Element element, const XmlAttributes& attributes) {
+  switch (element) {
+    case Element::vertex:
+      return read_vertex(attributes);
+    case Element::triangle:
+      return read_triangle(attributes);
+    case Element::model:
+      return read_model(attributes);
+    case Element::object:
+      return read_object(attributes);
+    case Element::component:
+      return read_reference(attributes, object().components);
+    case Element::item:
+      return read_reference(attributes, part_.items);
+    case Element::metadata:
+      if (properties_) {
+        part_.metadata.push_back(
+            {attributes.text("name"), {}, attributes.text("preserve"), attributes.text("type")});
+      }
+      return;
+    default:
+      if (properties_) open_property(element, attributes);
+  }
+}
+
+void ModelReader::open_property(Element element, const XmlAttributes& attributes) {
+  using Kind = PropertyGroup::Kind;
+  switch (element) {
+    case Element::basematerials:
+      return add_group(Kind::base, attributes);
+    case Element::base:
+      group().names.push_back(attributes.text("name"));
+      return add_colour(attributes.text("displaycolor"));
+    case Element::colorgroup:
+      return add_group(Kind::colour, attributes);
+    case Element::color:
+      return add_colour(attributes.text("color"));
+    case Element::texture2d:
+      part_.textures.push_back({index_in(attributes, "id"), attributes.text("path"),
+                                attributes.text("contenttype"), attributes.text("tilestyleu"),
+                                attributes.text("tilestylev"), attributes.text("filter")});
+      return;
+    case Element::texture2dgroup:
+      add_group(Kind::texture, attributes);
+      group().texture = index_in(attributes, "texid");
+      return;
+    case Element::tex2coord: {
+      std::array<double, 2> point = {0, 0};
+      (void)read_model_number(attributes.find("u").value_or(""), point[0]);
+      (void)read_model_number(attributes.find("v").value_or(""), point[1]);
+      group().points.push_back(point);
+      return;
+    }
+    case Element::multiproperties:
+      add_group(Kind::multi, attributes);
+      return read_layers(attributes);
+    case Element::multi:
+      return read_layer_entries(attributes);
+    case Element::compositematerials:
+      ++oddities_.unknown_groups;
+      return add_group(Kind::unknown, attributes);
+    default:
+      return;
+  }
+}
+
+void ModelReader::read_model(const XmlAttributes& attributes) {
+  saw_model_ = true;
+  part_.unit = attributes.text("unit");
+  if (!part_.unit.empty() && !millimeters_of(part_.unit)) {
+    oddities_.unknown_unit = std::exchange(part_.unit, {});
+  }
+  const std::string required = attributes.text("requiredextensions");
+  std::string_view rest = required;
+  while (true) {
+    const std::string_view prefix = take_word(rest);
+    if (prefix.empty()) return;
+    const auto known = std::find_if(
+        part_.namespaces.begin(), part_.namespaces.end(), [&](const ModelNamespace& candidate) {
+          return candidate.prefix == prefix && (is_known_space(candidate.space) ||
+                                                candidate.space.starts_with(kProductionPrefix));
+        });
+    if (known == part_.namespaces.end()) oddities_.unknown_extensions.emplace_back(prefix);
+  }
+}
+
+void ModelReader::read_object(const XmlAttributes& attributes) {
+  part_.objects.emplace_back();
+  ModelObject& fresh = object();
+  fresh.id = index_in(attributes, "id");
+  fresh.name = attributes.text("name");
+  const std::string type = attributes.text("type");
+  fresh.is_left_out = type == "other" || type == "support";
+  fresh.property.group = index_in(attributes, "pid");
+  fresh.property.index.fill(index_in(attributes, "pindex"));
+  const auto number = static_cast<std::uint32_t>(part_.objects.size() - 1);
+  if (!part_.object_of_id.try_emplace(fresh.id, number).second) ++oddities_.doubled_ids;
+}
+
+void ModelReader::read_vertex(const XmlAttributes& attributes) {
+  Vec3d point = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  int good = 0;
+  attributes.visit([&](std::string_view name, std::string_view value) {
+    if (name.size() != 1 || name[0] < 'x' || name[0] > 'z') return;
+    if (read_model_number(value, point[name[0] - 'x'])) ++good;
+  });
+  if (good != 3) ++oddities_.bad_points;
+  object().mesh.points.push_back(point);
+}
+
+void ModelReader::read_triangle(const XmlAttributes& attributes) {
+  IndexTriangle triangle = {kNone, kNone, kNone};
+  PropertyUse property;
+  attributes.visit([&](std::string_view name, std::string_view value) {
+    if (name == "pid") property.group = read_model_index(value);
+    if (name.size() != 2 || name[1] < '1' || name[1] > '3') return;
+    const auto corner = static_cast<std::size_t>(name[1] - '1');
+    if (name[0] == 'v') triangle[corner] = read_model_index(value);
+    if (name[0] == 'p') property.index[corner] = read_model_index(value);
+  });
+  object().mesh.triangles.push_back(triangle);
+  if (properties_) object().properties.push_back(property);
+}
+
+// The points are known: triangles that name others are left out.
+void ModelReader::end_mesh() {
+  TriangleSoup& mesh = object().mesh;
+  std::vector<PropertyUse>& properties = object().properties;
+  const std::size_t points = mesh.points.size();
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const IndexTriangle triangle = mesh.triangles[t];
+    if (std::any_of(triangle.begin(), triangle.end(),
+                    [&](std::uint32_t corner) { return corner >= points; })) {
+      continue;
+    }
+    mesh.triangles[kept] = triangle;
+    if (properties_) properties[kept] = properties[t];
+    ++kept;
+  }
+  oddities_.bad_triangles += mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  if (properties_) properties.resize(kept);
+}
+
+void ModelReader::read_reference(const XmlAttributes& attributes,
+                                 std::vector<ObjectReference>& references) {
+  ObjectReference reference;
+  reference.part = number_;
+  reference.object = index_in(attributes, "objectid");
+  if (const auto path = attributes.find(kPathAttribute)) reference.part = number_of_(*path);
+  if (const auto text = attributes.find("transform")) {
+    const auto placement = read_placement(*text);
+    if (!placement) stream_->fail("a transform that is not twelve numbers");
+    reference.placement = *placement;
+  }
+  references.push_back(reference);
+}
+
+void ModelReader::add_group(PropertyGroup::Kind kind, const XmlAttributes& attributes) {
+  part_.groups.emplace_back();
+  group().kind = kind;
+  group().id = index_in(attributes, "id");
+}
+
+void ModelReader::add_colour(std::string_view text) {
+  const ModelColour colour = read_model_colour(text).value_or(ModelColour());
+  group().colours.push_back(colour.values);
+  group().has_opacity = group().has_opacity || colour.has_opacity;
+}
+
+void ModelReader::read_layers(const XmlAttributes& attributes) {
+  const std::string ids = attributes.text("pids");
+  std::string_view rest = ids;
+  for (std::string_view id = take_word(rest); !id.empty(); id = take_word(rest)) {
+    if (group().layers.size() == kMostLayers) {
+      ++oddities_.unknown_groups;
+      return;
+    }
+    group().layers.push_back(read_model_index(id));
+  }
+}
+
+void ModelReader::read_layer_entries(const XmlAttributes& attributes) {
+  const std::string entries = attributes.text("pindices");
+  std::string_view rest = entries;
+  for (std::size_t layer = 0; layer < group().layers.size(); ++layer) {
+    const std::string_view entry = take_word(rest);
+    group().layer_entries.push_back(entry.empty() ? 0 : read_model_index(entry));
+  }
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,85 @@
+#include "model_values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "formats/common/text_scanner.h"
+
+namespace meshrepair {
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+}  // namespace
+
+bool read_model_number(std::string_view text, double& value) {
+  const std::string_view word = without_blanks(text);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc() && end == word.data() + word.size()) return true;
+  return parse_odd_real(word, value);
+}
+
+std::uint32_t read_model_index(std::string_view text) {
+  constexpr std::uint32_t kMost = std::uint32_t{1} << 31;
+  std::string_view word = without_blanks(text);
+  if (word.starts_with('+')) word.remove_prefix(1);
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool good = error == std::errc() && end == word.data() + word.size() && value < kMost;
+  return good ? value : kNone;
+}
+
+std::string_view take_word(std::string_view& text) {
+  text = without_blanks(text);
+  const std::string_view word =
+      text.substr(0, std::min(text.find_first_of(" \t\r\n"), text.size()));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+std::optional<ModelColour> read_model_colour(std::string_view text) {
+  const std::string_view word = without_blanks(text);
+  if (!word.starts_with('#') || (word.size() != 7 && word.size() != 9)) return std::nullopt;
+  ModelColour colour;
+  colour.has_opacity = word.size() == 9;
+  for (std::size_t i = 0; 2 * i + 2 < word.size(); ++i) {
+    unsigned byte = 0;
+    const char* const first = word.data() + 1 + 2 * i;
+    const auto [end, error] = std::from_chars(first, first + 2, byte, 16);
+    if (error != std::errc() || end != first + 2) return std::nullopt;
+    colour.values[i] = byte / 255.0;
+  }
+  return colour;
+}
+
+std::optional<double> millimeters_of(std::string_view unit) {
+  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits = {{{"micron", 0.001},
+                                                                          {"millimeter", 1},
+                                                                          {"centimeter", 10},
+                                                                          {"inch", 25.4},
+                                                                          {"foot", 304.8},
+                                                                          {"meter", 1000}}};
+  const auto* const found = std::find_if(kUnits.begin(), kUnits.end(),
+                                         [&](const auto& one) { return one.first == unit; });
+  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<Placement> read_placement(std::string_view text) {
+  const Placement none;
+  Placement placement;
+  for (double& value : placement.m) {
+    if (!read_model_number(take_word(text), value) || !std::isfinite(value)) return std::nullopt;
+  }
+  if (!take_word(text).empty()) return std::nullopt;
+  placement.identity = placement.m == none.m;
+  return placement;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,36 @@
+// Values of attributes in 3D model parts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "model_part.h"
+
+namespace meshrepair {
+
+// False, and NaN, where it is no number. "nan" and "inf" are numbers here, as in other formats.
+[[nodiscard]] bool read_model_number(std::string_view text, double& value);
+
+// An id or an index, below 2^31; kNone where it is none.
+[[nodiscard]] std::uint32_t read_model_index(std::string_view text);
+
+// Takes the first word off `text`; empty at its end.
+[[nodiscard]] std::string_view take_word(std::string_view& text);
+
+struct ModelColour {
+  std::array<double, 4> values = {1, 1, 1, 1};
+  bool has_opacity = false;
+};
+
+// "#RRGGBB" or "#RRGGBBAA".
+[[nodiscard]] std::optional<ModelColour> read_model_colour(std::string_view text);
+
+// Nothing where it is no unit of the format.
+[[nodiscard]] std::optional<double> millimeters_of(std::string_view unit);
+
+// Twelve numbers, all finite. Nothing where it is no such thing.
+[[nodiscard]] std::optional<Placement> read_placement(std::string_view text);
+
+}  // namespace meshrepair

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include <base/error.h>
+
+#include "kept_parts.h"
+#include "model_instances.h"
+#include "model_reader.h"
+#include "package_parts.h"
+#include "part_names.h"
+#include "property_labels.h"
+#include "threemf_io.h"
+#include "xml_stream.h"
+#include "zip_reader.h"
+
+namespace meshrepair {
+namespace {
+
+class ThreemfReader {
+ public:
+  explicit ThreemfReader(const MeshSource& source) : source_(source), archive_(source) {}
+
+  ReadResult run() {
+    result_.report.format = SoupFormat::threemf;
+    if (archive_.passed_over() > 0) {
+      warn(counted(archive_.passed_over(), "part") +
+           " passed over: names that lead out of the package or stand there twice");
+    }
+    read_parts(find_start());
+    InstanceResult placed = place_instances(source_, parts_);
+    report_oddities(placed);
+    if (source_.options.attributes) read_attributes(placed);
+    result_.soup = std::move(placed.soup);
+    return std::move(result_);
+  }
+
+ private:
+  void warn(std::string_view text) { result_.report.warnings.emplace_back(text); }
+
+  const ZipReader::Entry& find_start() {
+    std::vector<std::string> targets;
+    try {
+      for (const PackageRelationship& one : read_relationships(source_, archive_, "")) {
+        if (one.type == kModelRelationship) targets.push_back(one.target);
+      }
+    } catch (const InputError&) {
+      warn("the relationships of the package cannot be read");
+    }
+    if (targets.size() > 1) warn("the package names several first models: the first is read");
+    for (const std::string& target : targets) {
+      if (const ZipReader::Entry* const entry = archive_.find(target)) return *entry;
+    }
+    warn("the package does not say which part is its model");
+    if (const ZipReader::Entry* const usual = archive_.find(kUsualModelPart)) return *usual;
+    const auto& entries = archive_.entries();
+    const auto any = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
+      return extension_of_part(entry.name) == "model";
+    });
+    if (any == entries.end()) source_.fail("is a ZIP archive without a 3D model");
+    return *any;
+  }
+
+  // The first one, and those that are named by what was read.
+  void read_parts(const ZipReader::Entry& start) {
+    (void)number_of(start.name);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      parts_.emplace_back();
+      parts_.back().name = names_[i];
+      const ZipReader::Entry* const entry = archive_.find(names_[i]);
+      if (entry == nullptr) {
+        ++missing_parts_;
+        continue;
+      }
+      read_part(*entry, static_cast<std::uint32_t>(i));
+    }
+  }
+
+  std::uint32_t number_of(const std::string& name) {
+    const auto fresh = static_cast<std::uint32_t>(names_.size());
+    const auto [found, is_new] = number_of_part_.try_emplace(part_key(name), fresh);
+    if (is_new) names_.push_back(name);
+    return found->second;
+  }
+
+  void read_part(const ZipReader::Entry& entry, std::uint32_t number) {
+    const auto number_of_path = [&](std::string_view path) {
+      return number_of(part_name(path, entry.name));
+    };
+    ModelReader reader(parts_.back(), oddities_, number, number_of_path,
+                       source_.options.attributes);
+    XmlStream stream(source_, entry.name, reader);
+    reader.attach(stream);
+    std::uint64_t read = 0;
+    archive_.read(entry, [&](std::string_view piece) {
+      read += piece.size();
+      tell_progress(entry, read);
+      stream.feed(piece);
+    });
+    stream.finish();
+    if (!reader.saw_model()) source_.fail("its part " + printable(entry.name) + " is no 3D model");
+    packed_ += entry.packed;
+  }
+
+  void tell_progress(const ZipReader::Entry& entry, std::uint64_t read) {
+    ProgressObserver* const progress = source_.options.progress;
+    if (progress == nullptr) return;
+    const double of_part = static_cast<double>(read) / static_cast<double>(entry.size);
+    const double bytes = static_cast<double>(packed_) + of_part * static_cast<double>(entry.packed);
+    share_ = std::clamp(bytes / static_cast<double>(source_.bytes.size()), share_, 1.0);
+    progress->advance(share_);
+    if (progress->cancelled()) throw Cancelled();
+  }
+
+  void report_oddities(const InstanceResult& placed) {
+    const std::string left_out = " left out: ";
+    ReadReport& report = result_.report;
+    report.bad_faces = oddities_.bad_triangles;
+    report.bad_points = oddities_.bad_points;
+    warn_if(oddities_.bad_triangles, "triangle", left_out + "they name points that do not exist");
+    warn_if(oddities_.bad_points, "point", " with coordinates that are not numbers");
+    warn_if(oddities_.doubled_ids, "object", " passed over: no number of their own");
+    warn_if(missing_parts_, "part", " with objects missing");
+    warn_if(placed.missing, "reference", " to objects that are not there");
+    warn_if(placed.left_out, "object", left_out + "supports, and what is not to be built");
+    if (!oddities_.unknown_unit.empty()) {
+      warn("the unit " + printable(oddities_.unknown_unit) +
+           " is not known: taken for millimeters");
+    }
+    for (const std::string& extension : oddities_.unknown_extensions) {
+      warn("the file needs the extension " + printable(extension) + ", which is not known here");
+    }
+  }
+
+  void warn_if(std::size_t count, std::string_view noun, const std::string& what) {
+    if (count > 0) warn(counted(count, noun) + what);
+  }
+
+  void read_attributes(const InstanceResult& placed) {
+    auto kept = std::make_shared<KeptPackage>();
+    types_.read(source_, archive_);
+    std::unordered_set<std::string> taken;
+    const FindPicture find = [&](const ModelPart& part, const ModelTexture& texture) {
+      return picture_of(part, texture, *kept, taken);
+    };
+    PropertyOddities oddities;
+    result_.attributes = attributes_of(parts_, placed, find, oddities);
+    warn_if(oddities.missing, "triangle", " with properties that are not there");
+    warn_if(oddities.gradients, "triangle", " with several materials: that of the first corner");
+    warn_if(oddities.unreadable, "texture", " without a picture that can be read");
+    warn_if(oddities_.unknown_groups, "group",
+            " of properties left out: mixtures of materials, or too many layers");
+    ModelPart& first = parts_.front();
+    kept->unit = first.unit;
+    kept->namespaces = std::move(first.namespaces);
+    kept->metadata = std::move(first.metadata);
+    keep_parts(source_, archive_, types_, first.name, taken, *kept, result_.report);
+    result_.attributes.keepsake = std::move(kept);
+  }
+
+  std::optional<Image> picture_of(const ModelPart& part, const ModelTexture& texture,
+                                  KeptPackage& kept, std::unordered_set<std::string>& taken) {
+    const std::string name = part_name(texture.path, part.name);
+    const ZipReader::Entry* const entry = name.empty() ? nullptr : archive_.find(name);
+    if (entry == nullptr) return std::nullopt;
+    Image image;
+    image.name = last_of_part(name);
+    image.media_type = texture.media_type;
+    image.path = part_key(name);  // tells pictures apart for attributes_of()
+    if (!taken.insert(image.path).second) return image;
+    try {
+      image.bytes = std::make_shared<const std::string>(archive_.text_of(*entry));
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+    kept.tilings.push_back({image.bytes, texture.tile_u, texture.tile_v, texture.filter});
+    return image;
+  }
+
+  const MeshSource& source_;
+  ZipReader archive_;
+  ReadResult result_;
+  std::vector<std::string> names_;  // of the parts
+  std::unordered_map<std::string, std::uint32_t> number_of_part_;
+  std::vector<ModelPart> parts_;
+  ModelOddities oddities_;
+  ContentTypes types_;
+  std::size_t missing_parts_ = 0;
+  std::uint64_t packed_ = 0;  // bytes of the parts that were read
+  double share_ = 0;
+};
+
+}  // namespace
+
+bool begins_with_zip(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  return bytes.starts_with("PK\x03\x04"sv);
+}
+
+bool is_threemf(std::string_view bytes) {
+  if (!begins_with_zip(bytes)) return false;
+  try {
+    const MeshSource source{bytes, {}};
+    const ZipReader archive(source);
+    const auto& entries = archive.entries();
+    return std::any_of(entries.begin(), entries.end(),
+                       [](const auto& entry) { return extension_of_part(entry.name) == "model"; });
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+ReadResult read_threemf(const MeshSource& source) { return ThreemfReader(source).run(); }
+
+}  // namespace meshrepair

@@ -1,0 +1,332 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+
+#include <base/error.h>
+#include <mesh/edge_table.h>
+
+#include "formats/common/text_writer.h"
+#include "kept_parts.h"
+#include "package_parts.h"
+#include "part_names.h"
+#include "threemf_io.h"
+#include "written_properties.h"
+#include "xml_text.h"
+#include "zip_writer.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr std::string_view kCoreSpace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+constexpr std::string_view kMaterialSpace =
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
+constexpr std::string_view kXmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+constexpr std::string_view kDescription = "Description";
+
+void require_writable(const TriangleSoup& soup) {
+  constexpr std::size_t kMost = std::size_t{1} << 31;
+  if (std::max(soup.points.size(), soup.triangles.size()) >= kMost) {
+    throw OutputError("3MF holds fewer than 2147483648 points and triangles; write another format");
+  }
+  const bool is_finite = std::all_of(soup.points.begin(), soup.points.end(),
+                                     [](const Vec3d& point) { return point.allFinite(); });
+  if (!is_finite) {
+    throw OutputError("3MF holds no coordinate that is not a finite number; write another format");
+  }
+}
+
+// The model part, as text.
+class ModelWriter {
+ public:
+  ModelWriter(const TriangleSoup& soup, const std::vector<std::string>& comments,
+              const Attributes* attributes, const KeptPackage* kept)
+      : soup_(soup), comments_(comments), attributes_(attributes), kept_(kept) {
+    material_ = free_prefix();
+    if (attributes != nullptr) properties_ = write_properties(soup, *attributes, kept, material_);
+  }
+
+  std::string run() {
+    xml_ = kXmlDeclaration;
+    open_model();
+    write_metadata();
+    xml_ += "<resources>\n" + properties_.resources;
+    write_object();
+    xml_ += "</resources>\n<build>\n<item";
+    append_xml_attribute(xml_, "objectid", std::to_string(properties_.next_id));
+    xml_ += "/>\n</build>\n</model>\n";
+    return std::move(xml_);
+  }
+
+  [[nodiscard]] const std::vector<WrittenPicture>& pictures() const { return properties_.pictures; }
+
+ private:
+  // "m", unless other metadata have it.
+  [[nodiscard]] std::string free_prefix() const {
+    std::string prefix = "m";
+    const auto is_taken = [&] {
+      return kept_ != nullptr && std::any_of(kept_->namespaces.begin(), kept_->namespaces.end(),
+                                             [&](const ModelNamespace& one) {
+                                               return one.prefix == prefix &&
+                                                      one.space != kMaterialSpace;
+                                             });
+    };
+    while (is_taken()) prefix += 'm';
+    return prefix;
+  }
+
+  void open_model() {
+    xml_ += "<model";
+    const bool has_unit = kept_ != nullptr && !kept_->unit.empty();
+    append_xml_attribute(xml_, "unit", has_unit ? kept_->unit : "millimeter");
+    append_xml_attribute(xml_, "xml:lang", "en-US");
+    append_xml_attribute(xml_, "xmlns", kCoreSpace);
+    if (!properties_.resources.empty()) {
+      append_xml_attribute(xml_, "xmlns:" + material_, kMaterialSpace);
+      declared_.insert(material_);
+    }
+    if (kept_ != nullptr) {
+      for (const ModelNamespace& one : kept_->namespaces) {
+        if (one.prefix.empty() || one.space.empty() || !is_in_use(one.prefix)) continue;
+        if (!declared_.insert(one.prefix).second) continue;
+        append_xml_attribute(xml_, "xmlns:" + one.prefix, one.space);
+      }
+    }
+    xml_ += ">\n";
+  }
+
+  [[nodiscard]] bool is_in_use(const std::string& prefix) const {
+    return std::any_of(
+        kept_->metadata.begin(), kept_->metadata.end(), [&](const ModelMetadata& one) {
+          return one.name.starts_with(prefix + ":") || one.type.starts_with(prefix + ":");
+        });
+  }
+
+  // Names are to be different; comments go behind the description.
+  void write_metadata() {
+    std::string lines;
+    for (const std::string& comment : comments_) lines += (lines.empty() ? "" : "\n") + comment;
+    std::unordered_set<std::string> names;
+    if (kept_ != nullptr) {
+      for (ModelMetadata one : kept_->metadata) {
+        const std::size_t colon = one.name.find(':');
+        const bool is_declared =
+            colon == std::string::npos || declared_.contains(one.name.substr(0, colon));
+        if (one.name.empty() || !is_declared || !names.insert(one.name).second) continue;
+        if (one.name == kDescription && one.value.find(lines) == std::string::npos) {
+          one.value += (one.value.empty() ? "" : "\n") + lines;
+        }
+        write_metadatum(one);
+      }
+    }
+    if (!lines.empty() && !names.contains(std::string(kDescription))) {
+      write_metadatum({std::string(kDescription), lines, {}, {}});
+    }
+  }
+
+  void write_metadatum(const ModelMetadata& one) {
+    xml_ += "<metadata";
+    append_xml_attribute(xml_, "name", one.name);
+    if (!one.preserve.empty()) append_xml_attribute(xml_, "preserve", one.preserve);
+    if (!one.type.empty()) append_xml_attribute(xml_, "type", one.type);
+    xml_ += '>';
+    append_xml_text(xml_, one.value);
+    xml_ += "</metadata>\n";
+  }
+
+  // Of the object, if all triangles are of one.
+  [[nodiscard]] std::string name_of_object() const {
+    if (attributes_ == nullptr || attributes_->objects.empty()) return {};
+    const auto& labels = attributes_->objects.of_triangle;
+    std::uint32_t only = kNone;
+    for (const std::uint32_t label : labels) {
+      if (label == kNone) continue;
+      if (only != kNone && label != only) return {};
+      only = label;
+    }
+    return only == kNone ? std::string() : attributes_->objects.names[only];
+  }
+
+  void write_object() {
+    xml_ += "<object";
+    append_xml_attribute(xml_, "id", std::to_string(properties_.next_id));
+    append_xml_attribute(xml_, "type", "model");
+    if (const std::string name = name_of_object(); !name.empty()) {
+      append_xml_attribute(xml_, "name", name);
+    }
+    const auto& property = properties_.of_object;
+    if (property.group != kNone) {
+      append_xml_attribute(xml_, "pid", std::to_string(property.group));
+      append_xml_attribute(xml_, "pindex", std::to_string(property.index[0]));
+    }
+    xml_ += ">\n<mesh>\n<vertices>\n";
+    append_lines(xml_, soup_.points.size(), [&](std::string& lines, std::size_t p) {
+      const Vec3d& point = soup_.points[p];
+      lines += "<vertex x=\"";
+      append_number(lines, point.x());
+      lines += "\" y=\"";
+      append_number(lines, point.y());
+      lines += "\" z=\"";
+      append_number(lines, point.z());
+      lines += "\"/>\n";
+    });
+    xml_ += "</vertices>\n<triangles>\n";
+    append_lines(xml_, soup_.triangles.size(),
+                 [&](std::string& lines, std::size_t t) { append_triangle(lines, t); });
+    xml_ += "</triangles>\n</mesh>\n</object>\n";
+  }
+
+  void append_triangle(std::string& lines, std::size_t t) const {
+    const auto append = [&](std::string_view before, std::uint32_t number) {
+      lines += before;
+      append_number(lines, number);
+    };
+    const IndexTriangle& corners = soup_.triangles[t];
+    append("<triangle v1=\"", corners[0]);
+    append("\" v2=\"", corners[1]);
+    append("\" v3=\"", corners[2]);
+    if (!properties_.of_triangle.empty() && properties_.of_triangle[t].group != kNone) {
+      const auto& [group, index] = properties_.of_triangle[t];
+      append("\" pid=\"", group);
+      append("\" p1=\"", index[0]);
+      if (index[1] != index[0] || index[2] != index[0]) {
+        append("\" p2=\"", index[1]);
+        append("\" p3=\"", index[2]);
+      }
+    }
+    lines += "\"/>\n";
+  }
+
+  const TriangleSoup& soup_;
+  const std::vector<std::string>& comments_;
+  const Attributes* attributes_;
+  const KeptPackage* kept_;
+  std::string material_;
+  WrittenProperties properties_;
+  std::unordered_set<std::string> declared_;
+  std::string xml_;
+};
+
+// As types of content and relationships name a part.
+std::string uri_of(std::string_view part) {
+  std::string uri(1, '/');
+  return uri += percent_encoded(part);
+}
+
+// The types of content, and the relationships of the package and of the model.
+class PackageWriter {
+ public:
+  PackageWriter(const KeptPackage* kept, const std::vector<WrittenPicture>& pictures)
+      : kept_(kept), pictures_(pictures) {}
+
+  [[nodiscard]] std::string content_types() const {
+    std::map<std::string, std::string> of_extension = {{"model", std::string(kModelType)},
+                                                       {"rels", std::string(kRelationshipsType)}};
+    for (const WrittenPicture& picture : pictures_) {
+      of_extension.emplace(extension_of_part(picture.name), picture.media_type);
+    }
+    std::string overrides;
+    if (kept_ != nullptr) {
+      for (const KeptPackage::Part& part : kept_->parts) {
+        const std::string type =
+            part.media_type.empty() ? "application/octet-stream" : part.media_type;
+        const std::string extension = extension_of_part(part.name);
+        if (!extension.empty() && of_extension.emplace(extension, type).first->second == type) {
+          continue;
+        }
+        overrides += "<Override";
+        append_xml_attribute(overrides, "PartName", uri_of(part.name));
+        append_xml_attribute(overrides, "ContentType", type);
+        overrides += "/>\n";
+      }
+    }
+    std::string xml(kXmlDeclaration);
+    xml += "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n";
+    for (const auto& [extension, type] : of_extension) {
+      xml += "<Default";
+      append_xml_attribute(xml, "Extension", extension);
+      append_xml_attribute(xml, "ContentType", type);
+      xml += "/>\n";
+    }
+    return xml + overrides + "</Types>\n";
+  }
+
+  [[nodiscard]] std::string of_package() {
+    begin();
+    add(kModelRelationship, kUsualModelPart);
+    if (kept_ != nullptr) {
+      for (const auto& one : kept_->of_package) add(one.type, one.target);
+    }
+    return end();
+  }
+
+  // Empty if there are none.
+  [[nodiscard]] std::string of_model() {
+    begin();
+    for (const WrittenPicture& picture : pictures_) add(kTextureRelationship, picture.name);
+    if (kept_ != nullptr) {
+      for (const auto& one : kept_->of_model) add(one.type, one.target);
+    }
+    return next_ == 0 ? std::string() : end();
+  }
+
+ private:
+  void begin() {
+    next_ = 0;
+    xml_ = kXmlDeclaration;
+    xml_ +=
+        "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n";
+  }
+
+  void add(std::string_view type, std::string_view target) {
+    xml_ += "<Relationship";
+    append_xml_attribute(xml_, "Target", uri_of(target));
+    append_xml_attribute(xml_, "Id", "rel" + std::to_string(next_++));
+    append_xml_attribute(xml_, "Type", type);
+    xml_ += "/>\n";
+  }
+
+  std::string end() { return std::move(xml_) + "</Relationships>\n"; }
+
+  const KeptPackage* kept_;
+  const std::vector<WrittenPicture>& pictures_;
+  std::string xml_;
+  std::size_t next_ = 0;
+};
+
+bool is_packed_already(std::string_view part) {
+  const std::string extension = extension_of_part(part);
+  return extension == "png" || extension == "jpg" || extension == "jpeg";
+}
+
+}  // namespace
+
+std::string format_threemf(const TriangleSoup& soup, const std::vector<std::string>& comments,
+                           const Attributes* attributes) {
+  require_writable(soup);
+  const auto* const kept = attributes == nullptr
+                               ? nullptr
+                               : dynamic_cast<const KeptPackage*>(attributes->keepsake.get());
+  ModelWriter model(soup, comments, attributes, kept);
+  PackageWriter package(kept, model.pictures());
+  ZipWriter archive;
+  archive.add_text(std::string(kContentTypesPart), package.content_types());
+  archive.add_text(relationships_part_of(""), package.of_package());
+  archive.add_text(std::string(kUsualModelPart), model.run());
+  if (std::string links = package.of_model(); !links.empty()) {
+    archive.add_text(relationships_part_of(kUsualModelPart), std::move(links));
+  }
+  for (const WrittenPicture& picture : model.pictures()) {
+    archive.add(picture.name, *picture.bytes, true);
+  }
+  if (kept != nullptr) {
+    for (const KeptPackage::Part& part : kept->parts) {
+      archive.add(part.name, *part.bytes, is_packed_already(part.name));
+    }
+  }
+  return archive.finish();
+}
+
+}  // namespace meshrepair
