@@ -38,8 +38,8 @@ int main(int argc, char** argv) {
       "  curl https://example.org/mesh.stl | meshrepair --format stl - - > repaired.stl\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to repair: STL, OBJ, OFF or PLY; or points: XYZ, PTS, PWN, PCD,\n"
-                 "PLY, OBJ or OFF without faces; - is standard input")
+                 "Mesh to repair: STL, OBJ, OFF, PLY or glTF; or points: XYZ, PTS, PWN,\n"
+                 "PCD, PLY, OBJ or OFF without faces; - is standard input")
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();

@@ -10,19 +10,17 @@
 namespace meshrepair {
 namespace {
 
-using Matrix3 = Eigen::Matrix3d;
-
 GltfPlacement product(const GltfPlacement& a, const GltfPlacement& b) {
   if (a.is_identity()) return b;
   return {a.linear * b.linear, a.apply(b.offset)};
 }
 
-Matrix3 rotation_of(const std::array<double, 4>& q) {
+Eigen::Matrix3d rotation_of(const std::array<double, 4>& q) {
   const double squares = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-  if (!(squares > 0)) return Matrix3::Identity();
+  if (!(squares > 0)) return Eigen::Matrix3d::Identity();
   const double s = 2 / squares;
   const auto& [x, y, z, w] = q;
-  Matrix3 m;
+  Eigen::Matrix3d m;
   m << 1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),  //
       s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w),   //
       s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y);
