@@ -54,11 +54,9 @@ std::optional<std::array<double, kCount>> numbers_in(const GltfDocument& documen
 GltfPlacement placement_of_node(const GltfDocument& document, const GltfJson& node) {
   if (const auto m = numbers_in<16>(document, node, "matrix")) {
     GltfPlacement placement;
-    for (int column = 0; column < 3; ++column) {
-      for (int row = 0; row < 3; ++row) {
-        placement.linear(row, column) = (*m)[static_cast<std::size_t>(4 * column + row)];
-      }
-    }
+    placement.linear << (*m)[0], (*m)[4], (*m)[8],  //
+        (*m)[1], (*m)[5], (*m)[9],                  //
+        (*m)[2], (*m)[6], (*m)[10];
     placement.offset = Vec3d((*m)[12], (*m)[13], (*m)[14]);
     return placement;
   }
