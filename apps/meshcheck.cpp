@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
       "  meshcheck part.obj --json | jq .check.defects.open_edges.count\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to check: STL, OBJ, OFF, PLY or 3MF; - is standard input")
+                 "Mesh to check: STL, OBJ, OFF, PLY, glTF or 3MF; - is standard input")
       ->required();
   app.add_flag("--weld", options.check.weld,
                "Treat points with equal coordinates as one, as always in STL")

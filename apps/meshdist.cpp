@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
                   "  meshdist original.stl repaired.stl --bound --json | jq .distance.bound\n");
   CLI::App& app = program.command_line();
   app.add_option("A", options.first,
-                 "Mesh: STL, OBJ, OFF, PLY or 3MF; its diagonal is the measure of relative\n"
+                 "Mesh: STL, OBJ, OFF, PLY, glTF or 3MF; its diagonal is the measure of relative\n"
                  "distances; - is standard input")
       ->required();
   app.add_option("B", options.second, "Mesh; - is standard input")->required();

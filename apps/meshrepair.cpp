@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
       "  curl https://example.org/mesh.stl | meshrepair --format stl - - > repaired.stl\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to repair: STL, OBJ, OFF, PLY or 3MF; or points: XYZ, PTS, PWN, PCD,\n"
+                 "Mesh to repair: STL, OBJ, OFF, PLY, glTF or 3MF; or points: XYZ, PTS, PWN, PCD,\n"
                  "PLY, OBJ or OFF without faces; - is standard input")
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")

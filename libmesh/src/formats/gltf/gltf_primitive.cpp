@@ -12,7 +12,7 @@
 namespace meshrepair {
 namespace {
 
-enum class Mode : std::size_t { triangles = 4, strip = 5, fan = 6 };
+enum class TriangleMode : std::size_t { triangles = 4, strip = 5, fan = 6 };
 
 class PrimitiveReader {
  public:
@@ -47,7 +47,7 @@ class PrimitiveReader {
     }
     read_attributes();
     if (result_.positions.components() != 3) source_.fail("positions have not three coordinates");
-    make_triangles(static_cast<Mode>(mode));
+    make_triangles(static_cast<TriangleMode>(mode));
     return std::move(result_);
   }
 
@@ -125,12 +125,12 @@ class PrimitiveReader {
     return indices_ ? indices_->index(corner) : corner;
   }
 
-  void make_triangles(Mode mode) {
+  void make_triangles(TriangleMode mode) {
     // What Draco gives is triangles, whatever they were.
-    if (corners_) mode = Mode::triangles;
+    if (corners_) mode = TriangleMode::triangles;
     const std::size_t count = corner_count();
     const std::size_t triangles =
-        mode == Mode::triangles ? count / 3 : std::max<std::size_t>(count, 2) - 2;
+        mode == TriangleMode::triangles ? count / 3 : std::max<std::size_t>(count, 2) - 2;
     guard_.require(triangles);
     if (result_.positions.count() >= kNone) {
       throw LimitError(source_.name + ": more than 4294967294 points");
@@ -139,16 +139,16 @@ class PrimitiveReader {
     result_.corners.reserve(3 * triangles);
     for (std::size_t t = 0; t < triangles; ++t) {
       guard_.step(t, 0);
-      if (mode == Mode::triangles) {
+      if (mode == TriangleMode::triangles) {
         add(3 * t, 3 * t + 1, 3 * t + 2);
-      } else if (mode == Mode::strip) {
+      } else if (mode == TriangleMode::strip) {
         add_of_strip(t, t + 1 + t % 2, t + 2 - t % 2);
       } else {
         add(t + 1, t + 2, 0);
       }
     }
     number_ = {};
-    if (mode == Mode::triangles && count % 3 != 0) ++oddities_.bad_triangles;
+    if (mode == TriangleMode::triangles && count % 3 != 0) ++oddities_.bad_triangles;
   }
 
   // Strips go on through triangles that are none.

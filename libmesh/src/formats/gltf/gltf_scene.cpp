@@ -10,19 +10,17 @@
 namespace meshrepair {
 namespace {
 
-using Matrix3 = Eigen::Matrix3d;
-
 GltfPlacement product(const GltfPlacement& a, const GltfPlacement& b) {
   if (a.is_identity()) return b;
   return {a.linear * b.linear, a.apply(b.offset)};
 }
 
-Matrix3 rotation_of(const std::array<double, 4>& q) {
+Eigen::Matrix3d rotation_of(const std::array<double, 4>& q) {
   const double squares = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-  if (!(squares > 0)) return Matrix3::Identity();
+  if (!(squares > 0)) return Eigen::Matrix3d::Identity();
   const double s = 2 / squares;
   const auto& [x, y, z, w] = q;
-  Matrix3 m;
+  Eigen::Matrix3d m;
   m << 1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),  //
       s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w),   //
       s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y);
@@ -56,11 +54,9 @@ std::optional<std::array<double, kCount>> numbers_in(const GltfDocument& documen
 GltfPlacement placement_of_node(const GltfDocument& document, const GltfJson& node) {
   if (const auto m = numbers_in<16>(document, node, "matrix")) {
     GltfPlacement placement;
-    for (int column = 0; column < 3; ++column) {
-      for (int row = 0; row < 3; ++row) {
-        placement.linear(row, column) = (*m)[static_cast<std::size_t>(4 * column + row)];
-      }
-    }
+    placement.linear << (*m)[0], (*m)[4], (*m)[8],  //
+        (*m)[1], (*m)[5], (*m)[9],                  //
+        (*m)[2], (*m)[6], (*m)[10];
     placement.offset = Vec3d((*m)[12], (*m)[13], (*m)[14]);
     return placement;
   }

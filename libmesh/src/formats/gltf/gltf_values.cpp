@@ -16,21 +16,18 @@
 namespace meshrepair {
 namespace {
 
-using Kind = CornerAttribute::Kind;
-using Storage = CornerAttribute::Storage;
-
 // What a name stands for, and which of its kind.
 struct Semantic {
-  Kind kind;
+  CornerAttribute::Kind kind;
   std::size_t number;
 };
 
 std::optional<Semantic> semantic_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Kind>, 2> kNumbered = {
-      {{"TEXCOORD_", Kind::texture}, {"COLOR_", Kind::colour}}};
-  if (name == "NORMAL") return Semantic{Kind::normal, 0};
-  if (name == "TANGENT") return Semantic{Kind::tangent, 0};
-  if (name.starts_with('_')) return Semantic{Kind::other, 0};
+  constexpr std::array<std::pair<std::string_view, CornerAttribute::Kind>, 2> kNumbered = {
+      {{"TEXCOORD_", CornerAttribute::Kind::texture}, {"COLOR_", CornerAttribute::Kind::colour}}};
+  if (name == "NORMAL") return Semantic{CornerAttribute::Kind::normal, 0};
+  if (name == "TANGENT") return Semantic{CornerAttribute::Kind::tangent, 0};
+  if (name.starts_with('_')) return Semantic{CornerAttribute::Kind::other, 0};
   for (const auto& [begin, kind] : kNumbered) {
     if (!name.starts_with(begin)) continue;
     const char* const last = name.data() + name.size();
@@ -41,17 +38,17 @@ std::optional<Semantic> semantic_of(std::string_view name) {
   return std::nullopt;
 }
 
-std::size_t components_of(Kind kind, std::size_t in_file) {
+std::size_t components_of(CornerAttribute::Kind kind, std::size_t in_file) {
   switch (kind) {
-    case Kind::texture:
+    case CornerAttribute::Kind::texture:
       return 2;
-    case Kind::normal:
+    case CornerAttribute::Kind::normal:
       return 3;
-    case Kind::tangent:
+    case CornerAttribute::Kind::tangent:
       return 4;
-    case Kind::colour:
+    case CornerAttribute::Kind::colour:
       return std::clamp<std::size_t>(in_file, 3, 4);
-    case Kind::other:
+    case CornerAttribute::Kind::other:
       break;
   }
   return in_file;
@@ -85,12 +82,14 @@ GltfValues::GltfValues(const std::vector<const GltfPrimitive*>& primitives) {
       const auto semantic = semantic_of(name);
       if (!semantic) continue;
       const std::size_t components = components_of(semantic->kind, accessor.components());
-      const bool is_byte = semantic->kind == Kind::colour && accessor.is_byte_share();
-      const Storage storage = is_byte ? Storage::byte : Storage::real32;
+      const bool is_byte =
+          semantic->kind == CornerAttribute::Kind::colour && accessor.is_byte_share();
+      const CornerAttribute::Storage storage =
+          is_byte ? CornerAttribute::Storage::byte : CornerAttribute::Storage::real32;
       const auto [at, is_new] = found.try_emplace({semantic->kind, {semantic->number, name}});
       CornerAttribute& set = at->second;
       set.components = is_new ? components : std::max(set.components, components);
-      set.storage = is_new || set.storage == storage ? storage : Storage::real32;
+      set.storage = is_new || set.storage == storage ? storage : CornerAttribute::Storage::real32;
       set.kind = semantic->kind;
       set.name = name;
       set.place = CornerAttribute::Place::point;
@@ -128,19 +127,20 @@ void GltfValues::append(const GltfPrimitive& primitive, const GltfPlacement& pla
 void GltfValues::fill(const GltfAccessor& accessor, std::uint32_t vertex,
                       const GltfPlacement& placement, std::size_t set) {
   const CornerAttribute& attribute = sets_[set].attribute;
-  value_.assign(attribute.components, attribute.kind == Kind::colour ? 1 : 0);
+  value_.assign(attribute.components, attribute.kind == CornerAttribute::Kind::colour ? 1 : 0);
   const std::size_t count = std::min(attribute.components, accessor.components());
   for (std::size_t k = 0; k < count; ++k) {
     const double number = accessor.value(vertex, k);
-    value_[k] = attribute.storage == Storage::byte ? number : rounded_to_float32(number);
+    value_[k] =
+        attribute.storage == CornerAttribute::Storage::byte ? number : rounded_to_float32(number);
   }
-  if (attribute.kind == Kind::texture) {
+  if (attribute.kind == CornerAttribute::Kind::texture) {
     const double v = value_[1];
     value_[1] = 1 - v;
     small_v_.add(set, value_[0], value_[1], static_cast<float>(v));
-  } else if (attribute.kind == Kind::normal && !placement.is_identity()) {
+  } else if (attribute.kind == CornerAttribute::Kind::normal && !placement.is_identity()) {
     set_direction(value_, turned_normal(placement.linear, {value_[0], value_[1], value_[2]}));
-  } else if (attribute.kind == Kind::tangent && !placement.is_identity()) {
+  } else if (attribute.kind == CornerAttribute::Kind::tangent && !placement.is_identity()) {
     set_direction(value_, placement.linear * Vec3d(value_[0], value_[1], value_[2]));
     if (placement.linear.determinant() < 0) value_[3] = -value_[3];
   }

@@ -17,9 +17,6 @@
 namespace meshrepair {
 namespace {
 
-using Kind = CornerAttribute::Kind;
-using Storage = CornerAttribute::Storage;
-
 float coordinate_to_float(double coordinate) {
   if (std::abs(coordinate) > std::numeric_limits<float>::max() && !std::isinf(coordinate)) {
     throw OutputError("a coordinate of " + std::to_string(coordinate) +
@@ -38,15 +35,15 @@ float value_to_float(double value) {
 std::size_t written_components(const CornerAttribute& attribute) {
   const std::size_t n = attribute.components;
   switch (attribute.kind) {
-    case Kind::texture:
+    case CornerAttribute::Kind::texture:
       return n >= 2 ? 2 : 0;
-    case Kind::normal:
+    case CornerAttribute::Kind::normal:
       return n == 3 ? 3 : 0;
-    case Kind::tangent:
+    case CornerAttribute::Kind::tangent:
       return n == 4 ? 4 : 0;
-    case Kind::colour:
+    case CornerAttribute::Kind::colour:
       return n == 3 || n == 4 ? n : 0;
-    case Kind::other:
+    case CornerAttribute::Kind::other:
       break;
   }
   return (n >= 1 && n <= 4) || n == 9 || n == 16 ? n : 0;
@@ -66,7 +63,7 @@ std::string name_of_other(const std::string& name, std::set<std::string>& taken)
 }
 
 // An attribute that is written.
-struct Source {
+struct WrittenSet {
   const CornerAttribute* attribute;
   std::string name;
   std::size_t number;  // among those of its kind
@@ -74,31 +71,32 @@ struct Source {
   bool is_used = false;
 };
 
-std::vector<Source> sources_of(const Attributes& attributes) {
-  std::vector<Source> sources;
+std::vector<WrittenSet> sources_of(const Attributes& attributes) {
+  std::vector<WrittenSet> sources;
   std::set<std::string> taken;
   std::array<std::size_t, 5> counts{};
   for (const CornerAttribute& attribute : attributes.corners) {
     const std::size_t components = written_components(attribute);
     const std::size_t number = counts[static_cast<std::size_t>(attribute.kind)];
-    const bool is_single = attribute.kind == Kind::normal || attribute.kind == Kind::tangent;
+    const bool is_single = attribute.kind == CornerAttribute::Kind::normal ||
+                           attribute.kind == CornerAttribute::Kind::tangent;
     if (components == 0 || attribute.of_corner.empty() || (is_single && number > 0)) continue;
     ++counts[static_cast<std::size_t>(attribute.kind)];
     std::string name;
     switch (attribute.kind) {
-      case Kind::texture:
+      case CornerAttribute::Kind::texture:
         name = "TEXCOORD_" + std::to_string(number);
         break;
-      case Kind::normal:
+      case CornerAttribute::Kind::normal:
         name = "NORMAL";
         break;
-      case Kind::tangent:
+      case CornerAttribute::Kind::tangent:
         name = "TANGENT";
         break;
-      case Kind::colour:
+      case CornerAttribute::Kind::colour:
         name = "COLOR_" + std::to_string(number);
         break;
-      case Kind::other:
+      case CornerAttribute::Kind::other:
         name = name_of_other(attribute.name, taken);
         break;
     }
@@ -131,19 +129,20 @@ class VertexMaker {
 
  private:
   // Those below a set that is used are written, too: sets are numbered from 0 on.
-  std::vector<Source> used(std::vector<Source> all) const {
-    for (Source& source : all) {
+  std::vector<WrittenSet> used(std::vector<WrittenSet> all) const {
+    for (WrittenSet& source : all) {
       const auto& of_corner = source.attribute->of_corner;
       source.is_used = std::any_of(triangles_.begin(), triangles_.end(), [&](std::size_t t) {
         return of_corner[3 * t] != kNone || of_corner[3 * t + 1] != kNone ||
                of_corner[3 * t + 2] != kNone;
       });
     }
-    std::vector<Source> kept;
-    for (const Source& source : all) {
-      const bool is_below = std::any_of(all.begin(), all.end(), [&](const Source& other) {
+    std::vector<WrittenSet> kept;
+    for (const WrittenSet& source : all) {
+      const bool is_below = std::any_of(all.begin(), all.end(), [&](const WrittenSet& other) {
         return other.is_used && other.attribute->kind == source.attribute->kind &&
-               source.attribute->kind != Kind::other && other.number > source.number;
+               source.attribute->kind != CornerAttribute::Kind::other &&
+               other.number > source.number;
       });
       if (source.is_used || is_below) kept.push_back(source);
     }
@@ -152,9 +151,9 @@ class VertexMaker {
 
   void add_columns() {
     vertices_.columns.push_back({"POSITION", {GltfComponent::real32, false, 3, 3}, 12, {}});
-    for (const Source& source : sources_) {
-      const bool is_byte =
-          source.attribute->kind == Kind::colour && source.attribute->storage == Storage::byte;
+    for (const WrittenSet& source : sources_) {
+      const bool is_byte = source.attribute->kind == CornerAttribute::Kind::colour &&
+                           source.attribute->storage == CornerAttribute::Storage::byte;
       GltfLayout layout{is_byte ? GltfComponent::uint8 : GltfComponent::real32, is_byte,
                         source.components, source.components};
       const std::size_t stride = (layout.size() + 3) / 4 * 4;
@@ -187,24 +186,25 @@ class VertexMaker {
     }
   }
 
-  void fill_value(const Source& source, std::size_t t, std::size_t k) {
+  void fill_value(const WrittenSet& source, std::size_t t, std::size_t k) {
     const CornerAttribute& attribute = *source.attribute;
     const std::uint32_t number = attribute.of_corner[3 * t + k];
-    value_.assign(source.components, attribute.kind == Kind::colour ? 1.0f : 0.0f);
+    value_.assign(source.components, attribute.kind == CornerAttribute::Kind::colour ? 1.0f : 0.0f);
     if (number != kNone) {
       const double* const given = attribute.values.data() + attribute.components * number;
       for (std::size_t i = 0; i < value_.size(); ++i) value_[i] = value_to_float(given[i]);
-      if (attribute.kind == Kind::texture) value_[1] = downwards(source, given[0], given[1]);
+      if (attribute.kind == CornerAttribute::Kind::texture)
+        value_[1] = downwards(source, given[0], given[1]);
     }
-    if (attribute.kind == Kind::normal) {
+    if (attribute.kind == CornerAttribute::Kind::normal) {
       make_unit(normal_of(t));
-    } else if (attribute.kind == Kind::tangent) {
+    } else if (attribute.kind == CornerAttribute::Kind::tangent) {
       make_unit({1, 0, 0});
       value_[3] = value_[3] < 0 ? -1.0f : 1.0f;
     }
   }
 
-  [[nodiscard]] float downwards(const Source& source, double u, double v) const {
+  [[nodiscard]] float downwards(const WrittenSet& source, double u, double v) const {
     if (kept_ != nullptr)
       return value_to_float(double{kept_->small_v.original(source.number, u, v)});
     return value_to_float(1 - v);
@@ -268,7 +268,7 @@ class VertexMaker {
   const TriangleSoup& soup_;
   std::span<const std::uint32_t> triangles_;
   const GltfKeepsake* kept_;
-  std::vector<Source> sources_;
+  std::vector<WrittenSet> sources_;
   std::string records_;  // of the vertices, all columns of one side by side
   std::string record_;   // of the corner that is looked at
   std::vector<float> value_;

@@ -246,8 +246,11 @@ class GltfWriter {
       const GltfJson* const children = gltf_member(node, "children");
       if (children == nullptr) continue;
       for (const GltfJson& child : *children) {
-        const auto number = child.get<std::size_t>();
-        if (number < is_child.size()) is_child[number] = 1;
+        if (!child.is_number()) continue;
+        const auto number = child.get<double>();
+        if (number >= 0 && number < static_cast<double>(is_child.size())) {
+          is_child[static_cast<std::size_t>(number)] = 1;
+        }
       }
     }
     for (std::size_t n = 0; n < is_child.size(); ++n) {

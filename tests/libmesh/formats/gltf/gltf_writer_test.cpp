@@ -190,6 +190,21 @@ TEST(GltfWriter, NamesOfImagesAreRelativeToTheFile) {
   EXPECT_EQ(uri_in(folder.path() / "out" / "b.gltf"), "../in/my%20pictures/a.png");
 }
 
+TEST(GltfWriter, ImageFilesOfOtherFormatsAreNamed) {
+  TexturedSoup made = random_textured_soup(4);
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  made.attributes.images = {{"ä.png", {}, (folder / "in" / "ä.png").string(), nullptr}};
+  made.attributes.looks = {{{1, 1, 1, 1}, 0}, {}, {{1, 1, 1, 1}, 0}};
+  const TemporaryFolder out;
+  write_soup(made.soup, out.path() / "a.glb",
+             {.format = {}, .comments = {}, .attributes = &made.attributes});
+  const TestJson root = json_of(file_bytes(out.path() / "a.glb"));
+  ASSERT_EQ(root["images"].size(), 1u);
+  EXPECT_EQ(root["images"][0]["uri"], "../in/%C3%A4.png");
+  EXPECT_EQ(root["textures"].size(), 1u);
+  EXPECT_EQ(root["materials"][2]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+}
+
 // A file with all that a repair has to leave alone.
 GltfMaker rich_file() {
   GltfMaker maker = one_triangle();
