@@ -98,6 +98,7 @@ struct ModelOddities {
   std::size_t bad_triangles = 0;
   std::size_t bad_points = 0;
   std::size_t doubled_ids = 0;
+  std::size_t painted = 0;         // triangles with attributes of other programs
   std::size_t unknown_groups = 0;  // compositematerials, and layers beyond those that are read
   std::vector<std::string> unknown_extensions;
   std::string unknown_unit;

@@ -249,14 +249,17 @@ void ModelReader::read_vertex(const XmlAttributes& attributes) {
 void ModelReader::read_triangle(const XmlAttributes& attributes) {
   IndexTriangle triangle = {kNone, kNone, kNone};
   PropertyUse property;
+  bool is_painted = false;
   attributes.visit([&](std::string_view name, std::string_view value) {
     if (name == "pid") property.group = read_model_index(value);
+    is_painted = is_painted || name.size() > 3;
     if (name.size() != 2 || name[1] < '1' || name[1] > '3') return;
     const auto corner = static_cast<std::size_t>(name[1] - '1');
     if (name[0] == 'v') triangle[corner] = read_model_index(value);
     if (name[0] == 'p') property.index[corner] = read_model_index(value);
   });
   object().mesh.triangles.push_back(triangle);
+  if (is_painted) ++oddities_.painted;
   if (properties_) object().properties.push_back(property);
 }
 

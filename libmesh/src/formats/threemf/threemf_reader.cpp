@@ -151,6 +151,7 @@ class ThreemfReader {
     warn_if(oddities.missing, "triangle", " with properties that are not there");
     warn_if(oddities.gradients, "triangle", " with several materials: that of the first corner");
     warn_if(oddities.unreadable, "texture", " without a picture that can be read");
+    warn_if(oddities_.painted, "triangle", " with what other programs painted on: not kept");
     warn_if(oddities_.unknown_groups, "group",
             " of properties left out: mixtures of materials, or too many layers");
     ModelPart& first = parts_.front();

@@ -332,6 +332,9 @@ std::vector<OddPackage> odd_models() {
       {"PropertyMissing",
        [] { return package_with(replaced(kGoodTriangle, "/>", " pid=\"9\" p1=\"3\"/>")); }, "",
        "1 triangle with properties that are not there", 1},
+      {"PaintedTriangle",
+       [] { return package_with(replaced(kGoodTriangle, "/>", " paint_color=\"4\"/>")); }, "",
+       "1 triangle with what other programs painted on", 1},
       {"TextureMissing",
        [] {
          return package_of(
