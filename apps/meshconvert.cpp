@@ -34,7 +34,8 @@ int run_program(int argc, char** argv) {
                   "  meshconvert --attributes drop textured.obj plain.stl\n"
                   "  meshconvert - part.off --report - < part.stl\n");
   CLI::App& app = program.command_line();
-  app.add_option("IN", options.input, "Mesh to read: STL, OBJ, OFF or PLY; - is standard input")
+  app.add_option("IN", options.input,
+                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF; - is standard input")
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();

@@ -43,7 +43,7 @@ Examples:
   repair_folder.py --format obj --jobs 4 --timeout 60 --max-memory 2G scans repaired
   repair_folder.py scans repaired -- --inside solidity --strict
 
-A mesh file is one by its extension: .stl, .obj, .off or .ply, in upper or lower case. Links to files are
+A mesh file is one by its extension: .stl, .obj, .off, .ply, .glb, .gltf or .3mf, in upper or lower case. Links to files are
 followed, links to folders are not.
 
 OUT_DIR gets the repaired meshes under their names and in their sub-folders, summary.csv, summary.json and
@@ -89,10 +89,10 @@ def command_line():
                     description=__doc__.split("\n", maxsplit=1)[0],
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
-    add("in_dir", metavar="IN_DIR", help="folder of meshes: STL, OBJ, OFF or PLY")
+    add("in_dir", metavar="IN_DIR", help="folder of meshes: STL, OBJ, OFF, PLY, glTF or 3MF")
     add("out_dir", metavar="OUT_DIR", help="folder to write to; is made, and may lie in IN_DIR")
     add("--format", choices=EXTENSION_OF_FORMAT, metavar="NAME",
-        help="format of all outputs: obj, stl, stl-ascii, off, ply, ply-ascii; a.stl becomes a.obj, and "
+        help="format of all outputs: obj, stl, stl-ascii, off, ply, ply-ascii, glb, gltf, 3mf; a.stl becomes a.obj, and "
              "where there is an a.off, too, they become a.stl.obj and a.off.obj "
              "(default: by the input's name)")
     add("--jobs", type=number_of_jobs, metavar="N", default=len(os.sched_getaffinity(0)),

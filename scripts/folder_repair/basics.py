@@ -5,9 +5,10 @@ import signal
 import sys
 
 NAME = "repair_folder.py"
-FORMAT_OF_EXTENSION = {b".stl": "stl", b".obj": "obj", b".off": "off", b".ply": "ply"}
+FORMAT_OF_EXTENSION = {b".stl": "stl", b".obj": "obj", b".off": "off", b".ply": "ply", b".glb": "glb",
+                       b".gltf": "gltf", b".3mf": "3mf"}
 EXTENSION_OF_FORMAT = {"obj": b".obj", "stl": b".stl", "stl-ascii": b".stl", "off": b".off",
-                       "ply": b".ply", "ply-ascii": b".ply"}
+                       "ply": b".ply", "ply-ascii": b".ply", "glb": b".glb", "gltf": b".gltf", "3mf": b".3mf"}
 
 GUARANTEES = ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles")
 SAME_IN_EACH_RUN = ("path", "output", "exit_code", *GUARANTEES, "triangles_in", "triangles_out",

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +23,7 @@
 #include <base/progress.h>
 #include <mesh/reading.h>
 #include <mesh/soup.h>
+#include <mesh/soup_extras.h>
 
 namespace meshrepair {
 
@@ -36,19 +36,6 @@ namespace meshrepair {
 // The same from memory. `name` is used in messages and for its extension.
 [[nodiscard]] ReadResult read_soup(std::string_view bytes, const std::string& name,
                                    const ReadOptions& options = {});
-
-// What a file holds besides points and triangles, as far as its format can. Not owned.
-struct SoupExtras {
-  // Lines of a comment; no newlines inside.
-  std::vector<std::string> comments = {};
-  // For PLY alone: one number for each triangle, written as the property `source_triangle` of its
-  // face, with all ones as -1. Empty: no such property.
-  std::span<const std::uint32_t> sources = {};
-  // Of the triangles. Null: none.
-  const Attributes* attributes = nullptr;
-  // Which names of other files are relative to.
-  std::filesystem::path folder = {};
-};
 
 struct WriteOptions {
   // Empty: told by the extension.

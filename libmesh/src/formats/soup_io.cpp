@@ -12,10 +12,9 @@
 #include <mesh/weld_points.h>
 
 #include "formats/gltf/gltf_io.h"
-#include "formats/obj/material_library.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
-#include "formats/ply/ply_writer.h"
+#include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
 #include "formats/threemf/threemf_io.h"
 #include "mesh_readers.h"
@@ -32,7 +31,8 @@ ReadResult read_from(std::string_view bytes, MeshSource source) {
   return result;
 }
 
-// Files that are new go again if one cannot be written.
+// In this order, so that what the last names is there. Files that are new go again if one cannot be
+// written.
 void write_together(const std::vector<SideFile>& files, ProgressObserver* progress) {
   std::vector<std::filesystem::path> fresh;
   try {
@@ -46,15 +46,6 @@ void write_together(const std::vector<SideFile>& files, ProgressObserver* progre
     for (const auto& path : fresh) std::filesystem::remove(path, ignored);
     throw;
   }
-}
-
-// The mesh comes last, so that what it names is there.
-void write_obj(const TriangleSoup& soup, const std::filesystem::path& path,
-               const SoupExtras& extras, ProgressObserver* progress) {
-  std::vector<SideFile> files = material_files(path, *extras.attributes);
-  const std::string library = files.empty() ? "" : files.back().path.filename().string();
-  files.push_back({path, format_obj(soup, extras, library)});
-  write_together(files, progress);
 }
 
 }  // namespace
@@ -79,7 +70,7 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
   SoupExtras extras = options.extras;
   extras.folder = path.parent_path();
   if (*format == SoupFormat::obj && extras.attributes != nullptr && path != "-") {
-    return write_obj(soup, path, extras, options.progress);
+    return write_together(obj_files(soup, extras, path), options.progress);
   }
   write_file_atomically(path, format_soup(soup, *format, extras), options.progress);
 }
@@ -94,7 +85,7 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupE
     case SoupFormat::stl_ascii:
       return format_stl_ascii(soup);
     case SoupFormat::obj:
-      return format_obj(soup, extras, "");
+      return format_obj(soup, extras);
     case SoupFormat::off:
       return format_off(soup, extras.comments);
     case SoupFormat::ply_binary:

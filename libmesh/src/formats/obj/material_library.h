@@ -9,6 +9,8 @@
 #include <mesh/attributes.h>
 #include <mesh/mesh_source.h>
 
+#include "formats/common/side_file.h"
+
 namespace meshrepair {
 
 // Their text, for other OBJ files.
@@ -28,12 +30,6 @@ struct MaterialLibraries final : Keepsake {
 // looks of the attributes' materials, their images, and the keepsake. Warns of others.
 void read_material_libraries(const MeshSource& source, const std::vector<std::string>& names,
                              Attributes& attributes, ReadReport& report);
-
-// A file to be written beside the mesh.
-struct SideFile {
-  std::filesystem::path path;
-  std::string bytes;
-};
 
 // What a mesh at `path` that is written as OBJ needs beside it: one library for all materials, in
 // which names of pictures are relative to its folder, and the pictures that are no files yet. The

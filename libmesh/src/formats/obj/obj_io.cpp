@@ -95,12 +95,9 @@ class ObjReader {
   FirstBad first_bad_;
 };
 
-}  // namespace
-
-ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); }
-
-std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras,
-                       const std::string& library) {
+// `library` is the name of the file that has the materials; empty: there is none.
+std::string text_of_obj(const TriangleSoup& soup, const SoupExtras& extras,
+                        const std::string& library) {
   std::string out;
   for (const std::string& comment : extras.comments) out += "# " + comment + "\n";
   if (extras.attributes != nullptr && !extras.attributes->empty()) {
@@ -121,6 +118,23 @@ std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras,
     lines += '\n';
   });
   return out;
+}
+
+}  // namespace
+
+ReadResult read_obj(const MeshSource& source) { return ObjReader(source).run(); }
+
+std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras) {
+  return text_of_obj(soup, extras, "");
+}
+
+std::vector<SideFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
+                                const std::filesystem::path& path) {
+  std::vector<SideFile> files;
+  if (extras.attributes != nullptr) files = material_files(path, *extras.attributes);
+  const std::string library = files.empty() ? "" : files.back().path.filename().string();
+  files.push_back({path, text_of_obj(soup, extras, library)});
+  return files;
 }
 
 }  // namespace meshrepair

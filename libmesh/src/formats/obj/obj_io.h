@@ -1,13 +1,16 @@
 // Wavefront OBJ: meshes and points; everything else is ignored.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <mesh/mesh_source.h>
 #include <mesh/point_reading.h>
 #include <mesh/reading.h>
-#include <mesh/soup_io.h>
+#include <mesh/soup_extras.h>
+
+#include "formats/common/side_file.h"
 
 namespace meshrepair {
 
@@ -19,9 +22,13 @@ namespace meshrepair {
 // only libraries of materials are opened, if attributes are asked for.
 [[nodiscard]] ReadResult read_obj(const MeshSource& source);
 
-// `library` is the name of the file that has the materials; empty: there is none.
-[[nodiscard]] std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras,
-                                     const std::string& library);
+// The text alone, which names no libraries of materials but those that could not be read.
+[[nodiscard]] std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras);
+
+// What a mesh at `path` needs: pictures that are no files yet, a library of materials, and, last,
+// the mesh.
+[[nodiscard]] std::vector<SideFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
+                                              const std::filesystem::path& path);
 
 // The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to
 // 1; `vn` a normal. Normals belong to the points in order, and are none of theirs where there are

@@ -10,7 +10,7 @@
 #include <base/ids.h>
 
 #include "formats/common/named_files.h"
-#include "ply_writer.h"
+#include "ply_names.h"
 
 namespace meshrepair {
 namespace {

@@ -10,6 +10,7 @@
 #include <mesh/mesh_source.h>
 #include <mesh/point_reading.h>
 #include <mesh/reading.h>
+#include <mesh/soup_extras.h>
 
 namespace meshrepair {
 
@@ -23,6 +24,15 @@ namespace meshrepair {
 // that cannot be read is a bad face, or a bad point kept as NaN; in a binary file nothing can be
 // read behind it.
 [[nodiscard]] ReadResult read_ply(const MeshSource& source);
+
+// Coordinates in double. Sources are the property `int source_triangle` of faces. Attributes are
+// properties of points where each point has one value, else of faces where each triangle has one;
+// texture coordinates with seams are lists `texcoord` of faces. Of other colours the first of each
+// point is written; normals with creases, and groups, are left out. Materials are the property
+// `int material_index`, whose names stand in comments; their textures, as other programs have them,
+// `int texnumber` and comments `TextureFile`. A missing number is NaN, or 0 where that cannot be.
+[[nodiscard]] std::string format_ply_binary(const TriangleSoup& soup, const SoupExtras& extras);
+[[nodiscard]] std::string format_ply_ascii(const TriangleSoup& soup, const SoupExtras& extras);
 
 // Whether the file begins as a PLY whose header promises points and no faces. A header that cannot
 // be understood promises nothing.

@@ -1,5 +1,3 @@
-#include "ply_writer.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,6 +14,8 @@
 
 #include "formats/common/named_files.h"
 #include "formats/common/text_writer.h"
+#include "ply_io.h"
+#include "ply_names.h"
 
 namespace meshrepair {
 namespace {

@@ -196,8 +196,7 @@ TEST(GltfWriter, ImageFilesOfOtherFormatsAreNamed) {
   made.attributes.images = {{"ä.png", {}, (folder / "in" / "ä.png").string(), nullptr}};
   made.attributes.looks = {{{1, 1, 1, 1}, 0}, {}, {{1, 1, 1, 1}, 0}};
   const TemporaryFolder out;
-  write_soup(made.soup, out.path() / "a.glb",
-             {.format = {}, .comments = {}, .attributes = &made.attributes});
+  write_soup(made.soup, out.path() / "a.glb", {.extras = {.attributes = &made.attributes}});
   const TestJson root = json_of(file_bytes(out.path() / "a.glb"));
   ASSERT_EQ(root["images"].size(), 1u);
   EXPECT_EQ(root["images"][0]["uri"], "../in/%C3%A4.png");

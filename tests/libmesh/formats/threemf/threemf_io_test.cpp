@@ -112,7 +112,7 @@ TEST(Threemf, GoesThroughObjAndBack) {
     made.attributes.corners.pop_back();  // OBJ has colours for points alone
     const TemporaryFolder folder;
     WriteOptions options;
-    options.attributes = &made.attributes;
+    options.extras.attributes = &made.attributes;
     write_soup(made.soup, folder.path() / "a.obj", options);
     ReadOptions all;
     all.attributes = true;

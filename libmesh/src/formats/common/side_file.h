@@ -1,0 +1,14 @@
+// Files that belong together.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace meshrepair {
+
+struct SideFile {
+  std::filesystem::path path;
+  std::string bytes;
+};
+
+}  // namespace meshrepair
