@@ -30,9 +30,9 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
 int run_program(int argc, char** argv) {
   StepOptions options;
   Program program("meshconvert", "Writes a mesh in another format, as it is: nothing is repaired.",
-                  "  meshconvert scan.obj scan.ply\n"
-                  "  meshconvert --attributes drop textured.obj plain.stl\n"
-                  "  meshconvert - part.off --report - < part.stl\n");
+                  "  meshconvert part.obj part.glb\n"
+                  "  meshconvert --attributes drop part.obj plain.stl\n"
+                  "  meshconvert - part.off < part.stl\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
                  "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF; - is standard input")

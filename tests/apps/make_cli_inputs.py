@@ -61,6 +61,20 @@ def boxes(*all_corners):
     return "\n".join(lines).encode() + b"\n"
 
 
+def textured_boxes():
+    """OBJ text: two boxes that overlap, each with a picture on all sides and a material of its own."""
+    text = b"mtllib textured.mtl\n"
+    for name, low, high in (("wood", (0, 0, 0), (1, 1, 1)), ("steel", (0.5, 0.25, 0.25), (1.5, 0.75, 0.75))):
+        corners = b"vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl %s\n" % name.encode()
+        for line in boxes((low, high)).splitlines():
+            if line.startswith(b"f"):
+                line = b"f " + b" ".join(b"%s/%d" % (p, i - 4) for i, p in enumerate(line.split()[1:]))
+                text += corners
+                corners = b""
+            text += line + b"\n"
+    return text
+
+
 def row_of_tetrahedra(count):
     """OBJ text of some 100 bytes for each."""
     faces = "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"
@@ -140,6 +154,8 @@ def main():
         "nan.obj": tetrahedron(extra="v nan nan nan", f1="f 1 3 2\nf 1 2 5"),
         "not_finite.obj": tetrahedron(a="v nan 0 0", b="v inf 0 0", c="v 0 nan 0"),
         "single_triangle.obj": SINGLE_TRIANGLE,
+        "textured.obj": textured_boxes(),
+        "textured.mtl": b"newmtl wood\nKd 1 0.5 0\nmap_Kd grain.png\nnewmtl steel\nKd 0.5 0.5 0.5\n",
         "huge.obj": tetrahedron(b="v 1e12 0 0", c="v 0 1e12 0", d="v 0 0 1e12"),
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),

@@ -53,9 +53,9 @@ struct TriangleLabels {
 
 // A picture. It is never looked into.
 struct Image {
-  std::string name;                          // of the file, without folders; may be empty
-  std::string media_type;                    // "image/png"; may be empty
-  std::string path;                          // of the file, if it is one, as this process finds it
+  std::string name;        // of the file, without folders; may be empty
+  std::string media_type;  // "image/png"; may be empty
+  std::string path;  // of the file, as this process finds it; empty: none, or not to be followed
   std::shared_ptr<const std::string> bytes;  // if it is none
 };
 

@@ -125,9 +125,10 @@ std::optional<std::array<double, 3>> numbers_of(std::string_view rest) {
 // Reads one library.
 class LibraryReader {
  public:
-  LibraryReader(const std::unordered_map<std::string_view, std::uint32_t>& numbers,
+  LibraryReader(const MeshSource& source,
+                const std::unordered_map<std::string_view, std::uint32_t>& numbers,
                 const MaterialLibraries::Library& library, Attributes& attributes)
-      : numbers_(numbers), library_(library), attributes_(attributes) {}
+      : source_(source), numbers_(numbers), library_(library), attributes_(attributes) {}
 
   void run() {
     visit_lines(library_.text, [&](std::string_view text) { read(split(text)); });
@@ -154,8 +155,14 @@ class LibraryReader {
     }
   }
 
+  // None where the name leads out of the folder.
   std::uint32_t image_of(const std::string& name) {
-    const std::string path = (library_.folder / name).lexically_normal().string();
+    const fs::path beside = fs::path(with_slashes(library_.name)).parent_path() / name;
+    const auto place = path_of_named(source_, beside.string());
+    std::error_code error;
+    if (!place || (fs::exists(*place, error) && !find_named(source_, beside.string())))
+      return kNone;
+    const std::string path = place->string();
     const auto same = std::find_if(attributes_.images.begin(), attributes_.images.end(),
                                    [&](const Image& image) { return image.path == path; });
     if (same == attributes_.images.end()) {
@@ -165,6 +172,7 @@ class LibraryReader {
     return static_cast<std::uint32_t>(same - attributes_.images.begin());
   }
 
+  const MeshSource& source_;
   const std::unordered_map<std::string_view, std::uint32_t>& numbers_;
   const MaterialLibraries::Library& library_;
   Attributes& attributes_;
@@ -266,6 +274,7 @@ class MaterialFiles {
 
   std::string name_of_image(std::uint32_t number) {
     const Image& image = attributes_.images[number];
+    if (!image.bytes && image.path.empty()) return image.name;
     if (!image.bytes) {
       return name_seen_from(path_.parent_path(), image.path);
     }
@@ -342,7 +351,7 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
   }
   attributes.looks.resize(attributes.materials.names.size());
   for (const MaterialLibraries::Library& library : kept->libraries) {
-    LibraryReader(numbers, library, attributes).run();
+    LibraryReader(source, numbers, library, attributes).run();
   }
   attributes.keepsake = std::move(kept);
 }

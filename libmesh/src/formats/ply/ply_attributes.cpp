@@ -270,8 +270,11 @@ void PlyAttributes::take_materials(const std::vector<FaceList::Origin>& origins,
                                    Attributes& attributes) {
   for (const std::string& name : textures_) {
     const auto path = path_of_named(source_, name);
-    attributes.images.push_back(
-        {std::filesystem::path(name).filename().string(), {}, path ? path->string() : name, {}});
+    if (path) {
+      attributes.images.push_back({path->filename().string(), {}, path->string(), nullptr});
+    } else {
+      attributes.images.push_back({name, {}, {}, nullptr});
+    }
   }
   const bool by_texture = materials_.empty() || faces_.material == kNoColumn;
   const std::vector<double>& numbers = by_texture ? texture_of_face_ : material_of_face_;

@@ -170,7 +170,9 @@ class PlyLayout {
     for (std::size_t i = 0; i < attributes.images.size(); ++i) {
       if (attributes.images[i].bytes) continue;
       texture_of[i] = count++;
-      add_comment(kPlyTextureComment, name_seen_from(extras_.folder, attributes.images[i].path));
+      const Image& image = attributes.images[i];
+      add_comment(kPlyTextureComment,
+                  image.path.empty() ? image.name : name_seen_from(extras_.folder, image.path));
     }
     if (count == 0) return;
     std::vector<std::uint32_t> of_face;
