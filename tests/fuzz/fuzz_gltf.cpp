@@ -23,8 +23,8 @@ void check_attributes(std::string_view bytes) {
     }
   }
   if (meshrepair::testing::overflows_float32(read.soup)) return;
-  const std::string written =
-      format_soup(read.soup, SoupFormat::glb, {"comment"}, {}, &read.attributes);
+  const std::string written = format_soup(
+      read.soup, SoupFormat::glb, {.comments = {"comment"}, .attributes = &read.attributes});
   const ReadResult back = read_soup(std::string_view(written), "back", options);
   meshrepair::testing::require(back.soup.triangles.size() == read.soup.triangles.size(),
                                "triangles are lost");

@@ -28,7 +28,7 @@ void check(std::string_view bytes) {
   testing::require_round_trip(result.soup, SoupFormat::threemf);
   std::string written;
   try {
-    written = format_soup(result.soup, SoupFormat::threemf, {}, {}, &result.attributes);
+    written = format_soup(result.soup, SoupFormat::threemf, {.attributes = &result.attributes});
   } catch (const OutputError&) {
     return;
   }

@@ -40,8 +40,9 @@ struct SimplifyReport {
 // manifold, of the same genus; changed triangles meet no others (exactly tested, with equal points
 // as one); no part faces another way, or changes its volume by over a tenth. Sources and flags of
 // points go along. With SimplifyOptions::reach, a line where two sources meet, and a point where
-// three do, moves by no more than the least of these. Returns nothing where nothing can go, or where all that takes too many rounds.
-// Throws Cancelled. n log n; stars of very many triangles stay.
+// three do, moves by no more than the least of these. Returns nothing where nothing can go, or
+// where all that takes too many rounds. Throws Cancelled. n log n; stars of very many triangles
+// stay.
 [[nodiscard]] std::optional<Surface> simplify_cuts(const Surface& surface, std::vector<char>& stays,
                                                    const SimplifyOptions& options,
                                                    SimplifyReport& report);

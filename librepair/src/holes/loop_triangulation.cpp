@@ -15,7 +15,7 @@ constexpr std::size_t kFewestCut = 8;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-using Positions = std::vector<std::uint32_t>;
+using RimPlaces = std::vector<std::uint32_t>;
 
 // What the edge p q costs between triangles with the third corners a and b of the patch: nothing up
 // to a right angle between them, and the smaller one's area if one lies on the other.
@@ -34,7 +34,7 @@ double border_fold_cost(const Vec3d& p, const Vec3d& q, const Vec3d& surface, co
 class BestTriangulation {
  public:
   // Chords that cut this loop from a larger one have no apex: nothing is known beyond.
-  BestTriangulation(const Rim& rim, const Positions& loop)
+  BestTriangulation(const Rim& rim, const RimPlaces& loop)
       : rim_(rim),
         loop_(loop),
         size_(loop.size()),
@@ -94,14 +94,14 @@ class BestTriangulation {
   [[nodiscard]] const Vec3d& at(std::size_t i) const { return rim_.points[loop_[i]]; }
 
   const Rim& rim_;
-  const Positions& loop_;
+  const RimPlaces& loop_;
   std::size_t size_;
   std::vector<double> cost_;
   std::vector<std::uint32_t> third_;
 };
 
 // The shortest of the chords looked at that leave a quarter of the points or more on each side.
-std::pair<std::size_t, std::size_t> choose_chord(const Rim& rim, const Positions& loop) {
+std::pair<std::size_t, std::size_t> choose_chord(const Rim& rim, const RimPlaces& loop) {
   const std::size_t n = loop.size();
   const std::size_t step = std::max<std::size_t>(1, n / kOffers);
   double best = kInfinite;
@@ -118,11 +118,11 @@ std::pair<std::size_t, std::size_t> choose_chord(const Rim& rim, const Positions
   return chord;
 }
 
-std::pair<Positions, Positions> cut(const Positions& loop,
+std::pair<RimPlaces, RimPlaces> cut(const RimPlaces& loop,
                                     const std::pair<std::size_t, std::size_t>& chord) {
   const auto from = loop.begin() + static_cast<std::ptrdiff_t>(chord.first);
   const auto to = loop.begin() + static_cast<std::ptrdiff_t>(chord.second);
-  std::pair<Positions, Positions> halves;
+  std::pair<RimPlaces, RimPlaces> halves;
   halves.first.assign(from, to + 1);
   halves.second.assign(loop.begin(), from + 1);
   halves.second.insert(halves.second.end(), to, loop.end());
@@ -133,10 +133,10 @@ std::pair<Positions, Positions> cut(const Positions& loop,
 
 LoopTriangulation triangulate_loop(const Rim& rim, const LoopTriangulationOptions& options) {
   LoopTriangulation result;
-  std::vector<Positions> loops(1, Positions(rim.size()));
+  std::vector<RimPlaces> loops(1, RimPlaces(rim.size()));
   for (std::uint32_t i = 0; i < rim.size(); ++i) loops[0][i] = i;
   while (!loops.empty()) {
-    const Positions loop = std::move(loops.back());
+    const RimPlaces loop = std::move(loops.back());
     loops.pop_back();
     if (loop.size() > std::max(options.most_edges, kFewestCut)) {
       auto [a, b] = cut(loop, choose_chord(rim, loop));

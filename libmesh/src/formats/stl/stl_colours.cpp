@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::string_view kMagicsWord = "COLOR=";
 constexpr std::uint16_t kTopBit = 0x8000;
-constexpr std::uint32_t kMost = 31;  // of five bits
+constexpr std::uint32_t kMostOfFive = 31;  // of five bits
 
 struct Rgb {
-  std::uint32_t red, green, blue;  // up to kMost
+  std::uint32_t red, green, blue;  // up to kMostOfFive
 };
 
 Rgb rgb_of(std::uint16_t word, bool magics) {
-  const std::uint32_t high = (word >> 10) & kMost, low = word & kMost;
-  const std::uint32_t green = (word >> 5) & kMost;
+  const std::uint32_t high = (word >> 10) & kMostOfFive, low = word & kMostOfFive;
+  const std::uint32_t green = (word >> 5) & kMostOfFive;
   return magics ? Rgb{low, green, high} : Rgb{high, green, low};
 }
 
@@ -39,10 +39,10 @@ std::uint16_t word_of(const Rgb& colour, bool magics) {
 std::uint16_t word_of_none(bool magics) { return magics ? kTopBit : std::uint16_t{0}; }
 
 // By bytes, which come back as the same five bits.
-double share_of(std::uint32_t bits) { return std::round(bits * 255.0 / kMost) / 255; }
+double share_of(std::uint32_t bits) { return std::round(bits * 255.0 / kMostOfFive) / 255; }
 
 std::uint32_t bits_of(double share) {
-  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMost));
+  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMostOfFive));
 }
 
 std::size_t find_magics_colour(std::string_view header) {

@@ -162,15 +162,15 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
 }
 
 void ModelReader::open_property(Element element, const XmlAttributes& attributes) {
-  using Kind = PropertyGroup::Kind;
+  using GroupKind = PropertyGroup::Kind;
   switch (element) {
     case Element::basematerials:
-      return add_group(Kind::base, attributes);
+      return add_group(GroupKind::base, attributes);
     case Element::base:
       group().names.push_back(attributes.text("name"));
       return add_colour(attributes.text("displaycolor"));
     case Element::colorgroup:
-      return add_group(Kind::colour, attributes);
+      return add_group(GroupKind::colour, attributes);
     case Element::color:
       return add_colour(attributes.text("color"));
     case Element::texture2d:
@@ -179,7 +179,7 @@ void ModelReader::open_property(Element element, const XmlAttributes& attributes
                                 attributes.text("tilestylev"), attributes.text("filter")});
       return;
     case Element::texture2dgroup:
-      add_group(Kind::texture, attributes);
+      add_group(GroupKind::texture, attributes);
       group().texture = index_in(attributes, "texid");
       return;
     case Element::tex2coord: {
@@ -190,13 +190,13 @@ void ModelReader::open_property(Element element, const XmlAttributes& attributes
       return;
     }
     case Element::multiproperties:
-      add_group(Kind::multi, attributes);
+      add_group(GroupKind::multi, attributes);
       return read_layers(attributes);
     case Element::multi:
       return read_layer_entries(attributes);
     case Element::compositematerials:
       ++oddities_.unknown_groups;
-      return add_group(Kind::unknown, attributes);
+      return add_group(GroupKind::unknown, attributes);
     default:
       return;
   }

@@ -32,7 +32,8 @@ std::string_view picture_type(std::string_view bytes) {
 
 std::shared_ptr<const std::string> bytes_of_picture(const Image& image) {
   std::error_code error;
-  if (image.bytes || !is_regular_file(std::filesystem::symlink_status(image.path, error))) return image.bytes;
+  if (image.bytes || !is_regular_file(std::filesystem::symlink_status(image.path, error)))
+    return image.bytes;
   try {
     return std::make_shared<const std::string>(FileBytes(image.path).bytes());
   } catch (const InputError&) {

@@ -147,7 +147,8 @@ TEST(GltfWriter, CoordinatesBeyondSinglePrecisionAreRefused) {
 TEST(GltfWriter, EqualCornersShareAVertex) {
   const TestJson root = json_of(format_soup(tetrahedron(), SoupFormat::glb));
   const TestJson& primitive = root["meshes"][0]["primitives"][0];
-  const TestJson& positions = root["accessors"][primitive["attributes"]["POSITION"].get<int>()];
+  const TestJson& positions =
+      root["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
   EXPECT_EQ(positions["count"], 4);
   EXPECT_EQ(positions["min"], TestJson({0.0, 0.0, 0.0}));
   EXPECT_EQ(positions["max"], TestJson({1.0, 1.0, 1.0}));
