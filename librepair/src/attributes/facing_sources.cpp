@@ -65,6 +65,7 @@ std::vector<std::uint32_t> facing_sources(const TriangleSoup& input, const Surfa
     return key;
   };
   std::vector<TriangleKey> wanted;
+  wanted.reserve(turned.size());
   for (const std::uint32_t t : turned) wanted.push_back(wanted_of(t));
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());

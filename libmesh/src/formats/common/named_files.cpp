@@ -21,7 +21,7 @@ std::optional<fs::path> path_of_named(const MeshSource& source, std::string_view
 }
 
 std::optional<fs::path> find_named(const MeshSource& source, std::string_view name) {
-  const std::optional<fs::path> path = path_of_named(source, name);
+  std::optional<fs::path> path = path_of_named(source, name);
   if (!path) return std::nullopt;
   std::error_code error;
   if (!fs::is_regular_file(*path, error)) return std::nullopt;

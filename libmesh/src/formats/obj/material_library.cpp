@@ -278,8 +278,7 @@ class MaterialFiles {
     if (!image.bytes) {
       return name_seen_from(path_.parent_path(), image.path);
     }
-    const std::string name =
-        path_.stem().string() + "_" + std::to_string(number) + extension_of(image);
+    std::string name = path_.stem().string() + "_" + std::to_string(number) + extension_of(image);
     if (written_.insert(number).second) {
       files_.push_back({path_.parent_path() / name, *image.bytes});
     }

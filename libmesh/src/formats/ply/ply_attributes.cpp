@@ -29,7 +29,7 @@ struct KnownGroup {
 };
 
 const std::vector<KnownGroup>& known_groups() {
-  static const std::vector<KnownGroup> kGroups = {
+  static const std::vector<KnownGroup> groups = {
       {Kind::texture, {"s", "t"}, 2},
       {Kind::texture, {"u", "v"}, 2},
       {Kind::texture, {"texture_u", "texture_v"}, 2},
@@ -38,7 +38,7 @@ const std::vector<KnownGroup>& known_groups() {
       {Kind::colour, {"red", "green", "blue", "alpha"}, 3},
       {Kind::colour, {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}, 3},
       {Kind::colour, {"r", "g", "b", "a"}, 3}};
-  return kGroups;
+  return groups;
 }
 
 // Properties that are no attributes.

@@ -156,7 +156,8 @@ class PropertyWriter {
     std::string name;
     for (int i = 1; name.empty(); ++i) {
       const std::string number = i == 1 ? std::string() : "%20" + std::to_string(i);
-      name = "3D/Textures/" + stem + number + extension;
+      name = "3D/Textures/";
+      name.append(stem).append(number).append(extension);
       if (!used_names_.insert(part_key(name)).second) name.clear();
     }
     result_.pictures.push_back({name, std::string(type), std::move(bytes), image});
