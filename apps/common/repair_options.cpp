@@ -141,7 +141,7 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
       "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii,\n"
-      "3mf")
+      "glb, gltf, 3mf")
       ->default_str("by the name of OUT")
       ->group("Output");
 }
@@ -167,7 +167,7 @@ void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
   add_choice(
       app, "--precision", kPrecisions, [&certify](Precision value) { certify.precision = value; },
       "Round the coordinates of OUT to float64 or float32, and certify them so;\n"
-      "binary STL is always float32")
+      "binary STL and glTF are always float32")
       ->default_str("float64")
       ->group("Output");
   app.add_flag("--strict", strict, "Write nothing if the result cannot be certified")

@@ -122,7 +122,9 @@ void describe_input(const Findings& findings, Lines& lines) {
   if (findings.mesh_read && findings.soup_written) {
     lines.add("read", fmt::format("{}: {}", findings.input_name(),
                                   format_name(findings.mesh_read->format)));
-    lines.add("wrong", reading_troubles(*findings.mesh_read));
+    if (const std::string troubles = reading_troubles(*findings.mesh_read); !troubles.empty()) {
+      lines.add("wrong", troubles);
+    }
   } else if (findings.mesh_read) {
     lines.add("read", fmt::format("{}: {}, {} in {}", findings.input_name(),
                                   format_name(findings.mesh_read->format),
