@@ -1,11 +1,12 @@
-// Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects, 3MF.
+// Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects, glTF, 3MF.
 //
 // Reading: the format is told by content first, then by extension. Coordinates are kept in double.
 // STL corners with bit-identical coordinates (-0 is 0) are welded into one point; the points of
 // indexed formats are kept as they are. Polygons are triangulated. The bytes decide, never a
 // declared count: a file that holds less than it promises is read as far as it goes and the loss is
-// counted, and no memory is taken for what the file cannot hold. No path named inside a file is
-// opened.
+// counted, and no memory is taken for what the file cannot hold. Of files that a file names, only
+// buffers of glTF are opened, and libraries of materials if attributes are asked for; none outside
+// the folder.
 //
 // Writing: shortest decimal digits that read back as the same bits; every write is checked; the
 // target appears atomically (a temporary file beside it, fsync, rename) unless it is a device or a

@@ -22,10 +22,11 @@ void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
 
 // By Surface::source. A corner of the result that lies in one of its source triangle has the value
 // of that, bit for bit. Any other has the affine function of the source triangle's values at its
-// place, found in doubles: right to a few units in the last place where it is in the triangle's
-// plane. Where simplification moved it from there by d, it is off by at most d times the steepness
-// of the function. Normals are of length 1 again, and turn with their triangle. Of triangles in one
-// place the first of the input counts that faces as the result does, if there is such a one.
+// place, found in doubles: right to a few units in the last place, times how much longer than high
+// the triangle is. Where simplification moved it from there by d, it is off by at most d times the
+// steepness of the function. Normals are of length 1 again, and turn with their triangle. Of
+// triangles in one place the first of the input counts that faces as the result does, if there is
+// such a one.
 //
 // Triangles without a source are patches. One whose rim is one chart of the texture has the rim's
 // coordinates, and within it those that make each point the mean of its neighbours; and the

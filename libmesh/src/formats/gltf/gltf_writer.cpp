@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "formats/common/named_files.h"
 #include "gltf_builder.h"
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
@@ -17,10 +18,6 @@ namespace meshrepair {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path full_path(const fs::path& path) {
-  return fs::absolute(path.empty() ? "." : path).lexically_normal();
-}
 
 const char* type_of(std::size_t components) {
   constexpr std::array<const char*, 5> kTypes = {"SCALAR", "SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -41,7 +38,7 @@ class GltfWriter {
         kept_(attributes == nullptr
                   ? nullptr
                   : dynamic_cast<const GltfKeepsake*>(attributes->keepsake.get())),
-        folder_(full_path(folder)),
+        folder_(folder),
         builder_(kept_) {}
 
   std::string run(const std::vector<std::string>& comments, bool binary) {
@@ -80,7 +77,7 @@ class GltfWriter {
   }
 
   [[nodiscard]] std::string relative_name(const Image& image) const {
-    return full_path(image.path).lexically_relative(folder_).generic_string();
+    return name_seen_from(folder_, image.path);
   }
 
   std::size_t add_mesh() {
