@@ -29,6 +29,7 @@ struct BoolOptions {
   SetOperation operation = SetOperation::unite;
   RegionTest test = RegionTest::cells;
   bool always = false;
+  bool output_has_unit = false;
   StepOptions step;
 };
 
@@ -42,11 +43,35 @@ struct Operand {
   bool as_given = false;  // was the boundary of a solid already
 };
 
-Operand read_mesh_operand(RepairOptions repair_options, bool wants_attributes, Run& run,
-                          Findings& findings) {
-  Attributes attributes;
-  TriangleSoup soup =
-      read_mesh_stage(run, findings, true, wants_attributes ? &attributes : nullptr);
+// That of the first file that says one, or of the output.
+class CommonUnit {
+ public:
+  explicit CommonUnit(const BoolOptions& options) : units_(options.step.assets.units) {
+    if (!options.output_has_unit) unit_ = units_;
+  }
+
+  // Brings the points of a file of this unit to it.
+  void apply(std::optional<LengthUnit> own, TriangleSoup& soup) {
+    if (!own) own = units_;
+    if (!unit_) unit_ = own;
+    if (!own || own == unit_) return;
+    const double scale = millimeters(*own) / millimeters(*unit_);
+    for (Vec3d& point : soup.points) point *= scale;
+  }
+
+  [[nodiscard]] std::optional<LengthUnit> get() const { return unit_; }
+
+ private:
+  std::optional<LengthUnit> units_, unit_;
+};
+
+Operand read_mesh_operand(RepairOptions repair_options, bool wants_attributes, CommonUnit& unit,
+                          Run& run, Findings& findings) {
+  ReadOptions reading = read_options(run);
+  reading.may_be_empty = true;
+  reading.attributes = wants_attributes;
+  auto [soup, attributes, scene, report] = read_mesh_stage(reading, run, findings);
+  unit.apply(findings.unit, soup);
   if (soup.triangles.empty()) return {{}, {}, true};
   keep_attributes(soup, attributes, repair_options);
   {
@@ -65,12 +90,12 @@ Operand read_mesh_operand(RepairOptions repair_options, bool wants_attributes, R
 
 // A mesh that is no solid is repaired, a tree without labels gets some. One in which nothing is
 // solid is the empty solid, and so is a mesh of nothing.
-Operand read_operand(const BoolOptions& options, Run& run, Findings& findings) {
+Operand read_operand(const BoolOptions& options, CommonUnit& unit, Run& run, Findings& findings) {
   RepairOptions repair_options = options.step.repair;
   repair_options.certify.precision = Precision::float64;  // only what comes out is written
   repair_options.progress = &run.progress;
   if (!is_tree_name(findings.input)) {
-    return read_mesh_operand(repair_options, options.step.attributes, run, findings);
+    return read_mesh_operand(repair_options, options.step.assets.attributes, unit, run, findings);
   }
   Tree tree = read_tree_stage(run, findings);
   if (!findings.tree_read->labelled) {
@@ -97,11 +122,12 @@ Json facts_of_operand(const Operand& operand, const Findings& findings, const Js
   return facts;
 }
 
-Operand take_operand(const BoolOptions& options, const std::string& name, Run& run, Json& facts) {
+Operand take_operand(const BoolOptions& options, const std::string& name, CommonUnit& unit,
+                     Run& run, Json& facts) {
   Findings findings(name, "");
   Operand operand;
   (void)with_findings(run, findings, [&] {
-    operand = read_operand(options, run, findings);
+    operand = read_operand(options, unit, run, findings);
     return ExitCode::done;
   });
   warn_of_findings(findings);
@@ -238,18 +264,22 @@ ExitCode combine_files(BoolOptions options, Run& run) {
     format = mesh_format(options.step);
     boolean_options.repair = certified_for(*format.format, boolean_options.repair);
   }
-  options.step.attributes =
-      options.step.attributes && format.format && holds_attributes(*format.format);
+  options.step.assets.attributes =
+      options.step.assets.attributes && format.format && holds_attributes(*format.format);
+  options.output_has_unit = format.format && has_unit(*format.format);
   Json facts = Json::array();
   Operands operands;
+  CommonUnit unit(options);
   for (const std::string& name : options.inputs) {
-    Operand operand = take_operand(options, name, run, facts);
-    if (options.step.attributes) {
-      operand.attributes = held_by(*format.format, std::move(operand.attributes));
+    Operand operand = take_operand(options, name, unit, run, facts);
+    if (options.step.assets.attributes) {
+      operand.attributes =
+          chosen_for(*format.format, options.step.assets, std::move(operand.attributes));
     }
     operands.add(std::move(operand));
   }
   run.report.set_section("operands", std::move(facts));
+  format.extras.unit = unit.get();
   operands.join();
   keep_attributes(operands.joined, operands.attributes, boolean_options.repair);
   Findings findings(all_names(options.inputs), options.step.output);
@@ -303,7 +333,7 @@ void add_bool_options(CLI::App& app, BoolOptions& options) {
 
 // What is asked of a mesh to write says nothing about a tree.
 void refuse_mesh_options(const CLI::App& app) {
-  for (const char* name : {"--format", "--attributes", "--precision", "--strict"}) {
+  for (const char* name : {"--format", "--attributes", "--drop", "--precision", "--strict"}) {
     if (app.get_option(name)->count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }
@@ -334,7 +364,8 @@ int main(int argc, char** argv) {
   add_bool_options(app, options);
   add_predicates_options(app, options.step.repair);
   add_format_option(app, options.step.format);
-  add_attributes_option(app, options.step.attributes);
+  add_attributes_options(app, options.step.assets);
+  add_units_option(app, options.step.assets);
   add_certify_options(app, options.step.repair.certify, options.step.strict);
   return program.run(argc, argv, [&](Run& run) {
     if (options.step.output.empty()) throw UsageError("the name of the output is empty");

@@ -6,7 +6,7 @@ namespace meshrepair {
 namespace {
 
 void build(const StepOptions& options, Run& run, Findings& findings) {
-  const TriangleSoup soup = read_mesh_stage(run, findings);
+  const TriangleSoup soup = read_mesh_stage(read_options(run), run, findings).soup;
   const Tree tree = make_tree(soup, options.repair, findings.repair);
   write_tree_stage(tree, run, findings);
 }

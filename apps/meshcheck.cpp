@@ -11,6 +11,7 @@
 #include "common/attribute_report.h"
 #include "common/check_report.h"
 #include "common/repair_steps.h"
+#include "common/scene_steps.h"
 #include "common/summary.h"
 
 namespace meshrepair {
@@ -18,16 +19,17 @@ namespace {
 
 struct Options {
   std::string input;
+  AssetOptions assets;
   std::string marked;  // empty: no such file
   bool json = false;
   CheckOptions check;
 };
 
-void write_marked(const TriangleSoup& soup, const SurfaceCheck& check, const Options& options,
-                  Run& run) {
+void write_marked(const TriangleSoup& soup, const std::vector<Colour>& colours,
+                  const Options& options, Run& run) {
   std::vector<std::string> comments;
   for (const std::string& line : colour_legend()) comments.push_back(line);
-  write_file_atomically(options.marked, format_coloured_ply(soup, defect_colours(check), comments));
+  write_file_atomically(options.marked, format_coloured_ply(soup, colours, comments));
   run.report.set_output({{"path", options.marked}, {"format", "coloured PLY"}});
 }
 
@@ -35,6 +37,49 @@ std::string what_was_read(const Findings& findings, const TriangleSoup& soup) {
   return fmt::format(
       "{}: {}, {}, {}", findings.input_name(), format_name(findings.mesh_read->format),
       number_of(soup.triangles.size(), "triangle"), number_of(soup.points.size(), "point"));
+}
+
+// What is found of the soup, or of the meshes in it.
+struct Verdict {
+  bool is_valid = true;
+  std::vector<Colour> colours;  // if they are asked for
+  std::string table;
+};
+
+Verdict check_one(const ReadResult& input, const Options& options, Run& run,
+                  const Findings& findings) {
+  const SurfaceCheck check = check_surface(input.soup, options.check);
+  run.report.set_section("check", check_section(check));
+  return {check.valid_solid(), defect_colours(check),
+          check_table(check, what_was_read(findings, input.soup),
+                      attribute_words(input.soup, input.attributes), findings.unit)};
+}
+
+// A line for each mesh, and a table for one that is no solid.
+Verdict check_each(const ReadResult& input, const Options& options, Run& run,
+                   const Findings& findings) {
+  Verdict all;
+  Json sections = Json::array();
+  std::vector<TriangleSoup> meshes = meshes_of(input.soup, input.scene);
+  std::size_t solids = 0;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const SurfaceCheck check = check_surface(meshes[m], options.check);
+    const std::string name = mesh_name(input.scene, m);
+    solids += check.valid_solid() ? 1 : 0;
+    sections.push_back({{"name", name}, {"check", check_section(check)}});
+    const std::vector<Colour> colours = defect_colours(check);
+    all.colours.insert(all.colours.end(), colours.begin(), colours.end());
+    const std::string what =
+        fmt::format("{}: {}, {}", name, number_of(meshes[m].triangles.size(), "triangle"),
+                    number_of(meshes[m].points.size(), "point"));
+    all.table += check.valid_solid() ? what + ", a valid solid\n"
+                                     : check_table(check, what, {}, findings.unit);
+  }
+  run.report.set_section("meshes", std::move(sections));
+  all.is_valid = solids == meshes.size();
+  all.table += fmt::format("{}: {}, {} of them valid solids\n", findings.input_name(),
+                           number_of(meshes.size(), "mesh", "meshes"), grouped(solids));
+  return all;
 }
 
 ExitCode check_mesh(Options& options, Run& run) {
@@ -47,21 +92,20 @@ ExitCode check_mesh(Options& options, Run& run) {
   options.check.mark_triangles = !options.marked.empty();
   Findings findings(options.input, options.marked);
   return with_findings(run, findings, [&] {
-    Attributes attributes;
-    const TriangleSoup soup = read_mesh_stage(run, findings, false, &attributes);
-    run.report.set_section("attributes", attributes_section(soup, attributes));
+    ReadOptions reading = read_options(run);
+    reading.attributes = true;
+    reading.by_mesh = options.assets.by_mesh;
+    const ReadResult input = read_mesh_stage(reading, run, findings);
+    run.report.set_section("attributes", attributes_section(input.soup, input.attributes));
     StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
     meter.begin("check");
-    const SurfaceCheck check = check_surface(soup, options.check);
+    const Verdict verdict = options.assets.by_mesh ? check_each(input, options, run, findings)
+                                                   : check_one(input, options, run, findings);
     meter.end();
-    run.report.set_section("check", check_section(check));
-    if (!options.marked.empty()) write_marked(soup, check, options, run);
+    if (!options.marked.empty()) write_marked(input.soup, verdict.colours, options, run);
     run.progress.finish();
-    if (run.options.report != "-" && !run.options.quiet) {
-      std::cout << check_table(check, what_was_read(findings, soup),
-                               attribute_words(soup, attributes));
-    }
-    return check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
+    if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
+    return verdict.is_valid ? ExitCode::done : ExitCode::not_certified;
   });
 }
 
@@ -91,6 +135,7 @@ int main(int argc, char** argv) {
   app.add_flag("--weld", options.check.weld,
                "Treat points with equal coordinates as one, as always in STL")
       ->group("Check");
+  add_scene_option(app, options.assets, "Check");
   app.add_option("--places", options.check.most_places, "List this many places of each defect")
       ->type_name("N")
       ->check(CLI::Range(0, 1000000))

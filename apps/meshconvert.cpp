@@ -6,6 +6,7 @@
 #include "common/attribute_report.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
+#include "common/scene_steps.h"
 
 namespace meshrepair {
 namespace {
@@ -13,17 +14,28 @@ namespace {
 // Reads attributes also where the output holds none, to say what is lost.
 void convert(const StepOptions& options, Run& run, Findings& findings) {
   WriteOptions format = mesh_format(options);
-  Attributes all;
-  const TriangleSoup soup =
-      read_mesh_stage(run, findings, false, options.attributes ? &all : nullptr);
+  ReadOptions reading = read_options(run);
+  reading.attributes = options.assets.attributes;
+  reading.by_mesh = options.assets.by_mesh;
+  ReadResult input = read_mesh_stage(reading, run, findings);
+  const TriangleSoup& soup = input.soup;
+  const Attributes& all = input.attributes;
   run.report.set_section("attributes", attributes_section(soup, all));
-  const Attributes held = held_by(*format.format, all);
-  const std::string lost = lost_attributes(all, held);
+  const Attributes held = chosen_for(*format.format, options.assets, all);
+  Attributes still_held = held_by(*format.format, all);
+  if (options.assets.by_mesh) still_held.objects = all.objects;
+  const std::string lost = lost_attributes(all, still_held);
   if (!lost.empty()) {
     spdlog::warn("{}: {} cannot hold what {} has: {}", findings.output_name(),
                  format_name(*format.format), findings.input_name(), lost);
   }
   format.extras.attributes = held.empty() ? nullptr : &held;
+  if (options.assets.by_mesh) {
+    check_scene(input.scene, *format.format);
+    format.extras.scene = &input.scene;
+  }
+  findings.unit = bring_to_unit(*format.format, options.assets, findings.unit, input.soup);
+  format.extras.unit = findings.unit;
   write_soup_stage(soup, format, run, findings);
 }
 
@@ -40,7 +52,9 @@ int run_program(int argc, char** argv) {
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
   add_format_option(app, options.format);
-  add_attributes_option(app, options.attributes);
+  add_attributes_options(app, options.assets);
+  add_scene_option(app, options.assets, "Output");
+  add_units_option(app, options.assets);
   return run_steps(program, argc, argv, options, convert);
 }
 

@@ -24,7 +24,7 @@ struct Options {
 
 TriangleSoup read(const std::string& path, const std::string& key, Run& run, std::string& lines) {
   Findings findings(path, "");
-  TriangleSoup soup = read_mesh_stage(run, findings);
+  TriangleSoup soup = read_mesh_stage(read_options(run), run, findings).soup;
   run.report.set_section(key, read_section(*findings.mesh_read));
   lines +=
       fmt::format("{}: {}, {}\n", findings.input_name(), format_name(findings.mesh_read->format),

@@ -3,19 +3,25 @@
 #include "common/point_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
+#include "common/scene_steps.h"
 
 namespace meshrepair {
 namespace {
 
 void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
-  const WriteOptions format = mesh_format(options);
-  const bool wants_attributes = options.attributes && holds_attributes(*format.format);
-  AnySoup input = read_any_stage(points, wants_attributes, run, findings);
-  input.attributes = held_by(*format.format, std::move(input.attributes));
+  WriteOptions format = mesh_format(options);
+  const ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
+  AnySoup input = read_any_stage(points, reading, run, findings);
+  input.attributes = chosen_for(*format.format, options.assets, std::move(input.attributes));
+  findings.unit = bring_to_unit(*format.format, options.assets, findings.unit, input.soup);
+  format.extras.unit = findings.unit;
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
+  if (!input.scene.meshes.empty()) {
+    return repair_scene(input, repair_options, format, options, run, findings);
+  }
   const Surface surface = repair_any(input, points, repair_options, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   const Attributes attributes =
@@ -49,6 +55,7 @@ int main(int argc, char** argv) {
   add_max_hole_option(app, options.repair.holes);
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
+  add_scene_option(app, options.assets);
   app.add_flag("--always", always,
                "Do the whole work, also for a mesh that is the boundary of a solid already,\n"
                "or that needs only its holes closed and its triangles turned")
@@ -57,7 +64,8 @@ int main(int argc, char** argv) {
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
-  add_attributes_option(app, options.attributes);
+  add_attributes_options(app, options.assets);
+  add_units_option(app, options.assets);
   add_certify_options(app, options.repair.certify, options.strict);
   add_point_repair_options(app, points);
   return run_steps(program, argc, argv, options,

@@ -140,13 +140,14 @@ Json parts_of(const SurfaceCheck& check) {
 }  // namespace
 
 std::string check_table(const SurfaceCheck& check, const std::string& what,
-                        const std::vector<std::string>& attributes) {
+                        const std::vector<std::string>& attributes,
+                        std::optional<LengthUnit> unit) {
   std::string text = what + "\n";
   for (const DefectWords& words : kWords) text += defect_line(words, check[words.defect]);
   text += fmt::format("parts     {}\n", parts_text(check));
-  text +=
-      fmt::format("size      {}area {:.6g}, in the input's units\n",
-                  check.closed() ? fmt::format("volume {:.6g}, ", check.volume) : "", check.area);
+  text += fmt::format("size      {}area {:.6g}, in {}\n",
+                      check.closed() ? fmt::format("volume {:.6g}, ", check.volume) : "",
+                      check.area, units_text(unit));
   if (!attributes.empty()) text += fmt::format("carries   {}\n", fmt::join(attributes, ", "));
   return text + "verdict   " + verdict(check) + "\n";
 }

@@ -166,27 +166,28 @@ void add_point_repair_options(CLI::App& app, PointOptions& options) {
   add_point_options(app, options.soup);
 }
 
-AnySoup read_any_stage(const PointOptions& options, bool attributes, Run& run, Findings& findings) {
+AnySoup read_any_stage(const PointOptions& options, const ReadOptions& reading, Run& run,
+                       Findings& findings) {
   PointCloud cloud;
   if (options.as_points) {
     cloud = read_points_stage(run, findings);
   } else {
     StageMeter meter(findings.repair.stages, &run.progress);
     meter.begin("read");
-    ReadOptions reading = read_options(run);
-    reading.attributes = attributes;
     MeshOrPoints input = read_mesh_or_points(findings.input, reading);
     if (input.mesh) {
       if (options.base) throw UsageError("--base: is for points; --points takes those of a mesh");
-      findings.mesh_read = std::move(input.mesh->report);
-      log_warnings(findings.input_name(), findings.mesh_read->warnings);
-      return {std::move(input.mesh->soup), {}, std::move(input.mesh->attributes)};
+      keep_read_report(std::move(input.mesh->report), findings);
+      return {std::move(input.mesh->soup),
+              {},
+              std::move(input.mesh->attributes),
+              std::move(input.mesh->scene)};
     }
     cloud = keep(std::move(*input.points), findings);
   }
   PointSoup points = triangulate_stage(cloud, options.soup, run, findings);
-  if (!options.base) return {std::move(points.soup), points.opacity(), {}};
-  return {with_base(points.soup, options.scan_base, findings.scan_base.emplace()), {}, {}};
+  if (!options.base) return {std::move(points.soup), points.opacity(), {}, {}};
+  return {with_base(points.soup, options.scan_base, findings.scan_base.emplace()), {}, {}, {}};
 }
 
 Surface repair_any(const AnySoup& input, const PointOptions& points, const RepairOptions& options,

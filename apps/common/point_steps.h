@@ -39,12 +39,12 @@ struct AnySoup {
   TriangleSoup soup;
   std::vector<float> opacity;  // as RepairOptions takes it
   Attributes attributes;       // of a mesh, if they are asked for
+  Scene scene;                 // the same
 };
 
-// Reads a mesh, with its attributes if wanted, or a point cloud, triangulates it and puts it on its
-// base.
-[[nodiscard]] AnySoup read_any_stage(const PointOptions& options, bool attributes, Run& run,
-                                     Findings& findings);
+// Reads a mesh as `reading` says, or a point cloud, triangulates it and puts it on its base.
+[[nodiscard]] AnySoup read_any_stage(const PointOptions& options, const ReadOptions& reading,
+                                     Run& run, Findings& findings);
 
 // repair(), as the input needs it: the floor of a base is a hole of any size, and solids that the
 // points are too few to tell are dropped. Throws NoSolidError, with advice, also where the points

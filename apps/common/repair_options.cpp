@@ -35,8 +35,6 @@ constexpr std::array<Choice<SoupFormat>, 9> kFormats = {{{"stl", SoupFormat::stl
                                                          {"gltf", SoupFormat::gltf},
                                                          {"3mf", SoupFormat::threemf}}};
 
-constexpr std::array<Choice<bool>, 2> kAttributes = {{{"keep", true}, {"drop", false}}};
-
 constexpr std::array<Choice<Precision>, 2> kPrecisions = {
     {{"float64", Precision::float64}, {"float32", Precision::float32}}};
 
@@ -150,16 +148,6 @@ void add_sources_option(CLI::App& app, bool& sources) {
   app.add_flag("--sources", sources,
                "PLY only: give each face the property source_triangle, the number of the\n"
                "input triangle that it lies in, counted from 0; -1 where a gap was closed")
-      ->group("Output");
-}
-
-void add_attributes_option(CLI::App& app, bool& attributes) {
-  add_choice(
-      app, "--attributes", kAttributes, [&attributes](bool value) { attributes = value; },
-      "Texture coordinates, normals, colours, materials and groups:\n"
-      "  keep  bring them onto the result, where IN has them and OUT can hold them\n"
-      "  drop  do not even read them")
-      ->default_str("keep")
       ->group("Output");
 }
 

@@ -100,7 +100,19 @@ void run_named(const std::string& name, const std::function<void()>& work) {
   }
 }
 
-// What counts is the file: in STL, welding and rounding may join what the surface keeps apart.
+ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
+  Findings findings(options.input, options.output);
+  (void)with_findings(run, findings, [&] {
+    body(options, run, findings);
+    return ExitCode::done;
+  });
+  if (!findings.withheld) print_summary(run, findings);
+  warn_of_findings(findings);
+  return verdict(run, findings);
+}
+
+}  // namespace
+
 void look_at_file(const Surface& surface, SoupFormat format, Findings& findings) {
   findings.output_points = surface.mesh.points.size();
   if (!welds_points(format)) return;
@@ -131,19 +143,6 @@ std::string missing_guarantees(const Findings& findings, SoupFormat format) {
   }
   return missing.empty() ? missing : missing.substr(2);
 }
-
-ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
-  Findings findings(options.input, options.output);
-  (void)with_findings(run, findings, [&] {
-    body(options, run, findings);
-    return ExitCode::done;
-  });
-  if (!findings.withheld) print_summary(run, findings);
-  warn_of_findings(findings);
-  return verdict(run, findings);
-}
-
-}  // namespace
 
 ExitCode verdict(Run& run, const Findings& findings) {
   if (findings.missing_guarantees.empty()) return ExitCode::done;
@@ -243,6 +242,7 @@ WriteOptions mesh_format(const StepOptions& options) {
     throw UsageError("--sources: " + std::string(format_name(*format.format)) +
                      " cannot hold them, only PLY can");
   }
+  check_format(*format.format, options.assets);
   return format;
 }
 
@@ -262,18 +262,18 @@ int run_steps(Program& program, int argc, const char* const* argv, StepOptions& 
   });
 }
 
-TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty,
-                             Attributes* attributes) {
+ReadResult read_mesh_stage(const ReadOptions& options, Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("read");
-  ReadOptions options = read_options(run);
-  options.may_be_empty = may_be_empty;
-  options.attributes = attributes != nullptr;
   ReadResult result = read_soup(findings.input, options);
-  findings.mesh_read = std::move(result.report);
+  keep_read_report(result.report, findings);
+  return result;
+}
+
+void keep_read_report(ReadReport report, Findings& findings) {
+  findings.unit = report.unit;
+  findings.mesh_read = std::move(report);
   log_warnings(findings.input_name(), findings.mesh_read->warnings);
-  if (attributes != nullptr) *attributes = std::move(result.attributes);
-  return std::move(result.soup);
 }
 
 Tree read_tree_stage(Run& run, Findings& findings) {

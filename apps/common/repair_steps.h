@@ -18,6 +18,7 @@
 #include <repair/repair.h>
 #include <repair/transfer_attributes.h>
 
+#include "common/asset_options.h"
 #include "common/program.h"
 
 namespace meshrepair {
@@ -45,6 +46,7 @@ struct Findings {
   std::string input;
   std::string output;
   std::optional<ReadReport> mesh_read;
+  std::optional<LengthUnit> unit;  // of the output, as far as it is known
   std::optional<PointReadReport> points_read;
   std::optional<PointSoupReport> point_soup;
   std::size_t points_in_result = 0;  // of those left in point_soup
@@ -59,6 +61,7 @@ struct Findings {
   std::size_t output_points = 0;
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
   bool withheld = false;           // not written because of these
+  std::string summary;             // instead of that of summary_of(), if it is not empty
 };
 
 // What the command line of such a program says; not every program has all of it.
@@ -66,8 +69,8 @@ struct StepOptions {
   std::string input;
   std::string output;
   std::optional<SoupFormat> format;
-  bool sources = false;    // write of each triangle which one of the input it lies in
-  bool attributes = true;  // carry texture coordinates, materials and the like, where formats can
+  bool sources = false;  // write of each triangle which one of the input it lies in
+  AssetOptions assets;
   bool strict = false;
   RepairOptions repair;
 };
@@ -95,6 +98,12 @@ void check_files(const std::string& input, const std::string& output, Run& run);
 // that do not name it are given its name.
 ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work);
 
+// What counts is the file: in STL, welding and rounding may join what the surface keeps apart.
+void look_at_file(const Surface& surface, SoupFormat format, Findings& findings);
+
+// What a surface lacks in the file, for people; empty: nothing. After look_at_file().
+[[nodiscard]] std::string missing_guarantees(const Findings& findings, SoupFormat format);
+
 // What users should know of an input and of what became of it, though it is no error.
 void warn_of_findings(const Findings& findings);
 
@@ -114,10 +123,11 @@ void log_warnings(const std::string& name, const std::vector<std::string>& warni
 // As the command line limits it.
 [[nodiscard]] ReadOptions read_options(Run& run);
 
-// Stage "read". What a reader passed over is logged as warnings.
-// `attributes`, if not null, gets those of the mesh.
-[[nodiscard]] TriangleSoup read_mesh_stage(Run& run, Findings& findings, bool may_be_empty = false,
-                                           Attributes* attributes = nullptr);
+// Stage "read". What a reader passed over is logged as warnings; its report becomes a finding.
+// `options` are those of read_options(), with more.
+[[nodiscard]] ReadResult read_mesh_stage(const ReadOptions& options, Run& run, Findings& findings);
+// Takes over what a reader has found of a mesh.
+void keep_read_report(ReadReport report, Findings& findings);
 [[nodiscard]] Tree read_tree_stage(Run& run, Findings& findings);
 // Stage "distance", where there will be a report to say it in. It comes before the writing, so that
 // it cannot fail once there is an output. The surface is as repair() leaves it, at this precision.

@@ -16,6 +16,7 @@ bool was_begun(const RepairReport& repair, std::string_view stage) {
 Json section_of(const ReadReport& read) {
   return {{"format", format_name(read.format)},
           {"bytes", read.bytes},
+          {"unit", read.unit ? Json(unit_name(*read.unit)) : Json()},
           {"declared_triangles", read.declared_triangles},
           {"polygons", read.polygons},
           {"bad_faces", read.bad_faces},

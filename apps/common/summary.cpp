@@ -252,8 +252,8 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
                         ? "free of self-intersections"
                         : "WITH SELF-INTERSECTIONS"}));
   if (!std::isfinite(repair.output_volume) || !std::isfinite(repair.output_area)) return;
-  lines.add("size", fmt::format("volume {:.6g}, area {:.6g}, in the input's units",
-                                repair.output_volume, repair.output_area));
+  lines.add("size", fmt::format("volume {:.6g}, area {:.6g}, in {}", repair.output_volume,
+                                repair.output_area, units_text(findings.unit)));
 }
 
 void describe_soup(const Findings& findings, double seconds, Lines& lines) {
@@ -282,6 +282,17 @@ std::string number_of(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
+std::string number_of(std::size_t count, std::string_view noun, std::string_view plural) {
+  return fmt::format("{} {}", grouped(count), count == 1 ? noun : plural);
+}
+
+std::string units_text(std::optional<LengthUnit> unit) {
+  if (!unit) return "the input's units";
+  if (unit == LengthUnit::inch) return "inches";
+  if (unit == LengthUnit::foot) return "feet";
+  return fmt::format("{}s", unit_name(*unit));
+}
+
 std::string predicates_summary(const RepairReport& repair) {
   Lines lines;
   describe_predicates(repair, lines);
@@ -289,6 +300,7 @@ std::string predicates_summary(const RepairReport& repair) {
 }
 
 std::string summary_of(const Findings& findings, double seconds) {
+  if (!findings.summary.empty()) return findings.summary;
   Lines lines;
   describe_input(findings, lines);
   describe_holes(findings.repair, lines);

@@ -15,6 +15,13 @@ namespace meshrepair {
 // "1 triangle", "1,200 triangles".
 [[nodiscard]] std::string number_of(std::size_t count, std::string_view noun);
 
+// With the plural of a noun that has another one than with an s.
+[[nodiscard]] std::string number_of(std::size_t count, std::string_view noun,
+                                    std::string_view plural);
+
+// "the input's units" where the unit is not known.
+[[nodiscard]] std::string units_text(std::optional<LengthUnit> unit);
+
 // A dozen aligned lines or so: what was read, what was wrong with it, how it was decided what is
 // solid, and what came out, each as far as it is known. `seconds` is the time that it all took.
 [[nodiscard]] std::string summary_of(const Findings& findings, double seconds);

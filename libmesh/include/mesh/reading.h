@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <base/progress.h>
 #include <mesh/attributes.h>
+#include <mesh/length_unit.h>
+#include <mesh/scene.h>
 #include <mesh/soup.h>
 #include <mesh/soup_format.h>
 
@@ -17,6 +20,7 @@ namespace meshrepair {
 struct ReadReport {
   SoupFormat format = SoupFormat::obj;
   std::size_t bytes = 0;
+  std::optional<LengthUnit> unit = std::nullopt;  // of the soup; nothing: the file does not say
   std::size_t declared_triangles =
       0;                      // faces or triangles that the header promised; 0 if it has none
   std::size_t polygons = 0;   // faces with more than three corners, triangulated
@@ -34,6 +38,7 @@ struct ReadReport {
 struct ReadResult {
   TriangleSoup soup;
   Attributes attributes;  // empty unless asked for
+  Scene scene;            // the same
   ReadReport report;
 };
 
@@ -42,6 +47,9 @@ struct ReadOptions {
   std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
   // Read texture coordinates, normals, colours, materials and groups, too. OBJ and 3MF have them.
   bool attributes = false;
+  // Read each mesh in its own frame, and where it stands, as Scene says. Where formats have no such
+  // thing, objects are meshes. Without it instances become one soup in the frame of the world.
+  bool by_mesh = false;
   // A file that holds no points and no faces, and promises none, is no error.
   bool may_be_empty = false;
   ProgressObserver* progress = nullptr;

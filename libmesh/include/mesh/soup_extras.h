@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <mesh/attributes.h>
+#include <mesh/length_unit.h>
+#include <mesh/scene.h>
 
 namespace meshrepair {
 
@@ -20,6 +23,11 @@ struct SoupExtras {
   std::span<const std::uint32_t> sources = {};
   // Of the triangles. Null: none.
   const Attributes* attributes = nullptr;
+  // Of a soup whose meshes stand one after the other: these. Null: the soup is one mesh, where it
+  // is to stand.
+  const Scene* scene = nullptr;
+  // Of the soup. Formats that have a unit say it; glTF by the scale of a node.
+  std::optional<LengthUnit> unit = std::nullopt;
   // Which names of other files are relative to.
   std::filesystem::path folder = {};
 };

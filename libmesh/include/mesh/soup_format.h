@@ -39,6 +39,9 @@ enum class SoupFormat {
 // Whether it can say of a face which triangle of the input it lies in.
 [[nodiscard]] bool holds_sources(SoupFormat format);
 
+// Whether it holds several meshes, each of which may stand in several places.
+[[nodiscard]] bool has_instances(SoupFormat format);
+
 // Whether it holds any of what Attributes has.
 [[nodiscard]] bool holds_attributes(SoupFormat format);
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <base/error.h>
 #include <mesh/recognize_format.h>
@@ -43,6 +44,42 @@ void require_32_bit_ids(const MeshSource& source, const TriangleSoup& soup) {
   }
 }
 
+ReadResult read_format(SoupFormat format, const MeshSource& source) {
+  switch (format) {
+    case SoupFormat::stl_binary:
+      return read_stl_binary(source);
+    case SoupFormat::stl_ascii:
+      return read_stl_ascii(source);
+    case SoupFormat::obj:
+      return read_obj(source);
+    case SoupFormat::off:
+      return read_off(source);
+    case SoupFormat::threemf:
+      return read_threemf(source);
+    case SoupFormat::ply_binary:
+    case SoupFormat::ply_ascii:
+      return read_ply(source);
+    case SoupFormat::glb:
+    case SoupFormat::gltf:
+      break;
+  }
+  return read_gltf(source);
+}
+
+// Its objects are the meshes, and their names stay in any case.
+ReadResult read_by_object(SoupFormat format, const MeshSource& source) {
+  MeshSource with_objects = source;
+  with_objects.options.attributes = true;
+  ReadResult result = read_format(format, with_objects);
+  result.scene = split_objects(result.soup, result.attributes);
+  if (!source.options.attributes) {
+    Attributes objects;
+    objects.objects = std::move(result.attributes.objects);
+    result.attributes = std::move(objects);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string_view without_byte_order_mark(std::string_view bytes) {
@@ -79,25 +116,8 @@ SoupFormat recognize_mesh(const MeshSource& source) {
 }
 
 ReadResult read_mesh_as(SoupFormat format, const MeshSource& source) {
-  switch (format) {
-    case SoupFormat::stl_binary:
-      return read_stl_binary(source);
-    case SoupFormat::stl_ascii:
-      return read_stl_ascii(source);
-    case SoupFormat::obj:
-      return read_obj(source);
-    case SoupFormat::off:
-      return read_off(source);
-    case SoupFormat::threemf:
-      return read_threemf(source);
-    case SoupFormat::ply_binary:
-    case SoupFormat::ply_ascii:
-      return read_ply(source);
-    case SoupFormat::glb:
-    case SoupFormat::gltf:
-      break;
-  }
-  return read_gltf(source);
+  if (source.options.by_mesh && !has_instances(format)) return read_by_object(format, source);
+  return read_format(format, source);
 }
 
 void require_mesh(const MeshSource& source, const ReadResult& result) {

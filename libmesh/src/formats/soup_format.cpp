@@ -70,6 +70,10 @@ bool holds_sources(SoupFormat format) {
   return format == SoupFormat::ply_binary || format == SoupFormat::ply_ascii;
 }
 
+bool has_instances(SoupFormat format) {
+  return format == SoupFormat::threemf || is_any_gltf(format);
+}
+
 bool holds_attributes(SoupFormat format) {
   return format == SoupFormat::stl_binary || format == SoupFormat::obj ||
          format == SoupFormat::threemf || is_any_gltf(format) || holds_sources(format);

@@ -91,15 +91,14 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupE
     case SoupFormat::ply_binary:
       return format_ply_binary(soup, extras);
     case SoupFormat::threemf:
-      return format_threemf(soup, extras.comments, extras.attributes);
+      return format_threemf(soup, extras);
     case SoupFormat::ply_ascii:
       return format_ply_ascii(soup, extras);
     case SoupFormat::glb:
     case SoupFormat::gltf:
       break;
   }
-  return format_gltf(soup, extras.comments, extras.attributes, format == SoupFormat::glb,
-                     extras.folder);
+  return format_gltf(soup, extras, format == SoupFormat::glb);
 }
 
 TriangleSoup as_read_back(const TriangleSoup& soup, SoupFormat format) {

@@ -6,8 +6,8 @@
 #include <base/file_bytes.h>
 
 #include "formats/common/named_files.h"
+#include "formats/common/uri.h"
 #include "gltf_meshopt.h"
-#include "gltf_uri.h"
 
 namespace meshrepair {
 

@@ -6,7 +6,7 @@
 
 #include <base/error.h>
 
-#include "gltf_uri.h"
+#include "formats/common/uri.h"
 
 namespace meshrepair {
 namespace {

@@ -1,12 +1,12 @@
 // glTF 2.0: .glb with everything in one file, and .gltf, a JSON text that names its buffers.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include <mesh/mesh_source.h>
 #include <mesh/reading.h>
+#include <mesh/soup_extras.h>
 
 namespace meshrepair {
 
@@ -22,13 +22,11 @@ namespace meshrepair {
 // refused, unless that is about looks. Morph targets, skins and animations are passed over.
 [[nodiscard]] ReadResult read_gltf(const MeshSource& source);
 
-// One mesh, a primitive for each material. `attributes` may be null. What the file was that they
-// came from, if it was glTF, is kept, but for its meshes. Names of image files are made relative to
-// `folder`, where the file is to be. Throws OutputError if a coordinate does not fit into single
-// precision, or a .glb would have more than 4 GB.
-[[nodiscard]] std::string format_gltf(const TriangleSoup& soup,
-                                      const std::vector<std::string>& comments,
-                                      const Attributes* attributes, bool binary,
-                                      const std::filesystem::path& folder = {});
+// One mesh, or those of the scene; a primitive for each material. What the file was that the
+// attributes came from, if it was glTF, is kept, but for its meshes. Names of image files are made
+// relative to the folder. Throws OutputError if a coordinate does not fit into single precision, or
+// a .glb would have more than 4 GB.
+[[nodiscard]] std::string format_gltf(const TriangleSoup& soup, const SoupExtras& extras,
+                                      bool binary);
 
 }  // namespace meshrepair

@@ -12,15 +12,12 @@ namespace meshrepair {
 namespace {
 
 // Of how triangles were stored, and of what names them: no longer true.
-constexpr std::array<const char*, 7> kOfMeshes = {
-    "KHR_mesh_quantization",   "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-    "EXT_mesh_gpu_instancing", "EXT_mesh_features",          "EXT_instance_features",
-    "EXT_structural_metadata"};
+constexpr std::array<std::string_view, 6> kOfMeshes = {
+    "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+    "EXT_mesh_features",     "EXT_instance_features",      "EXT_structural_metadata"};
 
-bool is_of_meshes(const GltfJson& name) {
-  return name.is_string() && std::find(kOfMeshes.begin(), kOfMeshes.end(),
-                                       name.get_ref<const std::string&>()) != kOfMeshes.end();
-}
+// Of what stands where.
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 
 // glTF has no empty objects and lists.
 void erase_if_empty(GltfJson& object, const char* key) {
@@ -30,16 +27,21 @@ void erase_if_empty(GltfJson& object, const char* key) {
 
 class KeepsakeMaker {
  public:
-  KeepsakeMaker(const GltfDocument& document, GltfBuffers& buffers, const Attributes& attributes)
+  KeepsakeMaker(const GltfDocument& document, GltfBuffers& buffers, const Attributes& attributes,
+                GltfKept what)
       : document_(document),
         buffers_(buffers),
         attributes_(attributes),
-        kept_(std::make_shared<GltfKeepsake>()) {}
+        what_(what),
+        kept_(std::make_shared<GltfKeepsake>()) {
+    kept_->has_scene = what.scene;
+  }
 
   std::shared_ptr<GltfKeepsake> run() {
     copy_root();
     keep_nodes();
-    keep_images();
+    if (what_.scene) keep_scene();
+    if (what_.looks) keep_images();
     keep_animations();
     keep_extensions();
     if (!accessors_.empty()) root()["accessors"] = std::move(accessors_);
@@ -58,21 +60,61 @@ class KeepsakeMaker {
     for (const auto& [key, value] : document_.root().items()) {
       if (std::find(kLeftOut.begin(), kLeftOut.end(), key) == kLeftOut.end()) root()[key] = value;
     }
+    if (what_.looks) return;
+    for (const char* key : {"materials", "textures", "images", "samplers"}) root().erase(key);
   }
 
   void keep_nodes() {
     if (document_.count("nodes") == 0) return;
     for (GltfJson& node : root()["nodes"]) {
       if (!node.is_object()) continue;
-      for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+      if (!what_.scene) node.erase("mesh");
+      for (const char* key : {"skin", "weights"}) node.erase(key);
       drop_extensions(node);
     }
   }
 
-  static void drop_extensions(GltfJson& object) {
+  void keep_scene() {
+    for (std::size_t i = 0; i < document_.count("meshes"); ++i) {
+      GltfJson mesh = document_.entry("meshes", i);
+      for (const char* key : {"primitives", "weights"}) mesh.erase(key);
+      drop_extensions(mesh);
+      kept_->meshes.push_back(std::move(mesh));
+    }
+    for (std::size_t n = 0; n < document_.count("nodes"); ++n) {
+      GltfJson& node = root()["nodes"][n];
+      if (gltf_member(document_.entry("nodes", n), "skin") != nullptr) stand_apart(n);
+      if (gltf_extension(node, kInstancing) == nullptr) continue;
+      for (GltfJson& accessor : node["extensions"][kInstancing]["attributes"]) {
+        accessor = kept_accessor(document_.whole_of(accessor, "attribute"));
+      }
+    }
+  }
+
+  // Joints move a mesh with a skin, its node does not.
+  void stand_apart(std::size_t number) {
+    GltfJson& nodes = root()["nodes"];
+    const auto mesh = document_.whole(nodes[number], "mesh");
+    nodes[number].erase("mesh");
+    if (!mesh) return;
+    GltfJson apart = {{"mesh", *mesh}};
+    if (nodes[number].contains("name")) apart["name"] = nodes[number]["name"];
+    nodes.push_back(std::move(apart));
+    if (document_.count("scenes") == 0) return;
+    GltfJson& scene = root()["scenes"][document_.whole(root(), "scene", 0)];
+    if (scene.is_object() && scene["nodes"].is_array()) scene["nodes"].push_back(nodes.size() - 1);
+  }
+
+  [[nodiscard]] bool is_dropped(std::string_view extension) const {
+    if (extension == kInstancing) return !what_.scene;
+    return std::find(kOfMeshes.begin(), kOfMeshes.end(), extension) != kOfMeshes.end();
+  }
+
+  void drop_extensions(GltfJson& object) const {
     const auto extensions = object.find("extensions");
     if (extensions == object.end() || !extensions->is_object()) return;
-    for (const char* name : kOfMeshes) extensions->erase(name);
+    for (const std::string_view name : kOfMeshes) extensions->erase(name);
+    if (is_dropped(kInstancing)) extensions->erase(kInstancing);
     erase_if_empty(object, "extensions");
   }
 
@@ -117,7 +159,7 @@ class KeepsakeMaker {
     GltfJson kept = GltfJson::array();
     for (const GltfJson& channel : *channels) {
       const GltfJson* const target = gltf_member(channel, "target");
-      if (target != nullptr && !moves_mesh(*target)) kept.push_back(channel);
+      if (target != nullptr && !moves_what_goes(*target)) kept.push_back(channel);
     }
     if (kept.empty()) return false;
     for (GltfJson& sampler : animation["samplers"]) {
@@ -130,13 +172,14 @@ class KeepsakeMaker {
     return true;
   }
 
-  static bool moves_mesh(const GltfJson& target) {
+  [[nodiscard]] bool moves_what_goes(const GltfJson& target) const {
     if (gltf_text(target, "path") == "weights") return true;
     const GltfJson* const pointer = gltf_extension(target, "KHR_animation_pointer");
     if (pointer == nullptr) return false;
     const std::string path = gltf_text(*pointer, "pointer");
     return path.starts_with("/meshes") || path.starts_with("/skins") ||
-           path.find("/weights") != std::string::npos;
+           path.find("/weights") != std::string::npos ||
+           (!what_.looks && path.starts_with("/materials"));
   }
 
   std::size_t kept_accessor(std::size_t number) {
@@ -167,7 +210,8 @@ class KeepsakeMaker {
       if (names == root().end()) continue;
       GltfJson kept = GltfJson::array();
       for (const GltfJson& name : *names) {
-        if (!is_of_meshes(name)) kept.push_back(name);
+        const bool goes = name.is_string() && is_dropped(name.get_ref<const std::string&>());
+        if (!goes) kept.push_back(name);
       }
       *names = std::move(kept);
       erase_if_empty(root(), key);
@@ -177,6 +221,7 @@ class KeepsakeMaker {
   const GltfDocument& document_;
   GltfBuffers& buffers_;
   const Attributes& attributes_;
+  GltfKept what_;
   std::shared_ptr<GltfKeepsake> kept_;
   GltfJson accessors_ = GltfJson::array(), views_ = GltfJson::array();
   std::unordered_map<std::size_t, std::size_t> accessor_numbers_, view_numbers_;
@@ -198,8 +243,8 @@ float GltfSmallV::original(std::size_t set, double u, double flipped) const {
 }
 
 std::shared_ptr<GltfKeepsake> make_gltf_keepsake(const GltfDocument& document, GltfBuffers& buffers,
-                                                 const Attributes& attributes) {
-  return KeepsakeMaker(document, buffers, attributes).run();
+                                                 const Attributes& attributes, GltfKept kept) {
+  return KeepsakeMaker(document, buffers, attributes, kept).run();
 }
 
 }  // namespace meshrepair

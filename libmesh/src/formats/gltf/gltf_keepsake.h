@@ -33,19 +33,30 @@ class GltfSmallV {
   std::map<Key, float> small_;
 };
 
+// What is to be kept.
+struct GltfKept {
+  bool scene = false;  // which nodes have which meshes
+  bool looks = true;   // materials, and what they need
+};
+
 struct GltfKeepsake final : Keepsake {
-  // The document without meshes, skins and buffers. Its nodes have no meshes. Its buffer views have
-  // no buffer yet, and are only those that images and animations need.
+  // The document without meshes, skins and buffers. Its nodes have no meshes unless has_scene; then
+  // they have them by their numbers in the file. Its buffer views have no buffer yet, and are only
+  // those that images, animations and instances need.
   GltfJson root;
+  bool has_scene = false;
+  std::vector<GltfJson> meshes;                           // if so: what they have besides triangles
   std::vector<std::shared_ptr<const std::string>> views;  // the bytes of root["bufferViews"]
   std::vector<std::string> materials;                     // labels of root["materials"]
   GltfSmallV small_v;
 };
 
-// `attributes` has the images and the names of the materials. Animations that cannot be kept are
-// left out. Throws InputError.
+// `attributes` has the images and the names of the materials, if there are to be looks. Animations
+// that cannot be kept are left out; meshes with skins get nodes that stand where they do. Throws
+// InputError.
 [[nodiscard]] std::shared_ptr<GltfKeepsake> make_gltf_keepsake(const GltfDocument& document,
                                                                GltfBuffers& buffers,
-                                                               const Attributes& attributes);
+                                                               const Attributes& attributes,
+                                                               GltfKept kept = {});
 
 }  // namespace meshrepair

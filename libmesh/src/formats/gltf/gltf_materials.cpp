@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "formats/common/named_files.h"
-#include "gltf_uri.h"
+#include "formats/common/uri.h"
 
 namespace meshrepair {
 namespace {

@@ -24,41 +24,93 @@ class GltfReader {
 
   ReadResult run() {
     result_.report.format = document_.is_binary() ? SoupFormat::glb : SoupFormat::gltf;
-    scene_ = read_scene(document_, buffers_);
+    result_.report.unit = LengthUnit::meter;
+    instances_ = read_scene(document_, buffers_);
     read_meshes();
     GltfValues values(primitives());
     read_labels();
-    const std::size_t triangles = count_triangles();
-    result_.soup.triangles.reserve(triangles);
-    PointWelder welder(result_.soup.points, triangles / 2);
-    for (const GltfInstance& instance : scene_.instances) {
-      const std::uint32_t object = object_of(instance);
-      for (const GltfPrimitive& primitive : meshes_[instance.mesh]) {
-        append(primitive, instance.placement, object, welder, values);
-      }
+    if (is_by_mesh()) {
+      list_meshes(values);
+    } else {
+      join_instances(values);
     }
-    guard_.step(triangles, source_.bytes.size());
+    guard_.step(result_.soup.triangles.size(), source_.bytes.size());
     finish(values);
     return std::move(result_);
   }
 
  private:
   [[nodiscard]] bool wants_attributes() const { return source_.options.attributes; }
+  [[nodiscard]] bool is_by_mesh() const { return source_.options.by_mesh; }
 
+  // Those of the scene, or all.
   void read_meshes() {
-    for (const GltfInstance& instance : scene_.instances) {
-      const auto [found, is_new] = meshes_.try_emplace(instance.mesh);
-      if (!is_new) continue;
-      const GltfJson& mesh = document_.entry("meshes", instance.mesh);
-      const GltfJson* const list = gltf_member(mesh, "primitives");
-      if (list == nullptr || !list->is_array()) continue;
-      for (const GltfJson& json : *list) {
-        guard_.step(0, 0);
-        auto primitive = read_primitive(document_, buffers_, json, oddities_);
-        if (!primitive) continue;
-        guard_.require(read_ += primitive->triangles());
-        found->second.push_back(std::move(*primitive));
+    if (is_by_mesh()) {
+      for (std::size_t m = 0; m < document_.count("meshes"); ++m) read_mesh(m);
+    } else {
+      for (const GltfInstance& instance : instances_) {
+        if (!meshes_.contains(instance.mesh)) read_mesh(instance.mesh);
       }
+    }
+  }
+
+  void read_mesh(std::size_t number) {
+    std::vector<GltfPrimitive>& primitives = meshes_[number];
+    const GltfJson* const list = gltf_member(document_.entry("meshes", number), "primitives");
+    if (list == nullptr || !list->is_array()) return;
+    for (const GltfJson& json : *list) {
+      guard_.step(0, 0);
+      auto primitive = read_primitive(document_, buffers_, json, oddities_);
+      if (!primitive) continue;
+      guard_.require(read_ += primitive->triangles());
+      primitives.push_back(std::move(*primitive));
+    }
+  }
+
+  void join_instances(GltfValues& values) {
+    const std::size_t triangles = count_triangles();
+    result_.soup.triangles.reserve(triangles);
+    PointWelder welder(result_.soup.points, triangles / 2);
+    for (const GltfInstance& instance : instances_) {
+      const std::uint32_t object = object_named(name_of(instance));
+      for (const GltfPrimitive& primitive : meshes_[instance.mesh]) {
+        append(primitive, instance.placement, object, welder, values);
+      }
+    }
+  }
+
+  void list_meshes(GltfValues& values) {
+    TriangleSoup& soup = result_.soup;
+    soup.triangles.reserve(read_);
+    Scene& scene = result_.scene;
+    for (const GltfInstance& instance : instances_) {
+      // A number that is too large was refused.
+      (void)document_.entry("meshes", instance.mesh);
+      scene.instances.push_back({static_cast<std::uint32_t>(instance.mesh),
+                                 gltf_text(document_.entry("nodes", instance.node), "name"),
+                                 instance.placement});
+    }
+    for (const auto& [number, primitives] : meshes_) {
+      SceneMesh mesh{gltf_text(document_.entry("meshes", number), "name"), 0, 0};
+      const std::uint32_t object = object_named(mesh.name);
+      std::vector<Vec3d> points;
+      const std::size_t first_point = soup.points.size(), first = soup.triangles.size();
+      PointWelder welder(points);
+      for (const GltfPrimitive& primitive : primitives) {
+        append(primitive, {}, object, welder, values);
+      }
+      for (std::size_t t = first; t < soup.triangles.size(); ++t) {
+        for (std::uint32_t& corner : soup.triangles[t]) {
+          corner += static_cast<std::uint32_t>(first_point);
+        }
+      }
+      soup.points.insert(soup.points.end(), points.begin(), points.end());
+      if (soup.points.size() >= kNone) {
+        throw LimitError(source_.name + ": more than 4294967294 points");
+      }
+      mesh.points = points.size();
+      mesh.triangles = soup.triangles.size() - first;
+      scene.meshes.push_back(std::move(mesh));
     }
   }
 
@@ -78,7 +130,7 @@ class GltfReader {
       for (const GltfPrimitive& primitive : mesh) of_mesh[number] += primitive.triangles();
     }
     std::size_t count = 0;
-    for (const GltfInstance& instance : scene_.instances) {
+    for (const GltfInstance& instance : instances_) {
       count += of_mesh[instance.mesh];
       if (count > kMost) {
         throw LimitError(source_.name + ": more than 4294967294 triangles, with all instances");
@@ -89,16 +141,19 @@ class GltfReader {
   }
 
   void read_labels() {
-    if (!wants_attributes()) return;
-    read_materials(document_, buffers_, result_.attributes);
-    kept_ = make_gltf_keepsake(document_, buffers_, result_.attributes);
+    if (wants_attributes()) read_materials(document_, buffers_, result_.attributes);
+    if (!wants_attributes() && !is_by_mesh()) return;
+    kept_ = make_gltf_keepsake(document_, buffers_, result_.attributes,
+                               {is_by_mesh(), wants_attributes()});
   }
 
-  std::uint32_t object_of(const GltfInstance& instance) {
-    if (!wants_attributes()) return kNone;
+  [[nodiscard]] std::string name_of(const GltfInstance& instance) const {
     std::string name = gltf_text(document_.entry("nodes", instance.node), "name");
-    if (name.empty()) name = gltf_text(document_.entry("meshes", instance.mesh), "name");
-    if (name.empty()) return kNone;
+    return name.empty() ? gltf_text(document_.entry("meshes", instance.mesh), "name") : name;
+  }
+
+  std::uint32_t object_named(const std::string& name) {
+    if (!wants_attributes() || name.empty()) return kNone;
     std::vector<std::string>& names = result_.attributes.objects.names;
     const auto [found, is_new] =
         objects_.try_emplace(name, static_cast<std::uint32_t>(names.size()));
@@ -106,11 +161,11 @@ class GltfReader {
     return found->second;
   }
 
-  void append(const GltfPrimitive& primitive, const GltfPlacement& placement, std::uint32_t object,
+  void append(const GltfPrimitive& primitive, const Placement& placement, std::uint32_t object,
               PointWelder& welder, GltfValues& values) {
     const std::vector<std::uint32_t> points = add_points(primitive, placement, welder);
     // Seen in a mirror triangles turn.
-    const bool is_mirrored = placement.linear.determinant() < 0;
+    const bool is_mirrored = placement.mirrors();
     std::vector<std::uint32_t> turned;
     if (is_mirrored) {
       turned = primitive.corners;
@@ -131,8 +186,7 @@ class GltfReader {
   }
 
   static std::vector<std::uint32_t> add_points(const GltfPrimitive& primitive,
-                                               const GltfPlacement& placement,
-                                               PointWelder& welder) {
+                                               const Placement& placement, PointWelder& welder) {
     const bool is_moved = !placement.is_identity();
     std::vector<std::uint32_t> points;
     points.reserve(primitive.vertices.size());
@@ -140,7 +194,7 @@ class GltfReader {
       const GltfAccessor& positions = primitive.positions;
       Vec3d point(positions.value(vertex, 0), positions.value(vertex, 1),
                   positions.value(vertex, 2));
-      if (is_moved) point = placement.apply(point);
+      if (is_moved) point = placement.of(point);
       points.push_back(welder.index_of(point));
     }
     return points;
@@ -149,15 +203,18 @@ class GltfReader {
   void finish(GltfValues& values) {
     ReadReport& report = result_.report;
     oddities_.report(report);
-    if (scene_.has_skins)
+    if (std::any_of(instances_.begin(), instances_.end(), [](const auto& i) { return i.has_skin; }))
       report.warnings.emplace_back("meshes with skins are read as without joints");
     report.trailing_bytes = document_.trailing_bytes();
     if (report.trailing_bytes > 0) {
       report.warnings.push_back(counted(report.trailing_bytes, "byte") +
                                 " after the end of the binary glTF ignored");
     }
-    if (!wants_attributes()) return;
     Attributes& attributes = result_.attributes;
+    if (!wants_attributes()) {
+      attributes.keepsake = std::move(kept_);
+      return;
+    }
     attributes.corners = values.take_corners();
     if (attributes.materials.names.empty()) attributes.materials = {};
     if (attributes.objects.names.empty()) attributes.objects = {};
@@ -169,7 +226,7 @@ class GltfReader {
   GltfDocument document_;
   GltfBuffers buffers_;
   ReadGuard guard_;
-  GltfScene scene_;
+  std::vector<GltfInstance> instances_;
   GltfOddities oddities_;
   std::map<std::size_t, std::vector<GltfPrimitive>> meshes_;
   std::size_t read_ = 0;  // triangles, before instances

@@ -10,11 +10,6 @@
 namespace meshrepair {
 namespace {
 
-GltfPlacement product(const GltfPlacement& a, const GltfPlacement& b) {
-  if (a.is_identity()) return b;
-  return {a.linear * b.linear, a.apply(b.offset)};
-}
-
 Eigen::Matrix3d rotation_of(const std::array<double, 4>& q) {
   const double squares = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   if (!(squares > 0)) return Eigen::Matrix3d::Identity();
@@ -27,8 +22,8 @@ Eigen::Matrix3d rotation_of(const std::array<double, 4>& q) {
   return m;
 }
 
-GltfPlacement placement_of(const Vec3d& offset, const std::array<double, 4>& rotation,
-                           const Vec3d& scale) {
+Placement placement_of(const Vec3d& offset, const std::array<double, 4>& rotation,
+                       const Vec3d& scale) {
   return {rotation_of(rotation) * scale.asDiagonal(), offset};
 }
 
@@ -51,9 +46,9 @@ std::optional<std::array<double, kCount>> numbers_in(const GltfDocument& documen
   return numbers;
 }
 
-GltfPlacement placement_of_node(const GltfDocument& document, const GltfJson& node) {
+Placement placement_of_node(const GltfDocument& document, const GltfJson& node) {
   if (const auto m = numbers_in<16>(document, node, "matrix")) {
-    GltfPlacement placement;
+    Placement placement;
     placement.linear << (*m)[0], (*m)[4], (*m)[8],  //
         (*m)[1], (*m)[5], (*m)[9],                  //
         (*m)[2], (*m)[6], (*m)[10];
@@ -92,7 +87,7 @@ class InstanceList {
 
   [[nodiscard]] std::size_t count() const { return count_.value_or(0); }
 
-  [[nodiscard]] GltfPlacement operator[](std::size_t i) const {
+  [[nodiscard]] Placement operator[](std::size_t i) const {
     std::array<double, 4> rotation = {0, 0, 0, 1};
     for (std::size_t k = 0; k < 4 && rotations_.count() > 0; ++k)
       rotation[k] = rotations_.value(i, k);
@@ -115,20 +110,20 @@ class SceneReader {
   SceneReader(const GltfDocument& document, GltfBuffers& buffers)
       : document_(document), buffers_(buffers), is_visited_(document.count("nodes"), 0) {}
 
-  GltfScene run() {
+  std::vector<GltfInstance> run() {
     push(roots(), {});
     while (!open_.empty()) {
       const Open next = open_.back();
       open_.pop_back();
       visit(next);
     }
-    return std::move(scene_);
+    return std::move(instances_);
   }
 
  private:
   struct Open {
     std::size_t node;
-    GltfPlacement parent;
+    Placement parent;
   };
 
   [[nodiscard]] std::vector<std::size_t> numbers(const GltfJson& object, const char* key) const {
@@ -160,7 +155,7 @@ class SceneReader {
   }
 
   // So that the first is visited first.
-  void push(const std::vector<std::size_t>& nodes, const GltfPlacement& parent) {
+  void push(const std::vector<std::size_t>& nodes, const Placement& parent) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open_.push_back({*node, parent});
   }
 
@@ -170,29 +165,27 @@ class SceneReader {
       document_.source().fail("its nodes are no tree: nodes[" + std::to_string(open.node) +
                               "] is reached twice");
     }
-    const GltfPlacement placement = product(open.parent, placement_of_node(document_, node));
+    const Placement placement = placement_of_node(document_, node).then(open.parent);
     if (const auto mesh = document_.whole(node, "mesh")) {
       add(open.node, node, *mesh, placement);
     }
     push(numbers(node, "children"), placement);
   }
 
-  void add(std::size_t number, const GltfJson& node, std::size_t mesh,
-           const GltfPlacement& placement) {
+  void add(std::size_t number, const GltfJson& node, std::size_t mesh, const Placement& placement) {
     if (gltf_member(node, "skin") != nullptr) {
       // Joints move such a mesh, its node does not.
-      scene_.has_skins = true;
-      scene_.instances.push_back({number, mesh, {}});
+      instances_.push_back({number, mesh, true, {}});
       return;
     }
     const GltfJson* const extension = gltf_extension(node, "EXT_mesh_gpu_instancing");
     if (extension == nullptr) {
-      scene_.instances.push_back({number, mesh, placement});
+      instances_.push_back({number, mesh, false, placement});
       return;
     }
     const InstanceList list(document_, buffers_, *extension);
     for (std::size_t i = 0; i < list.count(); ++i) {
-      scene_.instances.push_back({number, mesh, product(placement, list[i])});
+      instances_.push_back({number, mesh, false, list[i].then(placement)});
     }
   }
 
@@ -200,25 +193,12 @@ class SceneReader {
   GltfBuffers& buffers_;
   std::vector<char> is_visited_;
   std::vector<Open> open_;
-  GltfScene scene_;
+  std::vector<GltfInstance> instances_;
 };
 
 }  // namespace
 
-bool GltfPlacement::is_identity() const {
-  return linear == Eigen::Matrix3d::Identity() && offset == Vec3d::Zero();
-}
-
-Vec3d GltfPlacement::apply(const Vec3d& point) const {
-  Vec3d result;
-  for (int row = 0; row < 3; ++row) {
-    result[row] = linear(row, 0) * point.x() + linear(row, 1) * point.y() +
-                  linear(row, 2) * point.z() + offset[row];
-  }
-  return result;
-}
-
-GltfScene read_scene(const GltfDocument& document, GltfBuffers& buffers) {
+std::vector<GltfInstance> read_scene(const GltfDocument& document, GltfBuffers& buffers) {
   return SceneReader(document, buffers).run();
 }
 

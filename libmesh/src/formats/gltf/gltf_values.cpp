@@ -101,7 +101,7 @@ GltfValues::GltfValues(const std::vector<const GltfPrimitive*>& primitives) {
   }
 }
 
-void GltfValues::append(const GltfPrimitive& primitive, const GltfPlacement& placement,
+void GltfValues::append(const GltfPrimitive& primitive, const Placement& placement,
                         const std::vector<std::uint32_t>& corners) {
   std::vector<std::uint32_t> number_of(primitive.vertices.size());
   for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -125,7 +125,7 @@ void GltfValues::append(const GltfPrimitive& primitive, const GltfPlacement& pla
 }
 
 void GltfValues::fill(const GltfAccessor& accessor, std::uint32_t vertex,
-                      const GltfPlacement& placement, std::size_t set) {
+                      const Placement& placement, std::size_t set) {
   const CornerAttribute& attribute = sets_[set].attribute;
   value_.assign(attribute.components, attribute.kind == CornerAttribute::Kind::colour ? 1 : 0);
   const std::size_t count = std::min(attribute.components, accessor.components());

@@ -25,7 +25,7 @@ class GltfValues {
   explicit GltfValues(const std::vector<const GltfPrimitive*>& primitives);
 
   // For the triangles of one of them that stands there; its corners are in that order.
-  void append(const GltfPrimitive& primitive, const GltfPlacement& placement,
+  void append(const GltfPrimitive& primitive, const Placement& placement,
               const std::vector<std::uint32_t>& corners);
 
   // At the end.
@@ -39,7 +39,7 @@ class GltfValues {
   };
   using Key = std::pair<CornerAttribute::Kind, std::pair<std::size_t, std::string>>;
 
-  void fill(const GltfAccessor& accessor, std::uint32_t vertex, const GltfPlacement& placement,
+  void fill(const GltfAccessor& accessor, std::uint32_t vertex, const Placement& placement,
             std::size_t set);
   std::uint32_t number_of_value(Set& set);
 

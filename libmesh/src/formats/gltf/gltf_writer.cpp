@@ -8,10 +8,11 @@
 #include <utility>
 
 #include "formats/common/named_files.h"
+#include "formats/common/uri.h"
 #include "gltf_builder.h"
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
-#include "gltf_uri.h"
+#include "gltf_nodes.h"
 #include "gltf_vertices.h"
 
 namespace meshrepair {
@@ -32,30 +33,62 @@ std::string media_type_of(const Image& image) {
 
 class GltfWriter {
  public:
-  GltfWriter(const TriangleSoup& soup, const Attributes* attributes, const fs::path& folder)
+  GltfWriter(const TriangleSoup& soup, const SoupExtras& extras)
       : soup_(soup),
-        attributes_(attributes),
-        kept_(attributes == nullptr
+        extras_(extras),
+        attributes_(extras.attributes),
+        kept_(attributes_ == nullptr
                   ? nullptr
-                  : dynamic_cast<const GltfKeepsake*>(attributes->keepsake.get())),
-        folder_(folder),
+                  : dynamic_cast<const GltfKeepsake*>(attributes_->keepsake.get())),
+        scale_(extras.unit ? millimeters(*extras.unit) / millimeters(LengthUnit::meter) : 1),
         builder_(kept_) {}
 
-  std::string run(const std::vector<std::string>& comments, bool binary) {
-    add_comments(comments);
+  std::string run(bool binary) {
+    add_comments();
     move_image_names();
-    if (!soup_.triangles.empty()) {
-      add_node(add_mesh());
+    if (extras_.scene != nullptr) {
+      add_scene(*extras_.scene);
+    } else if (!soup_.triangles.empty()) {
+      const std::size_t mesh = add_mesh(0, soup_.triangles.size(), GltfJson::object());
+      GltfJson node = {{"mesh", mesh}, {"name", name_of_object()}};
+      if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
+      add_gltf_node(builder_, std::move(node));
     }
     return builder_.finish(binary);
   }
 
  private:
-  void add_comments(const std::vector<std::string>& comments) {
-    if (comments.empty()) return;
+  void add_comments() {
+    if (extras_.comments.empty()) return;
     GltfJson& extras = builder_.root()["asset"]["extras"];
     if (extras.is_null()) extras = GltfJson::object();
-    if (extras.is_object()) extras["comments"] = comments;
+    if (extras.is_object()) extras["comments"] = extras_.comments;
+  }
+
+  [[nodiscard]] std::string name_of_object() const {
+    const bool is_one = attributes_ != nullptr && attributes_->objects.names.size() == 1;
+    return is_one ? attributes_->objects.names.front() : std::string();
+  }
+
+  // Nodes name meshes by their numbers; meshes without triangles are left out.
+  void add_scene(const Scene& scene) {
+    const bool is_kept = kept_ != nullptr && kept_->has_scene;
+    std::vector<std::size_t> numbers;
+    std::size_t first = 0;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+      const SceneMesh& mesh = scene.meshes[m];
+      GltfJson json = is_kept && m < kept_->meshes.size() ? kept_->meshes[m] : GltfJson::object();
+      if (!is_kept && !mesh.name.empty()) json["name"] = mesh.name;
+      numbers.push_back(mesh.triangles == 0
+                            ? kNoGltfMesh
+                            : add_mesh(first, first + mesh.triangles, std::move(json)));
+      first += mesh.triangles;
+    }
+    if (is_kept) {
+      renumber_gltf_meshes(builder_, numbers);
+    } else {
+      add_gltf_instances(builder_, scene, numbers, scale_);
+    }
   }
 
   // Of the file that was read: they were relative to its folder.
@@ -77,24 +110,27 @@ class GltfWriter {
   }
 
   [[nodiscard]] std::string relative_name(const Image& image) const {
-    return name_seen_from(folder_, image.path);
+    return name_seen_from(extras_.folder, image.path);
   }
 
-  std::size_t add_mesh() {
+  // Of the triangles from `first` to `end`; `mesh` is what else it has.
+  std::size_t add_mesh(std::size_t first, std::size_t end, GltfJson mesh) {
     GltfJson primitives = GltfJson::array();
-    for (const auto& [label, triangles] : triangles_by_label()) {
+    for (const auto& [label, triangles] : triangles_by_label(first, end)) {
       GltfJson primitive = make_primitive(triangles);
       if (label != kNone) primitive["material"] = material_of(label);
       primitives.push_back(std::move(primitive));
     }
-    return builder_.append("meshes", {{"primitives", std::move(primitives)}});
+    mesh["primitives"] = std::move(primitives);
+    return builder_.append("meshes", std::move(mesh));
   }
 
   // In the order of the labels, those without at the end.
-  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_by_label() const {
+  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_by_label(
+      std::size_t first, std::size_t end) const {
     std::map<std::uint32_t, std::vector<std::uint32_t>> lists;
     const bool has_labels = attributes_ != nullptr && !attributes_->materials.empty();
-    for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
+    for (auto t = static_cast<std::uint32_t>(first); t < end; ++t) {
       lists[has_labels ? attributes_->materials.of_triangle[t] : kNone].push_back(t);
     }
     return lists;
@@ -209,66 +245,19 @@ class GltfWriter {
     return builder_.append("images", std::move(json));
   }
 
-  void add_node(std::size_t mesh) {
-    GltfJson node = {{"mesh", mesh}};
-    if (attributes_ != nullptr && attributes_->objects.names.size() == 1) {
-      node["name"] = attributes_->objects.names.front();
-    }
-    GltfJson& root = builder_.root();
-    const std::vector<std::size_t> roots = root_nodes();
-    const std::size_t number = builder_.append("nodes", std::move(node));
-    const auto scenes = root.find("scenes");
-    if (scenes == root.end() || !scenes->is_array() || scenes->empty()) {
-      GltfJson nodes = roots;
-      nodes.push_back(number);
-      root["scenes"] = GltfJson::array({{{"nodes", std::move(nodes)}}});
-      root["scene"] = 0;
-      return;
-    }
-    const GltfJson* const chosen = gltf_member(root, "scene");
-    const std::size_t scene = chosen == nullptr ? 0 : chosen->get<std::size_t>();
-    root["scene"] = scene;
-    GltfJson& nodes = root["scenes"][scene]["nodes"];
-    if (!nodes.is_array()) nodes = GltfJson::array();
-    nodes.push_back(number);
-  }
-
-  // Those without parents.
-  [[nodiscard]] std::vector<std::size_t> root_nodes() {
-    std::vector<std::size_t> roots;
-    const GltfJson* const nodes = gltf_member(builder_.root(), "nodes");
-    if (nodes == nullptr) return roots;
-    std::vector<char> is_child(nodes->size(), 0);
-    for (const GltfJson& node : *nodes) {
-      const GltfJson* const children = gltf_member(node, "children");
-      if (children == nullptr) continue;
-      for (const GltfJson& child : *children) {
-        if (!child.is_number()) continue;
-        const auto number = child.get<double>();
-        if (number >= 0 && number < static_cast<double>(is_child.size())) {
-          is_child[static_cast<std::size_t>(number)] = 1;
-        }
-      }
-    }
-    for (std::size_t n = 0; n < is_child.size(); ++n) {
-      if (is_child[n] == 0) roots.push_back(n);
-    }
-    return roots;
-  }
-
   const TriangleSoup& soup_;
+  const SoupExtras& extras_;
   const Attributes* attributes_;
   const GltfKeepsake* kept_;
-  fs::path folder_;
+  double scale_;  // of the soup, to be in meters
   GltfBuilder builder_;
   std::unordered_map<std::uint32_t, std::size_t> textures_;
 };
 
 }  // namespace
 
-std::string format_gltf(const TriangleSoup& soup, const std::vector<std::string>& comments,
-                        const Attributes* attributes, bool binary, const fs::path& folder) {
-  return GltfWriter(soup, attributes, folder).run(comments, binary);
+std::string format_gltf(const TriangleSoup& soup, const SoupExtras& extras, bool binary) {
+  return GltfWriter(soup, extras).run(binary);
 }
 
 }  // namespace meshrepair

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -10,6 +11,7 @@
 #include <mesh/attributes.h>
 #include <mesh/mesh_source.h>
 
+#include "model_instances.h"
 #include "model_part.h"
 #include "package_parts.h"
 #include "zip_reader.h"
@@ -28,7 +30,8 @@ struct KeptPackage final : Keepsake {
     std::string u, v, filter;
   };
 
-  std::string unit;  // empty: not known
+  std::optional<LengthUnit> unit;
+  std::optional<KeptGraph> graph;  // of the scene, if meshes were read one by one
   std::vector<ModelNamespace> namespaces;
   std::vector<ModelMetadata> metadata;
   std::vector<Part> parts;

@@ -41,7 +41,10 @@ class InstancePlacer {
  public:
   InstancePlacer(const MeshSource& source, const std::vector<ModelPart>& parts)
       : source_(source), parts_(parts), cancel_(source.options.progress) {
-    for (const ModelPart& part : parts) known_.emplace_back(part.objects.size());
+    for (const ModelPart& part : parts) {
+      known_.emplace_back(part.objects.size());
+      result_.mesh_of_object.emplace_back(part.objects.size(), kNone);
+    }
   }
 
   InstanceResult run() {
@@ -56,6 +59,7 @@ class InstancePlacer {
         place(item.part, *number, placement_in(0, item), {});
       }
     }
+    if (source_.options.by_mesh) keep_graph(items);
     return std::move(result_);
   }
 
@@ -161,25 +165,83 @@ class InstancePlacer {
     }
   }
 
+  // Of objects that are or hold a mesh; those that others have as components come before these.
+  void keep_graph(const std::vector<ObjectReference>& items) {
+    std::vector<std::vector<std::uint32_t>> kept;
+    for (const ModelPart& part : parts_) kept.emplace_back(part.objects.size(), kNone);
+    for (const ObjectReference& item : items) keep_reference(0, item, kept, result_.graph.items);
+  }
+
+  void keep_reference(std::uint32_t part, const ObjectReference& reference,
+                      std::vector<std::vector<std::uint32_t>>& kept,
+                      std::vector<KeptReference>& to) {
+    const auto number = number_of(reference);
+    if (!number || known_[reference.part][*number].total.triangles == 0) return;
+    std::uint32_t& object = kept[reference.part][*number];
+    if (object == kNone) object = keep_object(reference.part, *number, kept);
+    to.push_back({object, placement_in(part, reference)});
+  }
+
+  std::uint32_t keep_object(std::uint32_t part, std::uint32_t number,
+                            std::vector<std::vector<std::uint32_t>>& kept) {
+    const ModelObject& object = parts_[part].objects[number];
+    KeptObject fresh{object.name, result_.mesh_of_object[part][number], {}};
+    for (const ObjectReference& component : object.components) {
+      keep_reference(part, component, kept, fresh.components);
+    }
+    result_.graph.objects.push_back(std::move(fresh));
+    return static_cast<std::uint32_t>(result_.graph.objects.size() - 1);
+  }
+
   // In the unit of the part that names it.
   [[nodiscard]] Placement placement_in(std::uint32_t part, const ObjectReference& reference) const {
-    const double from = millimeters_of(parts_[reference.part].unit).value_or(1);
-    const double to = millimeters_of(parts_[part].unit).value_or(1);
+    const auto unit_of = [&](std::uint32_t one) {
+      return millimeters(parts_[one].unit.value_or(LengthUnit::millimeter));
+    };
+    const double from = unit_of(reference.part), to = unit_of(part);
     if (from == to) return reference.placement;
     Placement scale;
-    scale.identity = false;
-    scale.m[0] = scale.m[4] = scale.m[8] = from / to;
+    scale.linear *= from / to;
     return scale.then(reference.placement);
   }
 
   void add_mesh(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {
+    if (source_.options.by_mesh) {
+      add_instance(part, number, placement, named);
+      return;
+    }
+    append(part, number, placement, named);
+  }
+
+  // The mesh itself once, and where it stands.
+  void add_instance(std::uint32_t part, std::uint32_t number, const Placement& placement,
+                    Named named) {
+    Scene& scene = result_.scene;
+    std::uint32_t& mesh = result_.mesh_of_object[part][number];
+    const std::string& name = named.object == kNone ? parts_[part].objects[number].name
+                                                    : parts_[named.part].objects[named.object].name;
+    if (mesh == kNone) {
+      mesh = static_cast<std::uint32_t>(scene.meshes.size());
+      const std::size_t points = result_.soup.points.size();
+      const std::size_t triangles = result_.soup.triangles.size();
+      append(part, number, {}, named);
+      scene.meshes.push_back(
+          {name, result_.soup.points.size() - points, result_.soup.triangles.size() - triangles});
+    }
+    scene.instances.push_back({mesh, name, placement});
+  }
+
+  void append(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {
     const TriangleSoup& mesh = parts_[part].objects[number].mesh;
     TriangleSoup& soup = result_.soup;
+    const bool moved = !placement.is_identity();
     const bool turned = placement.mirrors();
     const auto first = static_cast<std::uint32_t>(soup.points.size());
     result_.instances.push_back(
         {part, number, named.object, named.part, soup.triangles.size(), turned});
-    for (const Vec3d& point : mesh.points) soup.points.push_back(placement.of(point));
+    for (const Vec3d& point : mesh.points)
+      soup.points.push_back(moved ? placement.of(point) : point);
+
     for (const auto& [a, b, c] : mesh.triangles) {
       soup.triangles.push_back({first + a, first + (turned ? c : b), first + (turned ? b : c)});
     }

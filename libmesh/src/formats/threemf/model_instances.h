@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <mesh/mesh_source.h>
+#include <mesh/scene.h>
 #include <mesh/soup.h>
 
 #include "model_part.h"
@@ -22,8 +24,32 @@ struct MeshInstance {
   bool turned = false;    // second and third corners have changed places
 };
 
+// An object of a build, or a component of an object.
+struct KeptReference {
+  std::uint32_t object = 0;  // of KeptGraph::objects
+  Placement placement;
+};
+
+struct KeptObject {
+  std::string name;
+  std::uint32_t mesh = kNone;  // of the scene, if it has one
+  std::vector<KeptReference> components;
+};
+
+// What a build is made of. An object stands behind its components.
+struct KeptGraph {
+  std::vector<KeptObject> objects;
+  std::vector<KeptReference> items;
+};
+
 struct InstanceResult {
   TriangleSoup soup;
+  // If they are asked for mesh by mesh:
+  Scene scene;
+  KeptGraph graph;
+  // Of each part and each of its objects: its number in the scene, or kNone.
+  std::vector<std::vector<std::uint32_t>> mesh_of_object;
+  // In the soup. Mesh by mesh each stands there once, where it is.
   std::vector<MeshInstance> instances;
   std::size_t missing = 0;   // references to objects that are not there
   std::size_t left_out = 0;  // references to objects of types that are not built

@@ -4,27 +4,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include <base/ids.h>
+#include <mesh/length_unit.h>
+#include <mesh/placement.h>
 #include <mesh/soup.h>
 
 namespace meshrepair {
-
-// Where an instance is put: x' = x m0 + y m3 + z m6 + m9, y' = x m1 + ..., as the format lists
-// them.
-struct Placement {
-  std::array<double, 12> m = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-  bool identity = true;
-
-  [[nodiscard]] Vec3d of(const Vec3d& p) const;
-  // This one first, then the other.
-  [[nodiscard]] Placement then(const Placement& next) const;
-  // Inside and outside change places.
-  [[nodiscard]] bool mirrors() const;
-};
 
 // Of a triangle or an object: which entry of which group its corners have.
 struct PropertyUse {
@@ -83,7 +73,7 @@ struct ModelNamespace {
 
 struct ModelPart {
   std::string name;  // of the part
-  std::string unit;
+  std::optional<LengthUnit> unit;
   std::vector<ModelNamespace> namespaces;
   std::vector<ModelMetadata> metadata;
   std::vector<ModelObject> objects;

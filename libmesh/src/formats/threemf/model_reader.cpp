@@ -204,9 +204,10 @@ void ModelReader::open_property(Element element, const XmlAttributes& attributes
 
 void ModelReader::read_model(const XmlAttributes& attributes) {
   saw_model_ = true;
-  part_.unit = attributes.text("unit");
-  if (!part_.unit.empty() && !millimeters_of(part_.unit)) {
-    oddities_.unknown_unit = std::exchange(part_.unit, {});
+  const std::string unit = attributes.text("unit");
+  part_.unit = unit_named(unit);
+  if (!part_.unit && !unit.empty()) {
+    oddities_.unknown_unit = unit;
   }
   const std::string required = attributes.text("requiredextensions");
   std::string_view rest = required;

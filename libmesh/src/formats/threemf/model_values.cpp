@@ -59,26 +59,15 @@ std::optional<ModelColour> read_model_colour(std::string_view text) {
   return colour;
 }
 
-std::optional<double> millimeters_of(std::string_view unit) {
-  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits = {{{"micron", 0.001},
-                                                                          {"millimeter", 1},
-                                                                          {"centimeter", 10},
-                                                                          {"inch", 25.4},
-                                                                          {"foot", 304.8},
-                                                                          {"meter", 1000}}};
-  const auto* const found = std::find_if(kUnits.begin(), kUnits.end(),
-                                         [&](const auto& one) { return one.first == unit; });
-  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
-}
-
 std::optional<Placement> read_placement(std::string_view text) {
-  const Placement none;
   Placement placement;
-  for (double& value : placement.m) {
-    if (!read_model_number(take_word(text), value) || !std::isfinite(value)) return std::nullopt;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      double& value = row < 3 ? placement.linear(column, row) : placement.offset[column];
+      if (!read_model_number(take_word(text), value) || !std::isfinite(value)) return std::nullopt;
+    }
   }
   if (!take_word(text).empty()) return std::nullopt;
-  placement.identity = placement.m == none.m;
   return placement;
 }
 

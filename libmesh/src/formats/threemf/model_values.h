@@ -27,10 +27,8 @@ struct ModelColour {
 // "#RRGGBB" or "#RRGGBBAA".
 [[nodiscard]] std::optional<ModelColour> read_model_colour(std::string_view text);
 
-// Nothing where it is no unit of the format.
-[[nodiscard]] std::optional<double> millimeters_of(std::string_view unit);
-
-// Twelve numbers, all finite. Nothing where it is no such thing.
+// Twelve numbers, all finite: x' = x m0 + y m3 + z m6 + m9, y' = x m1 + ... Nothing where it is no
+// such thing.
 [[nodiscard]] std::optional<Placement> read_placement(std::string_view text);
 
 }  // namespace meshrepair

@@ -4,12 +4,11 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <mesh/attributes.h>
 #include <mesh/mesh_source.h>
 #include <mesh/reading.h>
 #include <mesh/soup.h>
+#include <mesh/soup_extras.h>
 
 namespace meshrepair {
 
@@ -29,12 +28,10 @@ namespace meshrepair {
 // those of components.
 [[nodiscard]] ReadResult read_threemf(const MeshSource& source);
 
-// A package with one object. `attributes` may be null. Of them it holds materials, colours in eight
-// bits where all three corners have one, coordinates in textures where the material has a picture
-// in PNG or JPEG, the name of an object if it is the only one, and the keepsake of another 3MF.
-// Throws OutputError where a coordinate is no finite number: the format has none.
-[[nodiscard]] std::string format_threemf(const TriangleSoup& soup,
-                                         const std::vector<std::string>& comments,
-                                         const Attributes* attributes);
+// A package with one object, or those of the scene. Of attributes it holds materials, colours in
+// eight bits where all three corners have one, coordinates in textures where the material has a
+// picture in PNG or JPEG, the name of an object if it is the only one, and the keepsake of another
+// 3MF. Throws OutputError where a coordinate is no finite number: the format has none.
+[[nodiscard]] std::string format_threemf(const TriangleSoup& soup, const SoupExtras& extras);
 
 }  // namespace meshrepair

@@ -33,8 +33,10 @@ class ThreemfReader {
     read_parts(find_start());
     InstanceResult placed = place_instances(source_, parts_);
     report_oddities(placed);
-    if (source_.options.attributes) read_attributes(placed);
+    if (source_.options.attributes || source_.options.by_mesh) keep_rest(placed);
+    result_.scene = std::move(placed.scene);
     result_.soup = std::move(placed.soup);
+    result_.report.unit = parts_.front().unit.value_or(LengthUnit::millimeter);
     return std::move(result_);
   }
 
@@ -139,12 +141,19 @@ class ThreemfReader {
     if (count > 0) warn(counted(count, noun) + what);
   }
 
-  void read_attributes(const InstanceResult& placed) {
+  void keep_rest(InstanceResult& placed) {
     auto kept = std::make_shared<KeptPackage>();
+    if (source_.options.attributes) read_attributes(placed, *kept);
+    kept->unit = parts_.front().unit;
+    if (source_.options.by_mesh) kept->graph = std::move(placed.graph);
+    result_.attributes.keepsake = std::move(kept);
+  }
+
+  void read_attributes(const InstanceResult& placed, KeptPackage& kept) {
     types_.read(source_, archive_);
     std::unordered_set<std::string> taken;
     const FindPicture find = [&](const ModelPart& part, const ModelTexture& texture) {
-      return picture_of(part, texture, *kept, taken);
+      return picture_of(part, texture, kept, taken);
     };
     PropertyOddities oddities;
     result_.attributes = attributes_of(parts_, placed, find, oddities);
@@ -155,11 +164,9 @@ class ThreemfReader {
     warn_if(oddities_.unknown_groups, "group",
             " of properties left out: mixtures of materials, or too many layers");
     ModelPart& first = parts_.front();
-    kept->unit = first.unit;
-    kept->namespaces = std::move(first.namespaces);
-    kept->metadata = std::move(first.metadata);
-    keep_parts(source_, archive_, types_, first.name, taken, *kept, result_.report);
-    result_.attributes.keepsake = std::move(kept);
+    kept.namespaces = std::move(first.namespaces);
+    kept.metadata = std::move(first.metadata);
+    keep_parts(source_, archive_, types_, first.name, taken, kept, result_.report);
   }
 
   std::optional<Image> picture_of(const ModelPart& part, const ModelTexture& texture,

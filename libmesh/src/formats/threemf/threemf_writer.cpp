@@ -41,11 +41,10 @@ void require_writable(const TriangleSoup& soup) {
 // The model part, as text.
 class ModelWriter {
  public:
-  ModelWriter(const TriangleSoup& soup, const std::vector<std::string>& comments,
-              const Attributes* attributes, const KeptPackage* kept)
-      : soup_(soup), comments_(comments), attributes_(attributes), kept_(kept) {
+  ModelWriter(const TriangleSoup& soup, const SoupExtras& extras, const KeptPackage* kept)
+      : soup_(soup), extras_(extras), attributes_(extras.attributes), kept_(kept) {
     material_ = free_prefix();
-    if (attributes != nullptr) properties_ = write_properties(soup, *attributes, kept, material_);
+    if (attributes_ != nullptr) properties_ = write_properties(soup, *attributes_, kept, material_);
   }
 
   std::string run() {
@@ -53,10 +52,10 @@ class ModelWriter {
     open_model();
     write_metadata();
     xml_ += "<resources>\n" + properties_.resources;
-    write_object();
-    xml_ += "</resources>\n<build>\n<item";
-    append_xml_attribute(xml_, "objectid", std::to_string(properties_.next_id));
-    xml_ += "/>\n</build>\n</model>\n";
+    const std::vector<KeptReference> items = write_objects();
+    xml_ += "</resources>\n<build>\n";
+    for (const KeptReference& item : items) write_reference("item", item);
+    xml_ += "</build>\n</model>\n";
     return std::move(xml_);
   }
 
@@ -79,8 +78,9 @@ class ModelWriter {
 
   void open_model() {
     xml_ += "<model";
-    const bool has_unit = kept_ != nullptr && !kept_->unit.empty();
-    append_xml_attribute(xml_, "unit", has_unit ? kept_->unit : "millimeter");
+    const std::optional<LengthUnit> unit =
+        kept_ != nullptr && !extras_.unit ? kept_->unit : extras_.unit;
+    append_xml_attribute(xml_, "unit", unit_name(unit.value_or(LengthUnit::millimeter)));
     append_xml_attribute(xml_, "xml:lang", "en-US");
     append_xml_attribute(xml_, "xmlns", kCoreSpace);
     if (!properties_.resources.empty()) {
@@ -107,7 +107,8 @@ class ModelWriter {
   // Names are to be different; comments go behind the description.
   void write_metadata() {
     std::string lines;
-    for (const std::string& comment : comments_) lines += (lines.empty() ? "" : "\n") + comment;
+    for (const std::string& comment : extras_.comments)
+      lines += (lines.empty() ? "" : "\n") + comment;
     std::unordered_set<std::string> names;
     if (kept_ != nullptr) {
       for (ModelMetadata one : kept_->metadata) {
@@ -149,21 +150,105 @@ class ModelWriter {
     return only == kNone ? std::string() : attributes_->objects.names[only];
   }
 
-  void write_object() {
-    xml_ += "<object";
-    append_xml_attribute(xml_, "id", std::to_string(properties_.next_id));
-    append_xml_attribute(xml_, "type", "model");
-    if (const std::string name = name_of_object(); !name.empty()) {
-      append_xml_attribute(xml_, "name", name);
+  // Returns what is to be built, by the ids of objects.
+  std::vector<KeptReference> write_objects() {
+    if (extras_.scene == nullptr) {
+      const MeshRange all{0, soup_.points.size(), 0, soup_.triangles.size()};
+      return {{write_mesh(all, name_of_object()), {}}};
     }
+    const Scene& scene = *extras_.scene;
+    const bool has_graph = kept_ != nullptr && kept_->graph;
+    std::vector<std::uint32_t> ids;  // of meshes
+    MeshRange range;
+    for (const SceneMesh& mesh : scene.meshes) {
+      range = {range.point_end, range.point_end + mesh.points, range.end,
+               range.end + mesh.triangles};
+      ids.push_back(mesh.triangles == 0 ? kNone : write_mesh(range, mesh.name));
+    }
+    return has_graph ? write_graph(*kept_->graph, ids) : items_of(scene, ids);
+  }
+
+  static std::vector<KeptReference> items_of(const Scene& scene,
+                                             const std::vector<std::uint32_t>& ids) {
+    std::vector<KeptReference> items;
+    for (const SceneInstance& instance : scene.instances) {
+      if (ids[instance.mesh] != kNone) items.push_back({ids[instance.mesh], instance.placement});
+    }
+    return items;
+  }
+
+  // Objects that hold nothing any more are left out.
+  std::vector<KeptReference> write_graph(const KeptGraph& graph,
+                                         const std::vector<std::uint32_t>& ids) {
+    std::vector<std::uint32_t> id_of;  // of objects
+    const auto numbered = [&](const std::vector<KeptReference>& references) {
+      std::vector<KeptReference> list;
+      for (const KeptReference& one : references) {
+        if (id_of[one.object] != kNone) list.push_back({id_of[one.object], one.placement});
+      }
+      return list;
+    };
+    for (const KeptObject& object : graph.objects) {
+      std::vector<KeptReference> components = numbered(object.components);
+      const std::uint32_t mesh = object.mesh == kNone ? kNone : ids[object.mesh];
+      if (components.empty()) {
+        id_of.push_back(mesh);
+        continue;
+      }
+      // The format has no objects with both.
+      if (mesh != kNone) components.push_back({mesh, {}});
+      id_of.push_back(open_object(object.name));
+      xml_ += ">\n<components>\n";
+      for (const KeptReference& component : components) write_reference("component", component);
+      xml_ += "</components>\n</object>\n";
+    }
+    return numbered(graph.items);
+  }
+
+  void write_reference(std::string_view element, const KeptReference& reference) {
+    xml_ += '<';
+    xml_ += element;
+    append_xml_attribute(xml_, "objectid", std::to_string(reference.object));
+    if (const Placement& placement = reference.placement; !placement.is_identity()) {
+      std::string numbers;
+      for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 3; ++column) {
+          if (!numbers.empty()) numbers += ' ';
+          append_number(numbers,
+                        row < 3 ? placement.linear(column, row) : placement.offset[column]);
+        }
+      }
+      append_xml_attribute(xml_, "transform", numbers);
+    }
+    xml_ += "/>\n";
+  }
+
+  // All but the end of its first tag. Returns its id.
+  std::uint32_t open_object(const std::string& name) {
+    const std::uint32_t id = properties_.next_id++;
+    xml_ += "<object";
+    append_xml_attribute(xml_, "id", std::to_string(id));
+    append_xml_attribute(xml_, "type", "model");
+    if (!name.empty()) append_xml_attribute(xml_, "name", name);
+    return id;
+  }
+
+  // Of the soup.
+  struct MeshRange {
+    std::size_t first_point = 0, point_end = 0;
+    std::size_t first = 0, end = 0;  // triangles
+  };
+
+  std::uint32_t write_mesh(const MeshRange& range, const std::string& name) {
+    const std::uint32_t id = open_object(name);
     const auto& property = properties_.of_object;
     if (property.group != kNone) {
       append_xml_attribute(xml_, "pid", std::to_string(property.group));
       append_xml_attribute(xml_, "pindex", std::to_string(property.index[0]));
     }
     xml_ += ">\n<mesh>\n<vertices>\n";
-    append_lines(xml_, soup_.points.size(), [&](std::string& lines, std::size_t p) {
-      const Vec3d& point = soup_.points[p];
+    append_lines(xml_, range.point_end - range.first_point, [&](std::string& lines, std::size_t p) {
+      const Vec3d& point = soup_.points[range.first_point + p];
       lines += "<vertex x=\"";
       append_number(lines, point.x());
       lines += "\" y=\"";
@@ -173,20 +258,22 @@ class ModelWriter {
       lines += "\"/>\n";
     });
     xml_ += "</vertices>\n<triangles>\n";
-    append_lines(xml_, soup_.triangles.size(),
-                 [&](std::string& lines, std::size_t t) { append_triangle(lines, t); });
+    append_lines(xml_, range.end - range.first, [&](std::string& lines, std::size_t t) {
+      append_triangle(lines, range.first + t, static_cast<std::uint32_t>(range.first_point));
+    });
     xml_ += "</triangles>\n</mesh>\n</object>\n";
+    return id;
   }
 
-  void append_triangle(std::string& lines, std::size_t t) const {
+  void append_triangle(std::string& lines, std::size_t t, std::uint32_t first_point) const {
     const auto append = [&](std::string_view before, std::uint32_t number) {
       lines += before;
       append_number(lines, number);
     };
     const IndexTriangle& corners = soup_.triangles[t];
-    append("<triangle v1=\"", corners[0]);
-    append("\" v2=\"", corners[1]);
-    append("\" v3=\"", corners[2]);
+    append("<triangle v1=\"", corners[0] - first_point);
+    append("\" v2=\"", corners[1] - first_point);
+    append("\" v3=\"", corners[2] - first_point);
     if (!properties_.of_triangle.empty() && properties_.of_triangle[t].group != kNone) {
       const auto& [group, index] = properties_.of_triangle[t];
       append("\" pid=\"", group);
@@ -200,7 +287,7 @@ class ModelWriter {
   }
 
   const TriangleSoup& soup_;
-  const std::vector<std::string>& comments_;
+  const SoupExtras& extras_;
   const Attributes* attributes_;
   const KeptPackage* kept_;
   std::string material_;
@@ -303,13 +390,13 @@ bool is_packed_already(std::string_view part) {
 
 }  // namespace
 
-std::string format_threemf(const TriangleSoup& soup, const std::vector<std::string>& comments,
-                           const Attributes* attributes) {
+std::string format_threemf(const TriangleSoup& soup, const SoupExtras& extras) {
   require_writable(soup);
-  const auto* const kept = attributes == nullptr
-                               ? nullptr
-                               : dynamic_cast<const KeptPackage*>(attributes->keepsake.get());
-  ModelWriter model(soup, comments, attributes, kept);
+  const auto* const kept =
+      extras.attributes == nullptr
+          ? nullptr
+          : dynamic_cast<const KeptPackage*>(extras.attributes->keepsake.get());
+  ModelWriter model(soup, extras, kept);
   PackageWriter package(kept, model.pictures());
   ZipWriter archive;
   archive.add_text(std::string(kContentTypesPart), package.content_types());

@@ -1,4 +1,4 @@
-#include "gltf_uri.h"
+#include "uri.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// The names and the texts that glTF has for bytes.
+// Names of files in links, and texts that stand for bytes.
 #pragma once
 
 #include <optional>

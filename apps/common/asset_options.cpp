@@ -1,0 +1,126 @@
+#include "common/asset_options.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <base/error.h>
+
+#include "common/choice_option.h"
+
+namespace meshrepair {
+namespace {
+
+using Kind = CornerAttribute::Kind;
+
+constexpr std::array<Choice<bool>, 2> kAttributes = {{{"keep", true}, {"drop", false}}};
+
+constexpr std::array<Choice<bool>, 2> kScenes = {{{"join", false}, {"each", true}}};
+
+constexpr std::array<Choice<LengthUnit>, 6> kUnits = {{{"um", LengthUnit::micron},
+                                                       {"mm", LengthUnit::millimeter},
+                                                       {"cm", LengthUnit::centimeter},
+                                                       {"m", LengthUnit::meter},
+                                                       {"in", LengthUnit::inch},
+                                                       {"ft", LengthUnit::foot}}};
+
+constexpr std::array<Choice<Kind>, 5> kCornerKinds = {{{"textures", Kind::texture},
+                                                       {"normals", Kind::normal},
+                                                       {"tangents", Kind::tangent},
+                                                       {"colours", Kind::colour},
+                                                       {"others", Kind::other}}};
+
+std::vector<std::string> kinds() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kCornerKinds) names.emplace_back(name);
+  names.insert(names.end(), {"materials", "groups"});
+  return names;
+}
+
+bool is_among(const std::vector<std::string>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void drop_chosen(const std::vector<std::string>& drops, Attributes& attributes) {
+  for (const auto& [name, kind] : kCornerKinds) {
+    if (!is_among(drops, name)) continue;
+    const Kind dropped = kind;
+    std::erase_if(attributes.corners,
+                  [&](const CornerAttribute& one) { return one.kind == dropped; });
+  }
+  if (is_among(drops, "materials")) {
+    attributes.materials = {};
+    attributes.looks.clear();
+    attributes.images.clear();
+  }
+  if (is_among(drops, "groups")) attributes.groups = attributes.smoothing = {};
+}
+
+}  // namespace
+
+void add_attributes_options(CLI::App& app, AssetOptions& options) {
+  add_choice(
+      app, "--attributes", kAttributes, [&options](bool value) { options.attributes = value; },
+      "Texture coordinates, normals, colours, materials and groups:\n"
+      "  keep  bring them onto the result, where IN has them and OUT can hold them\n"
+      "  drop  do not even read them")
+      ->default_str("keep")
+      ->group("Output");
+  app.add_option("--drop", options.drops,
+                 "Leave out some of them: textures, normals, tangents, colours, others,\n"
+                 "materials, groups; separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kinds()))
+      ->type_name("KIND,...")
+      ->group("Output");
+}
+
+void add_scene_option(CLI::App& app, AssetOptions& options, const std::string& group) {
+  add_choice(
+      app, "--scene", kScenes, [&options](bool value) { options.by_mesh = value; },
+      "The meshes of a scene (glTF, 3MF), or the objects of an OBJ file:\n"
+      "  join  all that stands in it, where it stands, is one mesh\n"
+      "  each  every mesh by itself; what stands where stays as it is")
+      ->default_str("join")
+      ->group(group);
+}
+
+void add_units_option(CLI::App& app, AssetOptions& options) {
+  add_choice(
+      app, "--units", kUnits, [&options](LengthUnit value) { options.units = value; },
+      "What a length of 1 is in files that do not say, which are all but 3MF and glTF:\n"
+      "um, mm, cm, m, in or ft")
+      ->default_str("numbers stay as they are")
+      ->group("Output");
+}
+
+ReadOptions reading_for(SoupFormat format, const AssetOptions& assets, ReadOptions options) {
+  options.attributes = assets.attributes && holds_attributes(format);
+  options.by_mesh = assets.by_mesh;
+  return options;
+}
+
+Attributes chosen_for(SoupFormat format, const AssetOptions& options, Attributes attributes) {
+  attributes = held_by(format, std::move(attributes));
+  drop_chosen(options.drops, attributes);
+  return attributes;
+}
+
+std::optional<LengthUnit> bring_to_unit(SoupFormat output, const AssetOptions& options,
+                                        std::optional<LengthUnit> unit, TriangleSoup& soup) {
+  if (!unit) return options.units;
+  if (has_unit(output) || !options.units || unit == options.units) return unit;
+  const double scale = millimeters(*unit) / millimeters(*options.units);
+  for (Vec3d& point : soup.points) point *= scale;
+  return options.units;
+}
+
+void check_format(SoupFormat format, const AssetOptions& options) {
+  if (options.by_mesh && !has_instances(format) && format != SoupFormat::obj) {
+    throw UsageError("--scene each: " + std::string(format_name(format)) +
+                     " holds one mesh; OBJ, GLB, glTF and 3MF hold several");
+  }
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,49 @@
+// What of an input comes along besides its triangles: options of the programs, and what they do.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include <mesh/attributes.h>
+#include <mesh/length_unit.h>
+#include <mesh/reading.h>
+#include <mesh/soup_io.h>
+
+namespace meshrepair {
+
+struct AssetOptions {
+  bool attributes = true;          // texture coordinates, materials and the like, where formats can
+  std::vector<std::string> drops;  // kinds of them that do not come along
+  bool by_mesh = false;            // each mesh of a scene by itself
+  std::optional<LengthUnit> units;  // of numbers in files that do not say
+};
+
+// --attributes and --drop.
+void add_attributes_options(CLI::App& app, AssetOptions& options);
+// --scene.
+void add_scene_option(CLI::App& app, AssetOptions& options, const std::string& group = "Repair");
+// --units.
+void add_units_option(CLI::App& app, AssetOptions& options);
+
+// What is to be read for a file of this format.
+[[nodiscard]] ReadOptions reading_for(SoupFormat format, const AssetOptions& assets,
+                                      ReadOptions options);
+
+// Of attributes those that come along into the format.
+[[nodiscard]] Attributes chosen_for(SoupFormat format, const AssetOptions& options,
+                                    Attributes attributes);
+
+// What of a soup its unit is. `unit` is that of its file. Where the output has none either, but
+// --units says one, the soup is brought to that.
+[[nodiscard]] std::optional<LengthUnit> bring_to_unit(SoupFormat output,
+                                                      const AssetOptions& options,
+                                                      std::optional<LengthUnit> unit,
+                                                      TriangleSoup& soup);
+
+// Throws UsageError where the format cannot hold what is asked for.
+void check_format(SoupFormat format, const AssetOptions& options);
+
+}  // namespace meshrepair

@@ -1,0 +1,28 @@
+// Scenes whose meshes are taken one by one: what --scene each does.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <mesh/scene.h>
+
+#include "common/point_steps.h"
+#include "common/repair_steps.h"
+
+namespace meshrepair {
+
+// Throws UsageError where the format has no instances, but the scene needs some.
+void check_scene(const Scene& scene, SoupFormat format);
+
+// Of a mesh, for people; if it has none, by its number.
+[[nodiscard]] std::string mesh_name(const Scene& scene, std::size_t mesh);
+
+// Repairs each mesh by itself, brings the attributes onto them, and writes them with what stands
+// where. A mesh that encloses nothing stays as it is, and the output is not certified then; if all
+// are such, throws NoSolidError. `repair_options` are of the whole soup. The report gets a section
+// "meshes", and the findings their summary.
+void repair_scene(const AnySoup& input, const RepairOptions& repair_options,
+                  const WriteOptions& format, const StepOptions& options, Run& run,
+                  Findings& findings);
+
+}  // namespace meshrepair
