@@ -42,7 +42,7 @@ bool is_among(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-void drop_chosen(const std::vector<std::string>& drops, Attributes& attributes) {
+void drop_chosen(const std::vector<std::string>& drops, bool keeps_scene, Attributes& attributes) {
   for (const auto& [name, kind] : kCornerKinds) {
     if (!is_among(drops, name)) continue;
     const Kind dropped = kind;
@@ -53,6 +53,7 @@ void drop_chosen(const std::vector<std::string>& drops, Attributes& attributes) 
     attributes.materials = {};
     attributes.looks.clear();
     attributes.images.clear();
+    if (!keeps_scene) attributes.keepsake = nullptr;  // it has materials, too
   }
   if (is_among(drops, "groups")) attributes.groups = attributes.smoothing = {};
 }
@@ -103,7 +104,7 @@ ReadOptions reading_for(SoupFormat format, const AssetOptions& assets, ReadOptio
 
 Attributes chosen_for(SoupFormat format, const AssetOptions& options, Attributes attributes) {
   attributes = held_by(format, std::move(attributes));
-  drop_chosen(options.drops, attributes);
+  drop_chosen(options.drops, options.by_mesh, attributes);
   return attributes;
 }
 

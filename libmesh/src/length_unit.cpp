@@ -31,6 +31,4 @@ std::optional<LengthUnit> unit_named(std::string_view name) {
   return found == kUnits.end() ? std::nullopt : std::optional(found->unit);
 }
 
-bool has_unit(SoupFormat format) { return has_instances(format); }
-
 }  // namespace meshrepair

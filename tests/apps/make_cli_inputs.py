@@ -61,6 +61,14 @@ def boxes(*all_corners):
     return "\n".join(lines).encode() + b"\n"
 
 
+def scene() -> bytes:
+    """Two tetrahedra that overlap, the first without a face, and a sheet."""
+    first = tetrahedron(f3="").decode()
+    second = "v 0.1 0.1 0.1\nv 1.1 0.1 0.1\nv 0.1 1.1 0.1\nv 0.1 0.1 1.1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n"
+    sheet = "v 0 0 9\nv 1 0 9\nv 0 1 9\nf 9 10 11\n"
+    return f"o open\n{first}o whole\n{second}o sheet\n{sheet}".encode()
+
+
 def textured_boxes():
     """OBJ text: two boxes that overlap, each with a picture on all sides and a material of its own."""
     text = b"mtllib textured.mtl\n"
@@ -155,6 +163,7 @@ def main():
         "not_finite.obj": tetrahedron(a="v nan 0 0", b="v inf 0 0", c="v 0 nan 0"),
         "single_triangle.obj": SINGLE_TRIANGLE,
         "textured.obj": textured_boxes(),
+        "scene.obj": scene(),
         "textured.mtl": b"newmtl wood\nKd 1 0.5 0\nmap_Kd grain.png\nnewmtl steel\nKd 0.5 0.5 0.5\n",
         "huge.obj": tetrahedron(b="v 1e12 0 0", c="v 0 1e12 0", d="v 0 0 1e12"),
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),

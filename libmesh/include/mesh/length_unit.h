@@ -4,8 +4,6 @@
 #include <optional>
 #include <string_view>
 
-#include <mesh/soup_format.h>
-
 namespace meshrepair {
 
 enum class LengthUnit { micron, millimeter, centimeter, inch, foot, meter };
@@ -15,8 +13,5 @@ enum class LengthUnit { micron, millimeter, centimeter, inch, foot, meter };
 // "millimeter", as 3MF names it; nothing where it is no such name.
 [[nodiscard]] std::string_view unit_name(LengthUnit unit);
 [[nodiscard]] std::optional<LengthUnit> unit_named(std::string_view name);
-
-// glTF is in meters; 3MF says its unit, millimeters if it does not; the others leave it open.
-[[nodiscard]] bool has_unit(SoupFormat format);
 
 }  // namespace meshrepair

@@ -42,6 +42,9 @@ enum class SoupFormat {
 // Whether it holds several meshes, each of which may stand in several places.
 [[nodiscard]] bool has_instances(SoupFormat format);
 
+// Whether it is known what a length of 1 is: glTF is in meters, 3MF says its unit.
+[[nodiscard]] bool has_unit(SoupFormat format);
+
 // Whether it holds any of what Attributes has.
 [[nodiscard]] bool holds_attributes(SoupFormat format);
 

@@ -74,6 +74,8 @@ bool has_instances(SoupFormat format) {
   return format == SoupFormat::threemf || is_any_gltf(format);
 }
 
+bool has_unit(SoupFormat format) { return format == SoupFormat::threemf || is_any_gltf(format); }
+
 bool holds_attributes(SoupFormat format) {
   return format == SoupFormat::stl_binary || format == SoupFormat::obj ||
          format == SoupFormat::threemf || is_any_gltf(format) || holds_sources(format);

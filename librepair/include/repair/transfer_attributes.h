@@ -31,7 +31,8 @@ void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
 // Triangles without a source are patches. One whose rim is one chart of the texture has the rim's
 // coordinates, and within it those that make each point the mean of its neighbours; and the
 // material that most of the rim has. Any other has no coordinates, and kPatchMaterial. Colours and
-// other numbers are as coordinates are, whatever the charts; normals are the patch's own.
+// other numbers are as coordinates are, whatever the charts. Normals go on with those of the rim,
+// and of the patch, but over creases.
 //
 // `attributes` are of `input`, of which `surface` was made. Linear; on several threads.
 [[nodiscard]] Attributes transfer_attributes(const TriangleSoup& input,

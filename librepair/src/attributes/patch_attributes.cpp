@@ -1,6 +1,8 @@
 #include "patch_attributes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -162,6 +164,8 @@ class PatchFiller {
 
  private:
   static constexpr std::uint32_t kOnRim = kNone - 1;
+  // The cosine of the angle from which on two triangles look as with an edge between them.
+  static constexpr double kCrease = 0.7;
   using PointValues = std::map<std::uint32_t, std::uint32_t>;
 
   // Of each point of the rim. Nothing where a point has none; of texture coordinates also where it
@@ -230,28 +234,87 @@ class PatchFiller {
   }
 
   // Of the patch alone, as it may meet the rest in a crease.
+  // A corner looks as the rim does there, where that bends less than a crease; else as those
+  // triangles of the patch do that meet there without a crease.
   void set_normals(CornerAttribute& attribute) {
-    std::map<std::uint32_t, Vec3d> normal_of;
+    const std::map<std::uint32_t, std::vector<std::uint32_t>> of_rim = rim_normals(attribute);
+    std::map<std::uint32_t, std::vector<Smooth>> smooth;  // of each point
     for (const std::uint32_t t : patch_.triangles) {
-      const auto& c = surface_.mesh.triangles[t];
-      const auto& at = surface_.mesh.points;
-      const Vec3d normal = (at[c[1]] - at[c[0]]).cross(at[c[2]] - at[c[0]]);
-      for (const std::uint32_t p : c)
-        normal_of.try_emplace(p, Vec3d::Zero()).first->second += normal;
+      const Vec3d area = area_of(t);
+      for (const std::uint32_t p : surface_.mesh.triangles[t])
+        smooth_with(area, smooth[p]).sum += area;
     }
-    std::map<std::uint32_t, std::uint32_t> value_of;
-    for (const auto& [point, normal] : normal_of) {
-      const double length = normal.stableNorm();
-      if (!(length > 0) || !std::isfinite(length)) continue;
-      value_of[point] = static_cast<std::uint32_t>(attribute.count());
-      for (int i = 0; i < 3; ++i) attribute.values.push_back(normal[i] / length);
+    std::map<std::array<double, 3>, std::uint32_t> numbers;
+    for (const std::uint32_t t : patch_.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t point = surface_.mesh.triangles[t][k];
+        std::uint32_t& value = attribute.of_corner[3 * std::size_t{t} + k];
+        const auto rim = of_rim.find(point);
+        value = rim == of_rim.end() ? kNone : nearest_of_rim(area_of(t), rim->second, attribute);
+        if (value == kNone) {
+          value = number_of(smooth_with(area_of(t), smooth[point]).sum, numbers, attribute);
+        }
+      }
     }
-    for_each_corner(
-        [&](std::uint32_t point, std::uint32_t& value) {
-          const auto found = value_of.find(point);
-          value = found == value_of.end() ? kNone : found->second;
-        },
-        attribute);
+  }
+
+  [[nodiscard]] Vec3d area_of(std::uint32_t t) const {
+    const auto& c = surface_.mesh.triangles[t];
+    const auto& at = surface_.mesh.points;
+    return (at[c[1]] - at[c[0]]).cross(at[c[2]] - at[c[0]]);
+  }
+
+  // Of each point of the rim the values beyond it.
+  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> rim_normals(
+      const CornerAttribute& attribute) const {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> values;
+    for (const RimEdge& edge : patch_.rim) {
+      values[edge.from].push_back(attribute.of_corner[edge.corner_at_from]);
+      values[edge.to].push_back(attribute.of_corner[edge.corner_at_to]);
+    }
+    return values;
+  }
+
+  static std::uint32_t nearest_of_rim(const Vec3d& area, const std::vector<std::uint32_t>& values,
+                                      const CornerAttribute& attribute) {
+    std::uint32_t nearest = kNone;
+    double most = kCrease * area.norm();
+    for (const std::uint32_t value : values) {
+      if (value == kNone) continue;
+      const double* const normal = attribute.values.data() + 3 * std::size_t{value};
+      const double along = area.dot(Vec3d(normal[0], normal[1], normal[2]));
+      if (!(along > most)) continue;
+      nearest = value;
+      most = along;
+    }
+    return nearest;
+  }
+
+  // Triangles that meet in a point and look as without edges between them: those that bend little
+  // from the first of them.
+  struct Smooth {
+    Vec3d first, sum = Vec3d::Zero();
+  };
+
+  static Smooth& smooth_with(const Vec3d& area, std::vector<Smooth>& all) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Smooth& one) {
+      return area.dot(one.first) >= kCrease * area.norm() * one.first.norm();
+    });
+    return found == all.end() ? all.emplace_back(Smooth{area}) : *found;
+  }
+
+  // kNone of what has no direction.
+  static std::uint32_t number_of(const Vec3d& normal,
+                                 std::map<std::array<double, 3>, std::uint32_t>& numbers,
+                                 CornerAttribute& attribute) {
+    const double length = normal.stableNorm();
+    if (!(length > 0) || !std::isfinite(length)) return kNone;
+    const std::array<double, 3> unit = {normal.x() / length, normal.y() / length,
+                                        normal.z() / length};
+    const auto [found, is_new] =
+        numbers.try_emplace(unit, static_cast<std::uint32_t>(attribute.count()));
+    if (is_new) attribute.values.insert(attribute.values.end(), unit.begin(), unit.end());
+    return found->second;
   }
 
   template <class Visit>

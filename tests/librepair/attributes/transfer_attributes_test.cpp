@@ -138,6 +138,46 @@ TEST(TransferAttributes, PatchWithinOneChartContinuesIt) {
   EXPECT_GT(patches, 10u);
 }
 
+// A box whose faces are flat to look at, without two of them that meet: the patch bends there.
+TEST(TransferAttributes, NormalsOfPatchesGoOnWithTheRimAndBreakAtCreases) {
+  TexturedSoup sides;
+  sides.soup = box({0, 0, 0}, {2, 3, 4});
+  CornerAttribute normals;
+  normals.kind = Kind::normal;
+  normals.components = 3;
+  for (const auto& [a, b, c] : sides.soup.triangles) {
+    const auto& p = sides.soup.points;
+    const Vec3d n = (p[b] - p[a]).cross(p[c] - p[a]).normalized();
+    for (int k = 0; k < 3; ++k) {
+      normals.of_corner.push_back(static_cast<std::uint32_t>(normals.count()));
+    }
+    normals.values.insert(normals.values.end(), {n.x(), n.y(), n.z()});
+  }
+  sides.attributes.corners = {normals};
+  sides.attributes.materials = sides.attributes.groups = {};
+  sides.attributes.materials.of_triangle.assign(sides.soup.triangles.size(), kNone);
+  sides.attributes.groups.of_triangle.assign(sides.soup.triangles.size(), kNone);
+  RepairOptions options;
+  options.holes.largest_share = options.holes.largest_flat_share = 10;
+  const TexturedSurface result = repaired(with_hole(sides, Vec3d(0, 0, 0), 0.1), options);
+  std::size_t patches = 0;
+  for (std::size_t t = 0; t < result.surface.source.size(); ++t) {
+    if (result.surface.source[t] != Surface::kNoSource) continue;
+    ++patches;
+    const auto& [a, b, c] = result.surface.mesh.triangles[t];
+    const auto& p = result.surface.mesh.points;
+    const Vec3d facing = (p[b] - p[a]).cross(p[c] - p[a]).normalized();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t value = result.attributes.corners[0].of_corner[3 * t + k];
+      ASSERT_NE(value, kNone);
+      const double* const n = result.attributes.corners[0].values.data() + 3 * std::size_t{value};
+      EXPECT_GT(facing.dot(Vec3d(n[0], n[1], n[2])), 0.7);
+      EXPECT_NEAR(Vec3d(n[0], n[1], n[2]).norm(), 1, 1e-12);
+    }
+  }
+  EXPECT_GT(patches, 0u);
+}
+
 TEST(TransferAttributes, PatchWhereChartsMeetHasAMaterialOfItsOwn) {
   const TexturedSoup whole = textured({sphere(2000)});
   const TexturedSurface result = repaired(with_hole(whole, {1, 0, 0}, 0.3));
