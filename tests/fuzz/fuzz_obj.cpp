@@ -1,6 +1,10 @@
+#include "check_attributes.h"
 #include "check_reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  meshrepair::testing::check_reading(data, size, "any.obj");
+  using namespace meshrepair;
+  testing::check_reading(data, size, "any.obj");
+  testing::check_attributes({reinterpret_cast<const char*>(data), size}, "any.obj",
+                            SoupFormat::obj);
   return 0;
 }

@@ -1,19 +1,17 @@
 // Inputs that begin as archives do are read as they are, others as the model of a package.
 #include <string>
 
+#include "check_attributes.h"
 #include "check_reading.h"
 #include "package_bytes.h"
 
 namespace {
 
-// Components make many triangles of few; each way of writing them would take long.
-constexpr std::size_t kMostTriangles = 20000;
-
 void check(std::string_view bytes) {
   using namespace meshrepair;
   ReadOptions options;
   options.attributes = true;
-  options.max_triangles = kMostTriangles;
+  options.max_triangles = testing::kMostTriangles;
   ReadResult result;
   try {
     result = read_soup(bytes, "any.3mf", options);
@@ -39,11 +37,10 @@ void check(std::string_view bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  if (bytes.starts_with("PK")) {
-    check(bytes);
-  } else {
-    check(meshrepair::package_of(std::string(bytes)));
-  }
+  using namespace meshrepair;
+  std::string bytes(reinterpret_cast<const char*>(data), size);
+  if (!bytes.starts_with("PK")) bytes = package_of(bytes);
+  check(bytes);
+  testing::check_attributes(bytes, "any.3mf", SoupFormat::threemf);
   return 0;
 }

@@ -79,10 +79,8 @@ bool is_nothing(const CornerAttribute& attribute, std::size_t value) {
 }  // namespace
 
 PlyAttributes::PlyAttributes(const MeshSource& source, const PlyHeader& header) : source_(source) {
-  for (const PlyElement& element : header.elements) {
-    if (element.name == "vertex" && !points_.any()) find_groups(element, points_);
-    if (element.name == "face" && !faces_.any()) find_groups(element, faces_);
-  }
+  find_element("vertex", header, points_);
+  find_element("face", header, faces_);
   for (const std::string& comment : header.comments) {
     if (const auto name = behind(comment, kPlyMaterialComment); !name.empty()) {
       materials_.emplace_back(name);
@@ -91,6 +89,14 @@ PlyAttributes::PlyAttributes(const MeshSource& source, const PlyHeader& header) 
       textures_.emplace_back(name);
     }
   }
+}
+
+// Where there are several, each has properties of its own: they do not make one list.
+void PlyAttributes::find_element(std::string_view name, const PlyHeader& header, Element& found) {
+  const auto is_it = [&](const PlyElement& element) { return element.name == name; };
+  const auto& all = header.elements;
+  if (std::count_if(all.begin(), all.end(), is_it) != 1) return;
+  find_groups(*std::find_if(all.begin(), all.end(), is_it), found);
 }
 
 void PlyAttributes::find_groups(const PlyElement& element, Element& found) const {
@@ -157,8 +163,8 @@ void PlyAttributes::add_others(const PlyElement& element, Element& found) const 
 
 void PlyAttributes::begin_element(const PlyElement& element) {
   current_ = nullptr;
-  if (element.name == "vertex") current_ = &points_;
-  if (element.name == "face") current_ = &faces_;
+  if (element.name == "vertex" && points_.any()) current_ = &points_;
+  if (element.name == "face" && faces_.any()) current_ = &faces_;
   row_.assign(element.properties.size(), kNoNumber);
   list_.assign(current_ == nullptr ? 0 : current_->groups.size(), {});
 }
@@ -189,6 +195,7 @@ void PlyAttributes::keep_row() {
 }
 
 void PlyAttributes::end_point() {
+  if (current_ == nullptr) return;
   keep_row();
   forget_item();
 }
@@ -213,6 +220,7 @@ void PlyAttributes::end_lists(std::size_t corners) {
 }
 
 void PlyAttributes::end_face(std::size_t corners) {
+  if (current_ == nullptr) return;
   keep_row();
   end_lists(corners);
   if (faces_.material != kNoColumn) material_of_face_.push_back(row_[faces_.material]);

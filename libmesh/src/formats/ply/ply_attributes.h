@@ -56,6 +56,7 @@ class PlyAttributes {
     bool any() const { return !group_of.empty(); }
   };
 
+  void find_element(std::string_view name, const PlyHeader& header, Element& found);
   void find_groups(const PlyElement& element, Element& found) const;
   void add_group(const PlyElement& element, CornerAttribute::Kind kind,
                  const std::vector<std::string_view>& names, std::size_t least,

@@ -253,5 +253,26 @@ TEST(ReadPly, PointsWithoutFacesAreRefused) {
   EXPECT_EQ(refusal_of(text, "a.ply"), "a.ply: holds 3 points but no faces");
 }
 
+// Each has properties of its own, so their values make no list.
+TEST(ReadPly, SeveralElementsOfOneNameCarryNothing) {
+  const std::string text =
+      "ply\nformat ascii 1.0\n"
+      "element vertex 3\n" +
+      kAxes +
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "element vertex 1\nproperty float u\n" +
+      kAxes +
+      "property float a\nproperty float b\nproperty float c\nproperty float d\n"
+      "element face 1\nproperty list uchar int vertex_indices\n"
+      "element face 1\nproperty int material_index\nproperty list uchar int vertex_indices\n"
+      "property list uchar float texcoord\nend_header\n"
+      "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n0.5 0 0 1 7 7 7 7\n3 0 1 2\n4 3 0 3 1 2 1 2\n";
+  ReadOptions options;
+  options.attributes = true;
+  const ReadResult result = read_soup(std::string_view(text), "a.ply", options);
+  EXPECT_EQ(result.soup.triangles.size(), 2u);
+  EXPECT_TRUE(result.attributes.is_bare());
+}
+
 }  // namespace
 }  // namespace meshrepair
