@@ -358,6 +358,7 @@ int main(int argc, char** argv) {
   add_output_option(app, options.step.output, "OUT",
                     "Mesh or, if it ends in .bsp, tree to write; - is standard output");
   add_inside_options(app, options.step.repair.inside);
+  add_sew_option(app, options.step.repair.sew);
   add_holes_option(app, options.step.repair.holes);
   add_max_hole_option(app, options.step.repair.holes);
   add_touching_option(app, options.step.repair.extract.touching);

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
   add_inside_options(app, options.repair.inside);
+  add_sew_option(app, options.repair.sew);
   add_holes_option(app, options.repair.holes);
   add_max_hole_option(app, options.repair.holes);
   add_touching_option(app, options.repair.extract.touching);

@@ -1,5 +1,6 @@
 #include "common/repair_options.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,6 +45,18 @@ constexpr std::array<Choice<Predicates>, 2> kPredicates = {
 constexpr std::array<Choice<Touching>, 2> kTouchings = {
     {{"separate", Touching::separate}, {"join", Touching::join}}};
 
+constexpr std::array<Choice<SewMode>, 2> kSewModes = {
+    {{"auto", SewMode::automatic}, {"none", SewMode::none}}};
+
+// For CLI11: an empty text where the word is a way to sew.
+std::string why_no_sewing(const std::string& word) {
+  double value = 0;
+  if (word == "auto" || word == "none") return {};
+  const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
+  return is_number && value >= 0 ? std::string()
+                                 : word + " is none of auto, none, and a distance from 0 on";
+}
+
 // For CLI11: an empty text where the word is a number from 0 on.
 std::string why_no_share(const std::string& word) {
   double value = 0;
@@ -78,6 +91,26 @@ void add_inside_options(CLI::App& app, InsideOptions& inside) {
       "  keep  as the rule of --inside says\n"
       "  fill  solid, whatever the rule\n")
       ->default_str("keep")
+      ->group("Repair");
+}
+
+void add_sew_option(CLI::App& app, SewOptions& sew) {
+  sew.mode = SewMode::automatic;
+  app.add_option_function<std::string>(
+         "--sew",
+         [&sew](const std::string& word) {
+           const auto known = std::find_if(kSewModes.begin(), kSewModes.end(),
+                                           [&](const auto& mode) { return mode.first == word; });
+           sew.mode = known == kSewModes.end() ? SewMode::distance : known->second;
+           if (sew.mode == SewMode::distance) CLI::detail::lexical_cast(word, sew.distance);
+         },
+         "Bring open edges together that nearly meet, before holes are closed:\n"
+         "  auto  where corners are far nearer to strange edges than their own are long\n"
+         "  none  not at all\n"
+         "  a number: those that are no farther apart than this, in the units of IN")
+      ->check(why_no_sewing)
+      ->type_name("NAME|X")
+      ->default_str("auto")
       ->group("Repair");
 }
 

@@ -18,6 +18,8 @@ namespace meshrepair {
 // --inside and --cavities: which parts of space are solid.
 void add_inside_options(CLI::App& app, InsideOptions& inside);
 
+// --sew: how far open edges may be apart that belong together; automatic unless given.
+void add_sew_option(CLI::App& app, SewOptions& sew);
 // --holes: how gaps are closed.
 void add_holes_option(CLI::App& app, HoleOptions& holes);
 // --max-hole: how large a patch may be.

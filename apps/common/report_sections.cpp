@@ -96,6 +96,16 @@ Json defects_of(const RepairReport& repair) {
           {"area", repair.input_area}};
 }
 
+Json section_of(const SewReport& sew) {
+  return {{"distance", sew.distance},
+          {"open_edges", sew.open_edges},
+          {"sewn_edges", sew.sewn_edges},
+          {"joined_points", sew.joined_points},
+          {"split_edges", sew.split_edges},
+          {"farthest_move", sew.farthest_move},
+          {"refused_distance", sew.refused_distance}};
+}
+
 Json section_of(const HoleReport& holes) {
   return {{"loops", holes.loops},
           {"closed", holes.closed},
@@ -282,6 +292,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("clean", section_of(repair.clean));
     report.set_section("defects", defects_of(repair));
   }
+  if (was_begun(repair, "sew")) report.set_section("sew", section_of(repair.sew));
   if (has("tree") || was_begun(repair, "arrange"))
     report.set_section("holes", section_of(repair.holes));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));

@@ -155,6 +155,21 @@ void describe_decision(const RepairReport& repair, Lines& lines) {
   lines.add("inside", texts);
 }
 
+void describe_sewing(const SewReport& sew, Lines& lines) {
+  if (sew.refused_distance > 0) {
+    lines.add("unsewn", fmt::format("open edges are {:.3g} apart, too far for what is beside them; "
+                                    "--sew says how far to go",
+                                    sew.refused_distance));
+  }
+  if (sew.distance == 0) return;
+  std::string text =
+      fmt::format("{} of {}, at most {:.3g} apart; {} moved by at most {:.3g}",
+                  grouped(sew.sewn_edges), number_of(sew.open_edges, "open edge"), sew.distance,
+                  number_of(sew.joined_points, "corner"), sew.farthest_move);
+  if (sew.split_edges > 0) text += ", " + number_of(sew.split_edges, "edge") + " split";
+  lines.add("sewn", text);
+}
+
 void describe_holes(const RepairReport& repair, Lines& lines) {
   const HoleReport& holes = repair.holes;
   std::vector<std::string> texts;
@@ -303,6 +318,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   if (!findings.summary.empty()) return findings.summary;
   Lines lines;
   describe_input(findings, lines);
+  describe_sewing(findings.repair.sew, lines);
   describe_holes(findings.repair, lines);
   describe_predicates(findings.repair, lines);
   if (findings.repair.inside.solid_cells > 0 || findings.repair.spared_cells) {

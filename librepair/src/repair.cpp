@@ -30,6 +30,7 @@
 #include "arrange/chamber_surface.h"
 #include "cells/covered_cells.h"
 #include "prepare/prepare.h"
+#include "sew/moved_corners.h"
 #include "solid/find_solid.h"
 #include "surface/make_surface.h"
 #include "tangles/cut_tangles.h"
@@ -115,7 +116,9 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
     surface = way(job);
     if (surface) break;
   }
-  return std::move(*surface);  // the last way always applies
+  // The last way always applies.
+  if (report.sew.distance > 0) internal::note_moved_corners(soup, *surface, report);
+  return std::move(*surface);
 }
 
 RepairResult repair(const TriangleSoup& soup, const RepairOptions& options) {

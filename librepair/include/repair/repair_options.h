@@ -12,6 +12,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/sew_soup.h>
 
 namespace meshrepair {
 
@@ -25,6 +26,7 @@ struct RepairOptions {
   // How sure it is that each triangle of the soup is part of the surface, above 0 and up to 1: for
   // the solidity. Empty: all are.
   std::vector<float> opacity;
+  SewOptions sew;
   HoleOptions holes;
   BuildTreeOptions tree;
   InsideOptions inside;

@@ -20,6 +20,7 @@
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
+#include <repair/sew_soup.h>
 #include <repair/thin_cells.h>
 
 namespace meshrepair {
@@ -33,6 +34,7 @@ struct RepairReport {
   CleanReport clean;
   Topology input;         // of the clean soup
   double input_area = 0;  // of the clean soup, in the input's units, squared
+  SewReport sew;
   HoleReport holes;
   BuildTreeReport tree;
   Predicates predicates = Predicates::exact;  // and, if they are not exact, their epsilon

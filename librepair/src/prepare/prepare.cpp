@@ -38,13 +38,33 @@ void require_space(const CleanSoup& soup) {
   }
 }
 
+// What is cleaned is the sewn soup, whose triangles have the sources of those that were given.
+CleanSoup clean_sewn(const SewnSoup& sewn, const RepairOptions& options, RepairReport& report,
+                     StageMeter& meter) {
+  meter.begin("clean");
+  const std::size_t given = report.clean.triangles_in;
+  CleanSoup clean = clean_soup(sewn.soup, report.clean, options.progress);
+  report.clean.triangles_in = given;
+  for (Triangle& triangle : clean.triangles) triangle.source = sewn.source[triangle.source];
+  return clean;
+}
+
 }  // namespace
 
 CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
                      StageMeter& meter) {
   meter.begin("clean");
+  report.sew = {};
   CleanSoup clean = clean_soup(soup, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
+  if (report.input.open_edges > 0 && options.sew.mode != SewMode::none) {
+    meter.begin("sew");
+    SewOptions sewing = options.sew;
+    sewing.progress = options.progress;
+    if (const auto sewn = sew_soup(soup, sewing, report.sew)) {
+      clean = clean_sewn(*sewn, options, report, meter);
+    }
+  }
   report.input_area = 0;
   for (const Triangle& t : clean.triangles) report.input_area += area_of(clean, t);
   report.holes = {};
@@ -54,7 +74,10 @@ CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, Rep
         "over "
         "their bounding box, or have coordinates that are not finite");
   }
-  if (report.input.open_edges > 0 || report.input.nonmanifold_edges > 0) {
+  const Topology now = report.sew.distance > 0
+                           ? examine_topology(index_triangles(clean), clean.points.size())
+                           : report.input;
+  if (now.open_edges > 0 || now.nonmanifold_edges > 0) {
     meter.begin("holes");
     patch_holes(clean, options.holes, report.holes, options.progress);
   }

@@ -1,0 +1,56 @@
+// Open edges that nearly meet are brought together.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <base/progress.h>
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+enum class SewMode {
+  automatic,  // as far as the soup itself tells
+  none,
+  distance,  // as far as is asked for
+};
+
+struct SewOptions {
+  SewMode mode = SewMode::none;
+  double distance = 0;  // of SewMode::distance, in the soup's unit
+  ProgressObserver* progress = nullptr;
+};
+
+struct SewReport {
+  double distance = 0;            // that was sewn over at most; 0: nothing was
+  std::size_t open_edges = 0;     // before
+  std::size_t sewn_edges = 0;     // of these
+  std::size_t joined_points = 0;  // that had different coordinates
+  std::size_t split_edges = 0;    // at a corner that lies beside them
+  double farthest_move = 0;       // of a corner
+  double refused_distance = 0;    // that corners are apart, but not sewn: see sew_soup()
+};
+
+struct SewnSoup {
+  TriangleSoup soup;
+  std::vector<std::uint32_t> source;  // of each triangle, that of the soup that was given
+};
+
+// Clusters corners at open edges that lie near each other, and moves each cluster to its middle. An
+// open edge beside which a corner lies gets it as a point. No cluster has two corners of one
+// triangle, and none is wider than twice the distance. A corner is moved by less than a third of
+// the edges at it; a cluster that would turn a triangle over is given up.
+//
+// SewMode::automatic compares how far corners are from the nearest open edge that is not theirs
+// with the edges at them. Corners that are much nearer are apart by mistake. It sews over twice the
+// largest of these distances, at most a 250th of the diagonal of the bounding box, and takes
+// nothing back or forth: if less than half of the edges between such corners find a partner, or
+// edges of more than two triangles come up, nothing is sewn, and report.refused_distance is set.
+//
+// Nothing if there is nothing to sew. n log n. Throws Cancelled.
+[[nodiscard]] std::optional<SewnSoup> sew_soup(const TriangleSoup& soup, const SewOptions& options,
+                                               SewReport& report);
+
+}  // namespace meshrepair

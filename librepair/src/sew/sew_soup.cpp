@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <base/ids.h>
+#include <repair/sew_soup.h>
+
+#include "corner_clusters.h"
+#include "open_rims.h"
+#include "split_edges.h"
+#include "strangers.h"
+
+namespace meshrepair {
+namespace {
+
+using internal::CornerClusters;
+using internal::EdgeSplit;
+using internal::OpenRims;
+using internal::Strangers;
+
+// Of the edges at a corner: nearer than the first share it is where another should be; it is moved
+// by no more than the second.
+constexpr double kNear = 0.25, kMove = 0.33;
+// Of the diagonal: what is farther apart is so on purpose.
+constexpr double kFarthest = 1.0 / 250;
+// Between distances that belong together.
+constexpr double kGap = 10;
+constexpr int kMostRounds = 8;
+
+double diagonal_of(const TriangleSoup& soup, const OpenRims& rims) {
+  Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const IndexTriangle& t : rims.triangles) {
+    for (const std::uint32_t p : t) {
+      if (!soup.points[p].allFinite()) continue;
+      low = low.cwiseMin(soup.points[p]);
+      high = high.cwiseMax(soup.points[p]);
+    }
+  }
+  return low.x() <= high.x() ? (high - low).norm() : 0;
+}
+
+// Of distances, ascending: where half of them or more lie far below the rest, these are meant.
+double largest_before_gap(const std::vector<double>& distances) {
+  double largest = distances.back(), widest = kGap;
+  for (std::size_t i = distances.size() / 2; i + 1 < distances.size(); ++i) {
+    if (distances[i + 1] <= widest * distances[i]) continue;
+    widest = distances[i + 1] / distances[i];
+    largest = distances[i];
+  }
+  return largest;
+}
+
+class Sewing {
+ public:
+  Sewing(const TriangleSoup& soup, OpenRims rims, SewReport& report, ProgressObserver* progress)
+      : soup_(soup),
+        rims_(std::move(rims)),
+        strangers_(soup, rims_),
+        clusters_(soup, rims_),
+        report_(report),
+        check_(progress) {}
+
+  // That corners are apart by mistake; 0 if none are. If most are apart by more than is taken for
+  // one, report.refused_distance is that.
+  [[nodiscard]] double automatic_distance() const {
+    std::vector<double> near = distances_of_strangers(strangers_, rims_, kNear);
+    const double most = kFarthest * diagonal_of(soup_, rims_);
+    std::erase_if(near, [](double distance) { return !std::isfinite(distance); });
+    std::sort(near.begin(), near.end());
+    const auto too_far = std::find_if(near.begin(), near.end(),
+                                      [&](double distance) { return 2 * distance > most; });
+    if (2 * (near.end() - too_far) > static_cast<std::ptrdiff_t>(rims_.corners.size())) {
+      report_.refused_distance = 2 * near.back();
+      return 0;
+    }
+    near.erase(too_far, near.end());
+    return near.empty() ? 0 : 2 * largest_before_gap(near);
+  }
+
+  std::optional<SewnSoup> run(double distance) {
+    clusters_.join(distance, kMove);
+    check_.ask();
+    splits_ = find_splits(rims_, strangers_, clusters_, distance, kMove);
+    for (int round = 0; round < kMostRounds; ++round) {
+      check_.ask();
+      SewnSoup sewn = make_soup();
+      if (!give_up_turned(sewn)) return finish(std::move(sewn), distance);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] SewnSoup make_soup() const {
+    SewnSoup sewn;
+    sewn.soup.points = clusters_.middles();
+    // Points in one place move together.
+    std::vector<Vec3d>& points = sewn.soup.points;
+    for (std::size_t t = 0; t < soup_.triangles.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        points[soup_.triangles[t][k]] = points[rims_.triangles[t][k]];
+      }
+    }
+    auto split = splits_.begin();
+    for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
+      const auto first = split;
+      while (split != splits_.end() && split->side / 3 == t) ++split;
+      if (first == split) {
+        sewn.soup.triangles.push_back(soup_.triangles[t]);
+        sewn.source.push_back(t);
+        continue;
+      }
+      for (const IndexTriangle& piece :
+           internal::split_triangle(soup_.triangles[t], &*first, &*first + (split - first))) {
+        sewn.soup.triangles.push_back(piece);
+        sewn.source.push_back(t);
+      }
+    }
+    return sewn;
+  }
+
+  // Clusters and splits that turn a triangle over. False if there are none.
+  bool give_up_turned(const SewnSoup& sewn) {
+    std::vector<char> dissolved(soup_.points.size(), 0), unsplit(soup_.triangles.size(), 0);
+    bool any = false;
+    for (std::size_t t = 0; t < sewn.source.size(); ++t) {
+      const std::uint32_t source = sewn.source[t];
+      const IndexTriangle& was = rims_.triangles[source];
+      const auto& c = sewn.soup.triangles[t];
+      const bool is_moved = std::any_of(c.begin(), c.end(), [&](std::uint32_t p) {
+        return sewn.soup.points[p] != soup_.points[p];
+      });
+      const bool is_whole = c == soup_.triangles[source];
+      if ((!is_moved && is_whole) || faces_as(area(soup_, was), area(sewn.soup, c))) continue;
+      any = true;
+      if (!is_whole) unsplit[source] = 1;
+      for (const std::uint32_t p : was) dissolved[clusters_.of(p)] = 1;
+    }
+    if (!any) return false;
+    clusters_.dissolve(dissolved);
+    std::erase_if(splits_, [&](const EdgeSplit& split) { return unsplit[split.side / 3] != 0; });
+    return true;
+  }
+
+  static Vec3d area(const TriangleSoup& soup, const IndexTriangle& t) {
+    const Vec3d& a = soup.points[t[0]];
+    return (soup.points[t[1]] - a).cross(soup.points[t[2]] - a);
+  }
+
+  // What had no area before has no side.
+  static bool faces_as(const Vec3d& before, const Vec3d& after) {
+    return before.squaredNorm() == 0 || before.dot(after) > 0;
+  }
+
+  std::optional<SewnSoup> finish(SewnSoup sewn, double distance) {
+    for (const std::uint32_t corner : rims_.corners) {
+      const double move = (sewn.soup.points[corner] - soup_.points[corner]).norm();
+      report_.joined_points += clusters_.of(corner) != corner ? 1 : 0;
+      report_.farthest_move = std::max(report_.farthest_move, move);
+    }
+    report_.split_edges = splits_.size();
+    if (report_.joined_points == 0 && splits_.empty()) return std::nullopt;
+    report_.distance = distance;
+    return sewn;
+  }
+
+  const TriangleSoup& soup_;
+  OpenRims rims_;
+  Strangers strangers_;
+  CornerClusters clusters_;
+  std::vector<EdgeSplit> splits_;
+  SewReport& report_;
+  CancelCheck check_;
+};
+
+// Whether half of what was near found a partner, and no edge of three triangles came up.
+bool is_an_improvement(const OpenRims& before, const OpenRims& after, const SewReport& report) {
+  const std::size_t touched = 2 * (report.joined_points + report.split_edges);
+  return 2 * report.sewn_edges >= std::min(touched, before.sides.size()) &&
+         after.crowded_edges <= before.crowded_edges;
+}
+
+}  // namespace
+
+std::optional<SewnSoup> sew_soup(const TriangleSoup& soup, const SewOptions& options,
+                                 SewReport& report) {
+  report = {};
+  if (options.mode == SewMode::none) return std::nullopt;
+  const OpenRims before = internal::find_open_rims(soup);
+  report.open_edges = before.sides.size();
+  if (before.sides.empty()) return std::nullopt;
+  Sewing sewing(soup, before, report, options.progress);
+  const bool is_automatic = options.mode == SewMode::automatic;
+  const double distance = is_automatic ? sewing.automatic_distance() : options.distance;
+  if (!(distance > 0)) return std::nullopt;
+  std::optional<SewnSoup> sewn = sewing.run(distance);
+  if (!sewn) return std::nullopt;
+  const OpenRims after = internal::find_open_rims(sewn->soup);
+  report.sewn_edges = before.sides.size() - std::min(before.sides.size(), after.sides.size());
+  if (!is_automatic || is_an_improvement(before, after, report)) return sewn;
+  const std::size_t open_edges = report.open_edges;
+  report = {};
+  report.open_edges = open_edges;
+  report.refused_distance = distance;
+  return std::nullopt;
+}
+
+}  // namespace meshrepair
