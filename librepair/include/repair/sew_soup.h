@@ -41,13 +41,14 @@ struct SewnSoup {
 // Clusters corners at open edges that lie near each other, and moves each cluster to its middle. An
 // open edge beside which a corner lies gets it as a point. No cluster has two corners of one
 // triangle, and none is wider than twice the distance. A corner is moved by less than a third of
-// the edges at it; a cluster that would turn a triangle over is given up.
+// the edges at it. A cluster is given up that would turn a triangle over, make an edge of more than
+// two triangles, or closes no open edge.
 //
 // SewMode::automatic compares how far corners are from the nearest open edge that is not theirs
 // with the edges at them. Corners that are much nearer are apart by mistake. It sews over twice the
-// largest of these distances, at most a 250th of the diagonal of the bounding box, and takes
-// nothing back or forth: if less than half of the edges between such corners find a partner, or
-// edges of more than two triangles come up, nothing is sewn, and report.refused_distance is set.
+// largest of these distances, at most a 250th of the diagonal of the bounding box. If most corners
+// are farther apart than that, nothing is sewn, and report.refused_distance is set. Nothing is sewn
+// either if fewer edges find a partner than corners are moved and edges split.
 //
 // Nothing if there is nothing to sew. n log n. Throws Cancelled.
 [[nodiscard]] std::optional<SewnSoup> sew_soup(const TriangleSoup& soup, const SewOptions& options,

@@ -32,7 +32,8 @@ void note_sizes(const TriangleSoup& soup, OpenRims& rims) {
 
 OpenRims find_open_rims(const TriangleSoup& soup) {
   OpenRims rims;
-  const std::vector<std::uint32_t> place = first_in_place(soup.points);
+  rims.place = first_in_place(soup.points);
+  const std::vector<std::uint32_t>& place = rims.place;
   rims.triangles.reserve(soup.triangles.size());
   std::vector<std::uint32_t> across(3 * soup.triangles.size(), kNone);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -41,13 +42,19 @@ OpenRims find_open_rims(const TriangleSoup& soup) {
     if (is_sound(soup, rims.triangles.back())) continue;
     for (std::size_t k = 0; k < 3; ++k) across[3 * t + k] = 0;
   }
+  rims.open_at.assign(soup.points.size(), 0);
+  rims.is_crowded.assign(soup.points.size(), 0);
   const EdgeTable edges(rims.triangles, across);
   edges.for_each_edge([&](std::span<const std::uint32_t> sides) {
     if (sides.size() == 1) rims.sides.push_back(sides[0]);
-    rims.crowded_edges += sides.size() > 2 ? 1 : 0;
+    if (sides.size() <= 2) return;
+    for (const std::uint32_t end : ends_of(rims, sides[0])) rims.is_crowded[end] = 1;
   });
   for (const std::uint32_t side : rims.sides) {
-    for (const std::uint32_t end : ends_of(rims, side)) rims.corners.push_back(end);
+    for (const std::uint32_t end : ends_of(rims, side)) {
+      rims.corners.push_back(end);
+      ++rims.open_at[end];
+    }
   }
   std::sort(rims.corners.begin(), rims.corners.end());
   rims.corners.erase(std::unique(rims.corners.begin(), rims.corners.end()), rims.corners.end());

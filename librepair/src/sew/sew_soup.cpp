@@ -87,7 +87,17 @@ class Sewing {
     for (int round = 0; round < kMostRounds; ++round) {
       check_.ask();
       SewnSoup sewn = make_soup();
-      if (!give_up_turned(sewn)) return finish(std::move(sewn), distance);
+      std::vector<char> given_up(soup_.points.size(), 0);
+      give_up_turned(sewn, given_up);
+      const OpenRims after = internal::find_open_rims(sewn.soup);
+      give_up_useless(after, given_up);
+      if (std::find(given_up.begin(), given_up.end(), 1) == given_up.end()) {
+        return finish(std::move(sewn), after, distance);
+      }
+      std::erase_if(splits_, [&](const EdgeSplit& split) {
+        return given_up[clusters_.of(split.corner)] != 0;
+      });
+      clusters_.dissolve(given_up);
     }
     return std::nullopt;
   }
@@ -121,27 +131,49 @@ class Sewing {
     return sewn;
   }
 
-  // Clusters and splits that turn a triangle over. False if there are none.
-  bool give_up_turned(const SewnSoup& sewn) {
-    std::vector<char> dissolved(soup_.points.size(), 0), unsplit(soup_.triangles.size(), 0);
-    bool any = false;
+  // Clusters of which a triangle is turned over.
+  void give_up_turned(const SewnSoup& sewn, std::vector<char>& given_up) const {
     for (std::size_t t = 0; t < sewn.source.size(); ++t) {
-      const std::uint32_t source = sewn.source[t];
-      const IndexTriangle& was = rims_.triangles[source];
+      const IndexTriangle& was = rims_.triangles[sewn.source[t]];
       const auto& c = sewn.soup.triangles[t];
+      const bool is_whole = c == soup_.triangles[sewn.source[t]];
       const bool is_moved = std::any_of(c.begin(), c.end(), [&](std::uint32_t p) {
         return sewn.soup.points[p] != soup_.points[p];
       });
-      const bool is_whole = c == soup_.triangles[source];
       if ((!is_moved && is_whole) || faces_as(area(soup_, was), area(sewn.soup, c))) continue;
-      any = true;
-      if (!is_whole) unsplit[source] = 1;
-      for (const std::uint32_t p : was) dissolved[clusters_.of(p)] = 1;
+      for (const std::uint32_t p : c) given_up[clusters_.of(rims_.place[p])] = 1;
     }
-    if (!any) return false;
-    clusters_.dissolve(dissolved);
-    std::erase_if(splits_, [&](const EdgeSplit& split) { return unsplit[split.side / 3] != 0; });
-    return true;
+  }
+
+  // Those at which no open edge found a partner, or an edge of more than two triangles came up; of
+  // a corner that only splits an edge, both halves have to find one.
+  void give_up_useless(const OpenRims& after, std::vector<char>& given_up) const {
+    struct Fate {
+      std::uint32_t open = 0;  // edges before
+      bool is_joined = false, is_split = false, was_crowded = false;
+    };
+    std::vector<Fate> fates(soup_.points.size());
+    for (const std::uint32_t corner : rims_.corners) {
+      Fate& fate = fates[clusters_.of(corner)];
+      fate.open += rims_.open_at[corner];
+      fate.is_joined = fate.is_joined || clusters_.of(corner) != corner;
+      fate.was_crowded = fate.was_crowded || rims_.is_crowded[corner] != 0;
+    }
+    for (const EdgeSplit& split : splits_) {
+      Fate& fate = fates[clusters_.of(split.corner)];
+      fate.open += 2;
+      fate.is_split = true;
+    }
+    for (const std::uint32_t corner : rims_.corners) {
+      const Fate& fate = fates[corner];
+      if (!fate.is_joined && !fate.is_split) continue;
+      const std::uint32_t place = after.place[corner];
+      const std::uint32_t paired = fate.is_joined ? 2 : 4;
+      const bool is_better =
+          after.open_at[place] == 0 || after.open_at[place] + paired <= fate.open;
+      const bool is_crowded = after.is_crowded[place] != 0 && !fate.was_crowded;
+      if (!is_better || is_crowded) given_up[corner] = 1;
+    }
   }
 
   static Vec3d area(const TriangleSoup& soup, const IndexTriangle& t) {
@@ -154,7 +186,7 @@ class Sewing {
     return before.squaredNorm() == 0 || before.dot(after) > 0;
   }
 
-  std::optional<SewnSoup> finish(SewnSoup sewn, double distance) {
+  std::optional<SewnSoup> finish(SewnSoup sewn, const OpenRims& after, double distance) {
     for (const std::uint32_t corner : rims_.corners) {
       const double move = (sewn.soup.points[corner] - soup_.points[corner]).norm();
       report_.joined_points += clusters_.of(corner) != corner ? 1 : 0;
@@ -163,6 +195,7 @@ class Sewing {
     report_.split_edges = splits_.size();
     if (report_.joined_points == 0 && splits_.empty()) return std::nullopt;
     report_.distance = distance;
+    report_.sewn_edges = rims_.sides.size() - std::min(rims_.sides.size(), after.sides.size());
     return sewn;
   }
 
@@ -175,36 +208,28 @@ class Sewing {
   CancelCheck check_;
 };
 
-// Whether half of what was near found a partner, and no edge of three triangles came up.
-bool is_an_improvement(const OpenRims& before, const OpenRims& after, const SewReport& report) {
-  const std::size_t touched = 2 * (report.joined_points + report.split_edges);
-  return 2 * report.sewn_edges >= std::min(touched, before.sides.size()) &&
-         after.crowded_edges <= before.crowded_edges;
-}
-
 }  // namespace
 
 std::optional<SewnSoup> sew_soup(const TriangleSoup& soup, const SewOptions& options,
                                  SewReport& report) {
   report = {};
   if (options.mode == SewMode::none) return std::nullopt;
-  const OpenRims before = internal::find_open_rims(soup);
-  report.open_edges = before.sides.size();
-  if (before.sides.empty()) return std::nullopt;
-  Sewing sewing(soup, before, report, options.progress);
+  OpenRims rims = internal::find_open_rims(soup);
+  report.open_edges = rims.sides.size();
+  if (rims.sides.empty()) return std::nullopt;
+  Sewing sewing(soup, std::move(rims), report, options.progress);
   const bool is_automatic = options.mode == SewMode::automatic;
   const double distance = is_automatic ? sewing.automatic_distance() : options.distance;
   if (!(distance > 0)) return std::nullopt;
   std::optional<SewnSoup> sewn = sewing.run(distance);
-  if (!sewn) return std::nullopt;
-  const OpenRims after = internal::find_open_rims(sewn->soup);
-  report.sewn_edges = before.sides.size() - std::min(before.sides.size(), after.sides.size());
-  if (!is_automatic || is_an_improvement(before, after, report)) return sewn;
-  const std::size_t open_edges = report.open_edges;
-  report = {};
-  report.open_edges = open_edges;
-  report.refused_distance = distance;
-  return std::nullopt;
+  const bool pays = report.sewn_edges >= report.joined_points + report.split_edges;
+  if (sewn && is_automatic && !pays) {
+    const std::size_t open_edges = report.open_edges;
+    report = {};
+    report.open_edges = open_edges;
+    sewn.reset();
+  }
+  return sewn;
 }
 
 }  // namespace meshrepair
