@@ -46,6 +46,18 @@ void warn_of_coarse_grid(const Findings& findings) {
       findings.input_name(), clean.dropped_below_grid, clean.triangles_in, clean.grid_unit);
 }
 
+// What noise hides does not come back.
+void warn_of_lost_triangles(const Findings& findings) {
+  constexpr double kWorthAWarning = 0.02;
+  const SewReport& sew = findings.repair.sew;
+  const auto all = static_cast<double>(findings.repair.clean.triangles_in);
+  if (static_cast<double>(sew.lost_triangles) <= kWorthAWarning * all) return;
+  spdlog::warn(
+      "{}: corners that belong together are up to {:.3g} apart, and {} are smaller than that: what "
+      "they showed is lost",
+      findings.input_name(), sew.distance, number_of(sew.lost_triangles, "triangle"));
+}
+
 // A solid made of an open sheet is mostly made up; the user may have meant something else.
 void warn_of_made_up_surface(const Findings& findings) {
   const RepairReport& repair = findings.repair;
@@ -156,6 +168,7 @@ ExitCode verdict(Run& run, const Findings& findings) {
 
 void warn_of_findings(const Findings& findings) {
   warn_of_coarse_grid(findings);
+  warn_of_lost_triangles(findings);
   warn_of_made_up_surface(findings);
   warn_of_coarse_numbers(findings);
 }

@@ -103,6 +103,7 @@ Json section_of(const SewReport& sew) {
           {"joined_points", sew.joined_points},
           {"split_edges", sew.split_edges},
           {"farthest_move", sew.farthest_move},
+          {"lost_triangles", sew.lost_triangles},
           {"refused_distance", sew.refused_distance}};
 }
 

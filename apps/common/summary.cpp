@@ -166,6 +166,9 @@ void describe_sewing(const SewReport& sew, Lines& lines) {
       fmt::format("{} of {}, at most {:.3g} apart; {} moved by at most {:.3g}",
                   grouped(sew.sewn_edges), number_of(sew.open_edges, "open edge"), sew.distance,
                   number_of(sew.joined_points, "corner"), sew.farthest_move);
+  if (sew.lost_triangles > 0) {
+    text += ", " + number_of(sew.lost_triangles, "triangle") + " smaller than that lost";
+  }
   if (sew.split_edges > 0) text += ", " + number_of(sew.split_edges, "edge") + " split";
   lines.add("sewn", text);
 }

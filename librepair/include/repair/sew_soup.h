@@ -24,13 +24,14 @@ struct SewOptions {
 };
 
 struct SewReport {
-  double distance = 0;            // that was sewn over at most; 0: nothing was
-  std::size_t open_edges = 0;     // before
-  std::size_t sewn_edges = 0;     // of these
-  std::size_t joined_points = 0;  // that had different coordinates
-  std::size_t split_edges = 0;    // at a corner that lies beside them
-  double farthest_move = 0;       // of a corner
-  double refused_distance = 0;    // that corners are apart, but not sewn: see sew_soup()
+  double distance = 0;             // that was sewn over at most; 0: nothing was
+  std::size_t open_edges = 0;      // before
+  std::size_t sewn_edges = 0;      // of these
+  std::size_t joined_points = 0;   // that had different coordinates
+  std::size_t split_edges = 0;     // at a corner that lies beside them
+  double farthest_move = 0;        // of a corner
+  std::size_t lost_triangles = 0;  // smaller than the distance, of which corners became one
+  double refused_distance = 0;     // that corners are apart, but not sewn: see sew_soup()
 };
 
 struct SewnSoup {
@@ -43,6 +44,10 @@ struct SewnSoup {
 // triangle, and none is wider than twice the distance. A corner is moved by less than a third of
 // the edges at it. A cluster is given up that would turn a triangle over, make an edge of more than
 // two triangles, or closes no open edge.
+//
+// Where hardly any edge has two triangles, noise has put all corners where they are. What is
+// smaller than it has no shape then: corners of one triangle may become one, too, and slivers turn
+// over.
 //
 // SewMode::automatic compares how far corners are from the nearest open edge that is not theirs
 // with the edges at them. Corners that are much nearer are apart by mistake. It sews over twice the

@@ -1,6 +1,7 @@
 #include "corner_clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -26,10 +27,11 @@ CornerClusters::CornerClusters(const TriangleSoup& soup, const OpenRims& rims)
 }
 
 void CornerClusters::join(double distance, double share) {
+  const double narrow = std::isinf(share) ? distance : 0;
   for (const Pair& pair : pairs_within(distance, share)) {
     std::uint32_t a = cluster_[pair.a], b = cluster_[pair.b];
     if (a > b) std::swap(a, b);
-    if (a == b || !may_join(a, b, 2 * distance)) continue;
+    if (a == b || !may_join(a, b, 2 * distance, narrow)) continue;
     for (const std::uint32_t corner : members_[b]) cluster_[corner] = a;
     members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
     members_[b].clear();
@@ -63,11 +65,11 @@ std::vector<CornerClusters::Pair> CornerClusters::pairs_within(double distance,
   return pairs;
 }
 
-bool CornerClusters::may_join(std::uint32_t a, std::uint32_t b, double width) const {
+bool CornerClusters::may_join(std::uint32_t a, std::uint32_t b, double width, double narrow) const {
   for (const std::uint32_t p : members_[a]) {
     for (const std::uint32_t q : members_[b]) {
-      if ((soup_.points[p] - soup_.points[q]).norm() > width || share_a_triangle(p, q))
-        return false;
+      const double apart = (soup_.points[p] - soup_.points[q]).norm();
+      if (apart > width || (apart > narrow && share_a_triangle(p, q))) return false;
     }
   }
   return true;

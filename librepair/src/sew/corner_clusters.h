@@ -18,7 +18,7 @@ class CornerClusters {
 
   // Joins clusters of corners no farther apart than the distance and than `share` of the edges at
   // both, nearest first, where the cluster is not wider than twice the distance and has no two
-  // corners of one triangle.
+  // corners of one triangle; with an infinite share, none that are farther apart than the distance.
   void join(double distance, double share);
 
   // The first corner of its cluster; of a point that is no corner itself.
@@ -37,7 +37,7 @@ class CornerClusters {
   };
 
   [[nodiscard]] std::vector<Pair> pairs_within(double distance, double share) const;
-  [[nodiscard]] bool may_join(std::uint32_t a, std::uint32_t b, double width) const;
+  [[nodiscard]] bool may_join(std::uint32_t a, std::uint32_t b, double width, double narrow) const;
   [[nodiscard]] bool share_a_triangle(std::uint32_t a, std::uint32_t b) const;
 
   const TriangleSoup& soup_;

@@ -81,16 +81,16 @@ class Sewing {
   }
 
   std::optional<SewnSoup> run(double distance) {
-    clusters_.join(distance, kMove);
+    clusters_.join(distance, is_loose() ? std::numeric_limits<double>::infinity() : kMove);
     check_.ask();
-    splits_ = find_splits(rims_, strangers_, clusters_, distance, kMove);
+    if (!is_loose()) splits_ = find_splits(rims_, strangers_, clusters_, distance, kMove);
     for (int round = 0; round < kMostRounds; ++round) {
       check_.ask();
       SewnSoup sewn = make_soup();
       std::vector<char> given_up(soup_.points.size(), 0);
-      give_up_turned(sewn, given_up);
+      give_up_turned(sewn, is_loose() ? 2 * distance : 0, given_up);
       const OpenRims after = internal::find_open_rims(sewn.soup);
-      give_up_useless(after, given_up);
+      if (!is_loose()) give_up_useless(after, given_up);
       if (std::find(given_up.begin(), given_up.end(), 1) == given_up.end()) {
         return finish(std::move(sewn), after, distance);
       }
@@ -103,6 +103,14 @@ class Sewing {
   }
 
  private:
+  // Hardly any two triangles have an edge in common: all corners are where noise has put them, and
+  // what is smaller than that has no shape to be kept.
+  [[nodiscard]] bool is_loose() const {
+    constexpr double kLoose = 0.9;
+    return static_cast<double>(rims_.sides.size()) >=
+           kLoose * 3 * static_cast<double>(rims_.triangles.size());
+  }
+
   [[nodiscard]] SewnSoup make_soup() const {
     SewnSoup sewn;
     sewn.soup.points = clusters_.middles();
@@ -131,8 +139,8 @@ class Sewing {
     return sewn;
   }
 
-  // Clusters of which a triangle is turned over.
-  void give_up_turned(const SewnSoup& sewn, std::vector<char>& given_up) const {
+  // Clusters of which a triangle is turned over that is higher than this.
+  void give_up_turned(const SewnSoup& sewn, double height, std::vector<char>& given_up) const {
     for (std::size_t t = 0; t < sewn.source.size(); ++t) {
       const IndexTriangle& was = rims_.triangles[sewn.source[t]];
       const auto& c = sewn.soup.triangles[t];
@@ -141,6 +149,7 @@ class Sewing {
         return sewn.soup.points[p] != soup_.points[p];
       });
       if ((!is_moved && is_whole) || faces_as(area(soup_, was), area(sewn.soup, c))) continue;
+      if (least_height(soup_, was) <= height) continue;
       for (const std::uint32_t p : c) given_up[clusters_.of(rims_.place[p])] = 1;
     }
   }
@@ -181,6 +190,14 @@ class Sewing {
     return (soup.points[t[1]] - a).cross(soup.points[t[2]] - a);
   }
 
+  static double least_height(const TriangleSoup& soup, const IndexTriangle& t) {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, (soup.points[t[(k + 1) % 3]] - soup.points[t[k]]).norm());
+    }
+    return longest > 0 ? area(soup, t).norm() / longest : 0;
+  }
+
   // What had no area before has no side.
   static bool faces_as(const Vec3d& before, const Vec3d& after) {
     return before.squaredNorm() == 0 || before.dot(after) > 0;
@@ -193,6 +210,12 @@ class Sewing {
       report_.farthest_move = std::max(report_.farthest_move, move);
     }
     report_.split_edges = splits_.size();
+    for (const IndexTriangle& t : rims_.triangles) {
+      const auto same = [&](std::size_t k) {
+        return clusters_.of(t[k]) == clusters_.of(t[(k + 1) % 3]) && t[k] != t[(k + 1) % 3];
+      };
+      report_.lost_triangles += same(0) || same(1) || same(2) ? 1 : 0;
+    }
     if (report_.joined_points == 0 && splits_.empty()) return std::nullopt;
     report_.distance = distance;
     report_.sewn_edges = rims_.sides.size() - std::min(rims_.sides.size(), after.sides.size());
