@@ -10,6 +10,7 @@
 
 #include "common/attribute_report.h"
 #include "common/check_report.h"
+#include "common/picture_steps.h"
 #include "common/repair_steps.h"
 #include "common/summary.h"
 
@@ -20,6 +21,7 @@ struct Options {
   std::string input;
   std::string marked;  // empty: no such file
   bool json = false;
+  PictureRequest picture;
   CheckOptions check;
 };
 
@@ -43,12 +45,14 @@ ExitCode check_mesh(Options& options, Run& run) {
     throw UsageError("--mark: " + options.marked + " is the input, too");
   }
   check_files(options.input, options.marked, run);
+  check_picture(options.picture, {options.input, options.marked}, run);
   options.check.progress = &run.progress;
   options.check.mark_triangles = !options.marked.empty();
   Findings findings(options.input, options.marked);
   return with_findings(run, findings, [&] {
     Attributes attributes;
     const TriangleSoup soup = read_mesh_stage(run, findings, false, &attributes);
+    check_picture(options.picture, attributes);
     run.report.set_section("attributes", attributes_section(soup, attributes));
     StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
     meter.begin("check");
@@ -56,6 +60,8 @@ ExitCode check_mesh(Options& options, Run& run) {
     meter.end();
     run.report.set_section("check", check_section(check));
     if (!options.marked.empty()) write_marked(soup, check, options, run);
+    draw_picture_stage(options.picture, up_of(findings), {options.input}, {{soup, attributes}}, run,
+                       findings);
     run.progress.finish();
     if (run.options.report != "-" && !run.options.quiet) {
       std::cout << check_table(check, what_was_read(findings, soup),
@@ -99,6 +105,7 @@ int main(int argc, char** argv) {
   app.add_option("--mark", options.marked, mark_help())->type_name("FILE")->group("Output");
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
       ->group("Output");
+  add_picture_options(app, options.picture, "IN");
   return program.run(argc, argv, [&](Run& run) {
     if (options.json) program.report_to_standard_output();
     return check_mesh(options, run);

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/attribute_report.h"
+#include "common/picture_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
 
@@ -16,6 +17,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   Attributes all;
   const TriangleSoup soup =
       read_mesh_stage(run, findings, false, options.attributes ? &all : nullptr);
+  check_picture(options.picture, all);
   run.report.set_section("attributes", attributes_section(soup, all));
   const Attributes held = held_by(*format.format, all);
   const std::string lost = lost_attributes(all, held);
@@ -25,6 +27,8 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   }
   format.extras.attributes = held.empty() ? nullptr : &held;
   write_soup_stage(soup, format, run, findings);
+  draw_picture_stage(options.picture, up_of(findings), {options.input}, {{soup, all}, {soup, held}},
+                     run, findings);
 }
 
 int run_program(int argc, char** argv) {
@@ -41,6 +45,7 @@ int run_program(int argc, char** argv) {
       ->required();
   add_format_option(app, options.format);
   add_attributes_option(app, options.attributes);
+  add_picture_options(app, options.picture, "IN and OUT side by side");
   return run_steps(program, argc, argv, options, convert);
 }
 

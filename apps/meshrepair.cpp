@@ -1,5 +1,6 @@
 // meshrepair IN OUT: any triangle mesh or point cloud to the boundary of a solid, the whole way in
 // one process.
+#include "common/picture_steps.h"
 #include "common/point_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
@@ -10,8 +11,12 @@ namespace {
 void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
   const WriteOptions format = mesh_format(options);
-  const bool wants_attributes = options.attributes && holds_attributes(*format.format);
+  // A picture shows also what the output cannot hold.
+  const bool wants_attributes =
+      options.attributes && (options.picture.wanted() || holds_attributes(*format.format));
   AnySoup input = read_any_stage(points, wants_attributes, run, findings);
+  check_picture(options.picture, input.attributes);
+  const Attributes given = options.picture.wanted() ? input.attributes : Attributes();
   input.attributes = held_by(*format.format, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   keep_attributes(input.soup, input.attributes, repair_options);
@@ -21,6 +26,8 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   const Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
   write_mesh_stage(surface, attributes, format, options, run, findings);
+  draw_picture_stage(options.picture, up_of(findings), {options.input},
+                     {{input.soup, given}, {surface.mesh, attributes}}, run, findings);
 }
 
 }  // namespace
@@ -59,6 +66,7 @@ int main(int argc, char** argv) {
   add_sources_option(app, options.sources);
   add_attributes_option(app, options.attributes);
   add_certify_options(app, options.repair.certify, options.strict);
+  add_picture_options(app, options.picture, "IN and OUT side by side");
   add_point_repair_options(app, points);
   return run_steps(program, argc, argv, options,
                    [&](const StepOptions& steps, Run& run, Findings& findings) {
