@@ -51,9 +51,9 @@ class Drawing {
           Pixels& pixels)
       : visible_(visible), shader_(shader), options_(options), pixels_(pixels) {}
 
-  void draw_band(std::size_t band) const {
+  void draw_band(std::size_t band, SharedProgress& progress) const {
     std::vector<VisibleTriangles::Sample> samples;
-    visible_.look(band, samples);
+    visible_.look(band, progress, samples);
     const auto first = static_cast<std::size_t>(visible_.rows(band).first);
     const std::size_t per_row = visible_.columns() * options_.samples;
     ShadedFace face(visible_, shader_);
@@ -125,7 +125,7 @@ Pixels draw_mesh(const TriangleSoup& soup, const Attributes& attributes, const C
   const Drawing drawing(visible, shader, options, pixels);
   SharedProgress progress(options.progress, visible.bands());
   parallel_for(visible.bands(), [&](std::size_t band) {
-    drawing.draw_band(band);
+    drawing.draw_band(band, progress);
     progress.done();
   });
   return pixels;

@@ -51,7 +51,7 @@ bool encode(Encoder& encoder, PictureSize size, int colour_type, const png_bytep
   if (encoder.info == nullptr) return false;
   if (setjmp(png_jmpbuf(encoder.png)) != 0) return false;
   png_set_write_fn(encoder.png, &encoder, append_bytes, flush_nothing);
-  png_set_compression_level(encoder.png, 9);
+  png_set_compression_level(encoder.png, 6);
   png_set_filter(encoder.png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
   png_set_IHDR(encoder.png, encoder.info, size.width, size.height, 8, colour_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);

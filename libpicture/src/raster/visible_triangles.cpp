@@ -69,10 +69,16 @@ std::vector<Range> VisibleTriangles::rows_of_triangles() const {
   return rows;
 }
 
-void VisibleTriangles::look(std::size_t band, std::vector<Sample>& samples) const {
+void VisibleTriangles::look(std::size_t band, SharedProgress& progress,
+                            std::vector<Sample>& samples) const {
   const Range rows = rows_.rows(band);
   samples.assign(static_cast<std::size_t>(rows.end - rows.first) * columns_, kNothing);
-  rows_.visit(band, [&](std::uint32_t triangle) { draw(triangle, rows, samples); });
+  constexpr std::size_t kTrianglesPerPoll = 64;  // each of which may be as large as the band
+  std::size_t drawn = 0;
+  rows_.visit(band, [&](std::uint32_t triangle) {
+    if (++drawn % kTrianglesPerPoll == 0) progress.poll();
+    draw(triangle, rows, samples);
+  });
 }
 
 void VisibleTriangles::draw(std::uint32_t number, const Range& rows,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <base/shared_progress.h>
 #include <mesh/soup.h>
 #include <picture/camera.h>
 
@@ -33,7 +34,8 @@ class VisibleTriangles {
   static constexpr Sample kNothing = 0;
   [[nodiscard]] static Seen seen(Sample sample);
 
-  void look(std::size_t band, std::vector<Sample>& samples) const;
+  // Polls while it works.
+  void look(std::size_t band, SharedProgress& progress, std::vector<Sample>& samples) const;
 
   [[nodiscard]] SnappedTriangle snapped_triangle(std::uint32_t triangle) const;
 
