@@ -1,11 +1,11 @@
-#include "decode/png_reader.h"
+#include "image/png_reader.h"
 
 #include <png.h>
 #include <string>
 
 #include <base/error.h>
 
-#include "decode/image_size.h"
+#include "image/image_size.h"
 
 namespace meshrepair {
 namespace {

@@ -1,8 +1,8 @@
 #include <base/error.h>
 #include <picture/decode_image.h>
 
-#include "decode/jpeg_reader.h"
-#include "decode/png_reader.h"
+#include "image/jpeg_reader.h"
+#include "image/png_reader.h"
 
 namespace meshrepair {
 

@@ -1,4 +1,4 @@
-#include "decode/jpeg_reader.h"
+#include "image/jpeg_reader.h"
 
 #include <array>
 #include <csetjmp>
@@ -7,7 +7,7 @@
 
 #include <base/error.h>
 
-#include "decode/image_size.h"
+#include "image/image_size.h"
 
 namespace meshrepair {
 namespace {
