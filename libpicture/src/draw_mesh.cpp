@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned kMostSamples = 8;
 
 std::uint8_t byte_of(double share) {
-  return static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * 255 + 0.5);
+  return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0, 1.0) * 255 + 0.5));
 }
 
 // The mean of samples, those without a triangle being background.

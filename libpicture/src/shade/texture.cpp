@@ -11,7 +11,7 @@ namespace {
 
 // Of a mean of four squares.
 std::uint8_t root_of_mean(unsigned sum) {
-  return static_cast<std::uint8_t>(std::sqrt(sum / 4.0) + 0.5);
+  return static_cast<std::uint8_t>(std::floor(std::sqrt(sum / 4.0) + 0.5));
 }
 
 // The last row or column of an odd number is left out, unless it is the only one.
