@@ -1,6 +1,7 @@
 // From places in space to places in a picture.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 
 #include <base/vec3.h>

@@ -2,8 +2,8 @@
 //
 // Rays are parallel, all surfaces are dull and opaque, and light comes from the upper left of
 // whoever looks. Faces are flat, whatever normals they carry, for so they are in the file. Colours
-// are those of materials, times those of corners, times the textures of materials, which repeat
-// without end. What is seen from behind is red: a hole shows it, and a triangle that is turned.
+// are those of materials, times those of corners unless all these are black, times the textures of
+// materials, which repeat without end. What is seen from behind is red: a hole shows it, and a triangle that is turned.
 //
 // The same pixels on any number of threads, and from any compiler.
 #pragma once

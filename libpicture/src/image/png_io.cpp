@@ -2,6 +2,7 @@
 #include <csetjmp>
 #include <new>
 #include <png.h>
+#include <utility>
 #include <vector>
 
 #include <base/assert.h>

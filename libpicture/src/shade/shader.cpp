@@ -14,9 +14,10 @@ constexpr Rgba kFromBehind = {224, 74, 52, 255};
 
 // In the axes of the camera: to the right, up, and towards whoever looks; of length 1.
 constexpr std::array<double, 3> kLamp = {-0.28, 0.45, 0.848};
-constexpr double kLampLight = 0.7;
-constexpr double kSkyLight = 0.4;     // from above
-constexpr double kGroundLight = 0.2;  // from below
+// Less than 1 together, so that white is not that of paper.
+constexpr double kLampLight = 0.62;
+constexpr double kSkyLight = 0.36;     // from above
+constexpr double kGroundLight = 0.18;  // from below
 
 double square(double share) {
   const double within = share > 0 ? std::min(share, 1.0) : 0;  // NaN: 0
@@ -29,6 +30,14 @@ const CornerAttribute* find_usable(const Attributes& attributes, CornerAttribute
   const CornerAttribute* const found = find_kind(attributes, kind);
   if (found == nullptr || found->components < components) return nullptr;
   return found->of_corner.size() == 3 * soup.triangles.size() ? found : nullptr;
+}
+
+// Programs that know of no colours write black ones, too.
+bool is_black(const CornerAttribute& colours) {
+  for (std::size_t i = 0; i < colours.values.size(); ++i) {
+    if (i % colours.components < 3 && colours.values[i] > 0) return false;
+  }
+  return true;
 }
 
 // The first numbers of each corner's value; false where one has none.
@@ -60,7 +69,9 @@ Shader::Shader(const TriangleSoup& soup, const Attributes& attributes,
       camera_(camera),
       samples_of_pixel_(static_cast<double>(samples) * samples),
       places_(find_usable(attributes, CornerAttribute::Kind::texture, 2, soup)),
-      colours_(find_usable(attributes, CornerAttribute::Kind::colour, 3, soup)) {}
+      colours_(find_usable(attributes, CornerAttribute::Kind::colour, 3, soup)) {
+  if (colours_ != nullptr && is_black(*colours_)) colours_ = nullptr;
+}
 
 Shader::Face Shader::face(std::uint32_t triangle, bool from_behind) const {
   Face face;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <system_error>
+#include <utility>
 
 #include <base/error.h>
 #include <base/file_bytes.h>
