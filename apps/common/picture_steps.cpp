@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/spdlog.h>
 
 #include <base/atomic_file.h>
 #include <base/error.h>

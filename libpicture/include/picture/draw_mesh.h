@@ -3,7 +3,8 @@
 // Rays are parallel, all surfaces are dull and opaque, and light comes from the upper left of
 // whoever looks. Faces are flat, whatever normals they carry, for so they are in the file. Colours
 // are those of materials, times those of corners unless all these are black, times the textures of
-// materials, which repeat without end. What is seen from behind is red: a hole shows it, and a triangle that is turned.
+// materials, which repeat without end. What is seen from behind is red: a hole shows it, and a
+// triangle that is turned.
 //
 // The same pixels on any number of threads, and from any compiler.
 #pragma once
@@ -24,8 +25,8 @@ struct DrawOptions {
 };
 
 // `attributes` are of the soup, or empty. Triangles with a corner that is not finite are left out,
-// and those that are a thousand pictures away. Takes time for triangles and pixels, and 24 bytes
-// for a point and 20 for a triangle.
+// and those that are a thousand pictures away. Takes time for all samples that triangles cover,
+// hidden ones, too, and 24 bytes for a point and up to 32 for a triangle.
 [[nodiscard]] Pixels draw_mesh(const TriangleSoup& soup, const Attributes& attributes,
                                const Camera& camera, Textures& textures,
                                const DrawOptions& options = {});
