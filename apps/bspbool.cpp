@@ -16,6 +16,7 @@
 
 #include "common/choice_option.h"
 #include "common/logging.h"
+#include "common/picture_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
 #include "common/report_sections.h"
@@ -30,12 +31,38 @@ struct BoolOptions {
   RegionTest test = RegionTest::cells;
   bool always = false;
   bool output_has_unit = false;
+  bool carries_attributes = false;  // the output can hold some
   StepOptions step;
 };
 
 bool is_tree_name(const std::string& name) {
   return CLI::detail::to_lower(std::filesystem::path(name).extension().string()) == ".bsp";
 }
+
+// Meshes as one.
+struct JoinedMeshes {
+  TriangleSoup soup;
+  Attributes attributes;
+
+  void add(const TriangleSoup& other, Attributes carried) {
+    append_attributes(attributes, soup.triangles.size(), std::move(carried),
+                      other.triangles.size());
+    append(other);
+  }
+
+  void append(const TriangleSoup& other) {
+    const auto base = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
+    for (const auto& [a, b, c] : other.triangles) {
+      soup.triangles.push_back({a + base, b + base, c + base});
+    }
+  }
+};
+
+// The meshes as they are in their files.
+struct GivenMeshes : JoinedMeshes {
+  View::Up up = View::Up::y;  // unless some mesh has z up
+};
 
 struct Operand {
   TriangleSoup solid;
@@ -65,13 +92,25 @@ class CommonUnit {
   std::optional<LengthUnit> units_, unit_;
 };
 
-Operand read_mesh_operand(RepairOptions repair_options, bool wants_attributes, CommonUnit& unit,
-                          Run& run, Findings& findings) {
+// What all operands have in common.
+struct Intake {
+  CommonUnit unit;
+  GivenMeshes given;
+};
+
+// `intake.given` gets the mesh as it is in the file, if there will be a picture.
+Operand read_mesh_operand(const BoolOptions& options, RepairOptions repair_options, Run& run,
+                          Findings& findings, Intake& intake) {
+  const PictureRequest& picture = options.step.picture;
   ReadOptions reading = read_options(run);
   reading.may_be_empty = true;
-  reading.attributes = wants_attributes;
+  reading.attributes =
+      options.step.assets.attributes && (options.carries_attributes || picture.wanted());
   auto [soup, attributes, scene, report] = read_mesh_stage(reading, run, findings);
-  unit.apply(findings.unit, soup);
+  intake.unit.apply(findings.unit, soup);
+  check_picture(picture, attributes);
+  if (picture.wanted()) intake.given.add(soup, attributes);
+  if (!options.carries_attributes) attributes = {};
   if (soup.triangles.empty()) return {{}, {}, true};
   keep_attributes(soup, attributes, repair_options);
   {
@@ -90,12 +129,12 @@ Operand read_mesh_operand(RepairOptions repair_options, bool wants_attributes, C
 
 // A mesh that is no solid is repaired, a tree without labels gets some. One in which nothing is
 // solid is the empty solid, and so is a mesh of nothing.
-Operand read_operand(const BoolOptions& options, CommonUnit& unit, Run& run, Findings& findings) {
+Operand read_operand(const BoolOptions& options, Run& run, Findings& findings, Intake& intake) {
   RepairOptions repair_options = options.step.repair;
   repair_options.certify.precision = Precision::float64;  // only what comes out is written
   repair_options.progress = &run.progress;
   if (!is_tree_name(findings.input)) {
-    return read_mesh_operand(repair_options, options.step.assets.attributes, unit, run, findings);
+    return read_mesh_operand(options, repair_options, run, findings, intake);
   }
   Tree tree = read_tree_stage(run, findings);
   if (!findings.tree_read->labelled) {
@@ -103,7 +142,9 @@ Operand read_operand(const BoolOptions& options, CommonUnit& unit, Run& run, Fin
   } else if (findings.tree_read->solid_leaves == 0) {
     return {};
   }
-  return {extract_mesh(tree, repair_options, findings.repair).mesh, {}};
+  TriangleSoup solid = extract_mesh(tree, repair_options, findings.repair).mesh;
+  if (options.step.picture.wanted()) intake.given.add(solid, {});
+  return {std::move(solid), {}};
 }
 
 bool is_certified(const Operand& operand, const Findings& findings) {
@@ -122,12 +163,13 @@ Json facts_of_operand(const Operand& operand, const Findings& findings, const Js
   return facts;
 }
 
-Operand take_operand(const BoolOptions& options, const std::string& name, CommonUnit& unit,
-                     Run& run, Json& facts) {
+Operand take_operand(const BoolOptions& options, const std::string& name, Run& run, Json& facts,
+                     Intake& intake) {
   Findings findings(name, "");
   Operand operand;
   (void)with_findings(run, findings, [&] {
-    operand = read_operand(options, unit, run, findings);
+    operand = read_operand(options, run, findings, intake);
+    if (up_of(findings) == View::Up::z) intake.given.up = View::Up::z;
     return ExitCode::done;
   });
   warn_of_findings(findings);
@@ -144,26 +186,19 @@ Operand take_operand(const BoolOptions& options, const std::string& name, Common
 // All solids, and what their triangles carry, one after the other.
 struct Operands {
   std::vector<TriangleSoup> solids;
-  TriangleSoup joined;  // only where there are attributes
-  Attributes attributes;
+  JoinedMeshes joined;  // the triangles only where there are attributes
 
   void add(Operand operand) {
     std::size_t triangles = 0;
     for (const TriangleSoup& solid : solids) triangles += solid.triangles.size();
-    append_attributes(attributes, triangles, std::move(operand.attributes),
+    append_attributes(joined.attributes, triangles, std::move(operand.attributes),
                       operand.solid.triangles.size());
     solids.push_back(std::move(operand.solid));
   }
 
   void join() {
-    if (attributes.is_bare()) return;
-    for (const TriangleSoup& solid : solids) {
-      const auto base = static_cast<std::uint32_t>(joined.points.size());
-      joined.points.insert(joined.points.end(), solid.points.begin(), solid.points.end());
-      for (const auto& [a, b, c] : solid.triangles) {
-        joined.triangles.push_back({a + base, b + base, c + base});
-      }
-    }
+    if (joined.attributes.is_bare()) return;
+    for (const TriangleSoup& solid : solids) joined.append(solid);
   }
 };
 
@@ -238,16 +273,19 @@ ExitCode write_tree_result(const Tree& tree, const BoolOptions& options, Run& ru
   return ExitCode::done;
 }
 
-ExitCode write_mesh_result(const Surface& surface, const Operands& operands,
-                           const WriteOptions& format, const BoolOptions& options, Run& run,
-                           Findings& findings) {
+ExitCode write_mesh_result(const Surface& surface, const JoinedMeshes& operands,
+                           const GivenMeshes& given, const WriteOptions& format,
+                           const BoolOptions& options, Run& run, Findings& findings) {
+  Attributes attributes;
   if (surface.mesh.triangles.empty()) {
     write_nothing(format, run, findings);
   } else {
-    const Attributes attributes =
-        transfer_attributes_stage(operands.joined, operands.attributes, surface, run, findings);
+    attributes =
+        transfer_attributes_stage(operands.soup, operands.attributes, surface, run, findings);
     write_mesh_stage(surface, attributes, format, options.step, run, findings);
   }
+  draw_picture_stage(options.step.picture, given.up, options.inputs,
+                     {{given.soup, given.attributes}, {surface.mesh, attributes}}, run, findings);
   if (!findings.withheld) print_result(options, findings.repair, what_was_written(surface), run);
   return verdict(run, findings);
 }
@@ -264,24 +302,24 @@ ExitCode combine_files(BoolOptions options, Run& run) {
     format = mesh_format(options.step);
     boolean_options.repair = certified_for(*format.format, boolean_options.repair);
   }
-  options.step.assets.attributes =
+  options.carries_attributes =
       options.step.assets.attributes && format.format && holds_attributes(*format.format);
   options.output_has_unit = format.format && has_unit(*format.format);
   Json facts = Json::array();
   Operands operands;
-  CommonUnit unit(options);
+  Intake intake{CommonUnit(options), {}};
   for (const std::string& name : options.inputs) {
-    Operand operand = take_operand(options, name, unit, run, facts);
-    if (options.step.assets.attributes) {
+    Operand operand = take_operand(options, name, run, facts, intake);
+    if (options.carries_attributes) {
       operand.attributes =
           chosen_for(*format.format, options.step.assets, std::move(operand.attributes));
     }
     operands.add(std::move(operand));
   }
   run.report.set_section("operands", std::move(facts));
-  format.extras.unit = unit.get();
+  format.extras.unit = intake.unit.get();
   operands.join();
-  keep_attributes(operands.joined, operands.attributes, boolean_options.repair);
+  keep_attributes(operands.joined.soup, operands.joined.attributes, boolean_options.repair);
   Findings findings(all_names(options.inputs), options.step.output);
   return with_findings(run, findings, [&] {
     BooleanReport report;
@@ -295,7 +333,8 @@ ExitCode combine_files(BoolOptions options, Run& run) {
     run.report.set_section("boolean", merge_section(report, options.operation));
     warn_of_common_grid(options, report);
     findings.repair = report.result;
-    return write_mesh_result(surface, operands, format, options, run, findings);
+    return write_mesh_result(surface, operands.joined, intake.given, format, options, run,
+                             findings);
   });
 }
 
@@ -333,7 +372,8 @@ void add_bool_options(CLI::App& app, BoolOptions& options) {
 
 // What is asked of a mesh to write says nothing about a tree.
 void refuse_mesh_options(const CLI::App& app) {
-  for (const char* name : {"--format", "--attributes", "--drop", "--precision", "--strict"}) {
+  for (const char* name :
+       {"--format", "--attributes", "--drop", "--precision", "--strict", "--picture"}) {
     if (app.get_option(name)->count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }
@@ -368,11 +408,15 @@ int main(int argc, char** argv) {
   add_attributes_options(app, options.step.assets);
   add_units_option(app, options.step.assets);
   add_certify_options(app, options.step.repair.certify, options.step.strict);
+  add_picture_options(app, options.step.picture, "all IN and OUT side by side");
   return program.run(argc, argv, [&](Run& run) {
     if (options.step.output.empty()) throw UsageError("the name of the output is empty");
     if (options.inputs.size() < 2) throw UsageError("IN: two solids are needed, or more");
     if (is_tree_name(options.step.output)) refuse_mesh_options(app);
     for (const std::string& input : options.inputs) check_files(input, options.step.output, run);
+    std::vector<std::string> files = options.inputs;
+    files.push_back(options.step.output);
+    check_picture(options.step.picture, files, run);
     return combine_files(options, run);
   });
 }

@@ -10,6 +10,7 @@
 
 #include "common/attribute_report.h"
 #include "common/check_report.h"
+#include "common/picture_steps.h"
 #include "common/repair_steps.h"
 #include "common/scene_steps.h"
 #include "common/summary.h"
@@ -22,6 +23,7 @@ struct Options {
   AssetOptions assets;
   std::string marked;  // empty: no such file
   bool json = false;
+  PictureRequest picture;
   CheckOptions check;
 };
 
@@ -88,6 +90,7 @@ ExitCode check_mesh(Options& options, Run& run) {
     throw UsageError("--mark: " + options.marked + " is the input, too");
   }
   check_files(options.input, options.marked, run);
+  check_picture(options.picture, {options.input, options.marked}, run);
   options.check.progress = &run.progress;
   options.check.mark_triangles = !options.marked.empty();
   Findings findings(options.input, options.marked);
@@ -95,7 +98,8 @@ ExitCode check_mesh(Options& options, Run& run) {
     ReadOptions reading = read_options(run);
     reading.attributes = true;
     reading.by_mesh = options.assets.by_mesh;
-    const ReadResult input = read_mesh_stage(reading, run, findings);
+    ReadResult input = read_mesh_stage(reading, run, findings);
+    check_picture(options.picture, input.attributes);
     run.report.set_section("attributes", attributes_section(input.soup, input.attributes));
     StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
     meter.begin("check");
@@ -103,6 +107,9 @@ ExitCode check_mesh(Options& options, Run& run) {
                                                    : check_one(input, options, run, findings);
     meter.end();
     if (!options.marked.empty()) write_marked(input.soup, verdict.colours, options, run);
+    place_instances(input.soup, input.attributes, input.scene);
+    draw_picture_stage(options.picture, up_of(findings), {options.input},
+                       {{input.soup, input.attributes}}, run, findings);
     run.progress.finish();
     if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
     return verdict.is_valid ? ExitCode::done : ExitCode::not_certified;
@@ -144,6 +151,7 @@ int main(int argc, char** argv) {
   app.add_option("--mark", options.marked, mark_help())->type_name("FILE")->group("Output");
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
       ->group("Output");
+  add_picture_options(app, options.picture, "IN");
   return program.run(argc, argv, [&](Run& run) {
     if (options.json) program.report_to_standard_output();
     return check_mesh(options, run);

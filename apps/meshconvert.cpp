@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/attribute_report.h"
+#include "common/picture_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
 #include "common/scene_steps.h"
@@ -20,6 +21,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   ReadResult input = read_mesh_stage(reading, run, findings);
   const TriangleSoup& soup = input.soup;
   const Attributes& all = input.attributes;
+  check_picture(options.picture, all);
   run.report.set_section("attributes", attributes_section(soup, all));
   const Attributes held = chosen_for(*format.format, options.assets, all);
   Attributes still_held = held_by(*format.format, all);
@@ -37,6 +39,8 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   findings.unit = bring_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   write_soup_stage(soup, format, run, findings);
+  draw_picture_stage(options.picture, up_of(findings), {options.input}, {{soup, all}, {soup, held}},
+                     run, findings);
 }
 
 int run_program(int argc, char** argv) {
@@ -55,6 +59,7 @@ int run_program(int argc, char** argv) {
   add_attributes_options(app, options.assets);
   add_scene_option(app, options.assets, "Output");
   add_units_option(app, options.assets);
+  add_picture_options(app, options.picture, "IN and OUT side by side");
   return run_steps(program, argc, argv, options, convert);
 }
 

@@ -1,5 +1,6 @@
 // meshrepair IN OUT: any triangle mesh or point cloud to the boundary of a solid, the whole way in
 // one process.
+#include "common/picture_steps.h"
 #include "common/point_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
@@ -11,8 +12,12 @@ namespace {
 void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
   WriteOptions format = mesh_format(options);
-  const ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
+  ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
+  // A picture shows also what the output cannot hold.
+  if (options.picture.wanted()) reading.attributes = options.assets.attributes;
   AnySoup input = read_any_stage(points, reading, run, findings);
+  check_picture(options.picture, input.attributes);
+  const Attributes given = options.picture.wanted() ? input.attributes : Attributes();
   input.attributes = chosen_for(*format.format, options.assets, std::move(input.attributes));
   findings.unit = bring_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
@@ -20,13 +25,15 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
   if (!input.scene.meshes.empty()) {
-    return repair_scene(input, repair_options, format, options, run, findings);
+    return repair_scene(input, given, repair_options, format, options, run, findings);
   }
   const Surface surface = repair_any(input, points, repair_options, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   const Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
   write_mesh_stage(surface, attributes, format, options, run, findings);
+  draw_picture_stage(options.picture, up_of(findings), {options.input},
+                     {{input.soup, given}, {surface.mesh, attributes}}, run, findings);
 }
 
 }  // namespace
@@ -68,6 +75,7 @@ int main(int argc, char** argv) {
   add_attributes_options(app, options.assets);
   add_units_option(app, options.assets);
   add_certify_options(app, options.repair.certify, options.strict);
+  add_picture_options(app, options.picture, "IN and OUT side by side");
   add_point_repair_options(app, points);
   return run_steps(program, argc, argv, options,
                    [&](const StepOptions& steps, Run& run, Findings& findings) {

@@ -52,7 +52,7 @@ def places(links: dict[str, set[str]]) -> dict[str, tuple[float, float]]:
     corners = {}
     for row in range(last + 1):
         names = sorted(name for name in links if rows[name] == row)
-        # Rows of one or two stand over the first two columns; the third is free for long arrows.
+        # Rows of one or two stand over the first two columns; those to the right are free for long arrows.
         first = 0.5 if len(names) == 1 else 0
         for column, name in enumerate(names):
             corners[name] = (MARGIN + (first + column) * COLUMN, MARGIN + (last - row + 1) * ROW)
@@ -139,7 +139,7 @@ def draw() -> str:
     corners = places(links)
     top = {name for name in links if not any(name in targets for targets in links.values())}
     drawn = without_detours(links) | {"programs": top}
-    width = 2 * MARGIN + 2 * COLUMN + WIDTH
+    width = max(x for x, _ in corners.values()) + WIDTH + MARGIN
     height = max(y for _, y in corners.values()) + HEIGHT + MARGIN
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}">',

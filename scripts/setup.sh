@@ -31,9 +31,11 @@ build_packages=(
   libexpat1-dev
   libgmock-dev
   libgtest-dev
+  libjpeg-dev
   libmeshoptimizer-dev
   libnanoflann-dev
   libopenmesh-dev
+  libpng-dev
   libspdlog-dev
   libtbb-dev
   libzip-dev

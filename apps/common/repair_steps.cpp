@@ -12,6 +12,7 @@
 #include <base/atomic_file.h>
 #include <base/error.h>
 
+#include "common/picture_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
 
@@ -219,13 +220,16 @@ void check_files(const std::string& input, const std::string& output, Run& run) 
   if (input != "-") check_report(run, input, "input");
   if (output.empty()) return;
   check_report(run, output, "output");
-  if (output == "-") return;
-  const fs::path folder = fs::path(output).parent_path();
+  if (output != "-") check_folder(output);
+}
+
+void check_folder(const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
   std::error_code error;
   if (!folder.empty() && !fs::is_directory(folder, error)) {
-    throw OutputError(output + ": there is no folder " + folder.string());
+    throw OutputError(file + ": there is no folder " + folder.string());
   }
-  if (fs::is_directory(output, error)) throw OutputError(output + ": is a folder");
+  if (fs::is_directory(file, error)) throw OutputError(file + ": is a folder");
 }
 
 ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCode()>& work) {
@@ -270,6 +274,7 @@ int run_steps(Program& program, int argc, const char* const* argv, StepOptions& 
   return program.run(argc, argv, [&](Run& run) {
     if (options.output.empty()) throw UsageError("the name of the output is empty");
     check_files(options.input, options.output, run);
+    check_picture(options.picture, {options.input, options.output}, run);
     options.repair.progress = &run.progress;
     return run_body(options, run, body);
   });

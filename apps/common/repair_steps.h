@@ -19,6 +19,7 @@
 #include <repair/transfer_attributes.h>
 
 #include "common/asset_options.h"
+#include "common/picture_request.h"
 #include "common/program.h"
 
 namespace meshrepair {
@@ -72,6 +73,7 @@ struct StepOptions {
   bool sources = false;  // write of each triangle which one of the input it lies in
   AssetOptions assets;
   bool strict = false;
+  PictureRequest picture;
   RepairOptions repair;
 };
 
@@ -93,6 +95,9 @@ using StepBody = std::function<void(const StepOptions&, Run&, Findings&)>;
 // Throws UsageError where the report is the input or the output, too, and withholds it; OutputError
 // where the output cannot be.
 void check_files(const std::string& input, const std::string& output, Run& run);
+
+// Throws OutputError where there is no folder for this file, or there is one of its name.
+void check_folder(const std::string& file);
 
 // Runs `work`, then puts the findings into the report, also when it throws. Errors about the input
 // that do not name it are given its name.

@@ -8,6 +8,7 @@
 
 #include <base/error.h>
 
+#include "common/picture_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
 
@@ -49,9 +50,10 @@ void append(const Surface& mesh, std::size_t first_source, Surface& all) {
 
 class SceneRepair {
  public:
-  SceneRepair(const AnySoup& input, const RepairOptions& repair_options, const WriteOptions& format,
-              const StepOptions& options, Run& run, Findings& findings)
+  SceneRepair(const AnySoup& input, const Attributes& given, const RepairOptions& repair_options,
+              const WriteOptions& format, const StepOptions& options, Run& run, Findings& findings)
       : input_(input),
+        given_(given),
         repair_options_(repair_options),
         format_(format),
         options_(options),
@@ -72,7 +74,10 @@ class SceneRepair {
     report();
     require_a_solid();
     judge();
-    if (!findings_.withheld) write();
+    const Attributes attributes =
+        transfer_attributes_stage(input_.soup, input_.attributes, all_, run_, findings_);
+    if (!findings_.withheld) write(attributes);
+    draw(attributes);
     findings_.summary = summary();
   }
 
@@ -159,9 +164,17 @@ class SceneRepair {
     findings_.withheld = options_.strict;
   }
 
-  void write() {
-    const Attributes attributes =
-        transfer_attributes_stage(input_.soup, input_.attributes, all_, run_, findings_);
+  void draw(Attributes attributes) {
+    if (!options_.picture.wanted()) return;
+    TriangleSoup before = input_.soup, after = all_.mesh;
+    Attributes given = given_;
+    place_instances(before, given, input_.scene);
+    place_instances(after, attributes, scene_);
+    draw_picture_stage(options_.picture, up_of(findings_), {options_.input},
+                       {{before, given}, {after, attributes}}, run_, findings_);
+  }
+
+  void write(const Attributes& attributes) {
     StageMeter meter(findings_.repair.stages, &run_.progress);
     meter.begin("write");
     WriteOptions format = format_;
@@ -197,6 +210,7 @@ class SceneRepair {
   }
 
   const AnySoup& input_;
+  const Attributes& given_;
   const RepairOptions& repair_options_;
   const WriteOptions& format_;
   const StepOptions& options_;
@@ -221,11 +235,11 @@ std::string mesh_name(const Scene& scene, std::size_t mesh) {
   return name.empty() ? fmt::format("mesh {}", mesh) : name;
 }
 
-void repair_scene(const AnySoup& input, const RepairOptions& repair_options,
-                  const WriteOptions& format, const StepOptions& options, Run& run,
-                  Findings& findings) {
+void repair_scene(const AnySoup& input, const Attributes& given,
+                  const RepairOptions& repair_options, const WriteOptions& format,
+                  const StepOptions& options, Run& run, Findings& findings) {
   check_scene(input.scene, *format.format);
-  SceneRepair(input, repair_options, format, options, run, findings).run();
+  SceneRepair(input, given, repair_options, format, options, run, findings).run();
 }
 
 }  // namespace meshrepair

@@ -20,9 +20,10 @@ void check_scene(const Scene& scene, SoupFormat format);
 // Repairs each mesh by itself, brings the attributes onto them, and writes them with what stands
 // where. A mesh that encloses nothing stays as it is, and the output is not certified then; if all
 // are such, throws NoSolidError. `repair_options` are of the whole soup. The report gets a section
-// "meshes", and the findings their summary.
-void repair_scene(const AnySoup& input, const RepairOptions& repair_options,
-                  const WriteOptions& format, const StepOptions& options, Run& run,
-                  Findings& findings);
+// "meshes", and the findings their summary. `given` are the attributes of the input that a picture
+// shows.
+void repair_scene(const AnySoup& input, const Attributes& given,
+                  const RepairOptions& repair_options, const WriteOptions& format,
+                  const StepOptions& options, Run& run, Findings& findings);
 
 }  // namespace meshrepair

@@ -115,6 +115,37 @@ Scene split_objects(TriangleSoup& soup, Attributes& attributes) {
   return scene;
 }
 
+void place_instances(TriangleSoup& soup, Attributes& attributes, const Scene& scene) {
+  if (scene.meshes.empty()) return;
+  std::vector<std::uint32_t> first = {0};
+  for (const SceneMesh& mesh : scene.meshes) {
+    first.push_back(first.back() + static_cast<std::uint32_t>(mesh.triangles));
+  }
+  const std::vector<TriangleSoup> meshes = meshes_of(soup, scene);
+  std::vector<std::uint32_t> order;
+  std::vector<std::size_t> turned;  // triangles that are seen in a mirror
+  soup = {};
+  for (const auto& [mesh, name, placement] : scene.instances) {
+    const auto base = static_cast<std::uint32_t>(soup.points.size());
+    for (const Vec3d& point : meshes[mesh].points) soup.points.push_back(placement.of(point));
+    for (auto corners : meshes[mesh].triangles) {
+      for (std::uint32_t& corner : corners) corner += base;
+      if (placement.mirrors()) {
+        turned.push_back(soup.triangles.size());
+        std::swap(corners[1], corners[2]);
+      }
+      soup.triangles.push_back(corners);
+    }
+    for (std::uint32_t t = first[mesh]; t < first[mesh + 1]; ++t) order.push_back(t);
+  }
+  reorder(attributes, order);
+  for (CornerAttribute& attribute : attributes.corners) {
+    for (const std::size_t t : turned) {
+      std::swap(attribute.of_corner[3 * t + 1], attribute.of_corner[3 * t + 2]);
+    }
+  }
+}
+
 bool is_plain(const Scene& scene) {
   std::vector<std::size_t> stands(scene.meshes.size(), 0);
   for (const SceneInstance& instance : scene.instances) {

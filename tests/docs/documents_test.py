@@ -291,6 +291,9 @@ class Tables(unittest.TestCase):
             self.skipTest("python3-numpy is not installed")
         subprocess.run([sys.executable, ROOT / "scripts/make_pictures.py", "--check", "--programs", PROGRAMS], check=True)
 
+    def test_pictures_of_textures_are_as_the_script_makes_them(self) -> None:
+        subprocess.run([sys.executable, ROOT / "scripts/make_textured_pictures.py", "--check", "--programs", PROGRAMS], check=True)
+
 
 def main() -> None:
     global PROGRAMS

@@ -9,7 +9,9 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MESHES = ROOT / "samples" / "meshes"
 sys.path.insert(0, str(ROOT / "tests" / "apps"))
+sys.path.insert(0, str(ROOT / "scripts"))
 import make_cli_inputs  # noqa: E402
+import make_textured_pictures  # noqa: E402
 
 COPIES = {"broken.stl": "broken_torus_box.stl", "broken.obj": "broken_spheres.obj", "part.stl": "cube.stl",
           "part.obj": "hollow_sphere.obj", "original.stl": "broken_torus_box.stl", "body.stl": "cube.stl",
@@ -49,6 +51,7 @@ def make_folder(folder: pathlib.Path, programs: pathlib.Path) -> None:
         shutil.copyfile(MESHES / source, folder / name)
     for name, data in {**clouds(), "triangle.obj": make_cli_inputs.SINGLE_TRIANGLE}.items():
         (folder / name).write_bytes(data)
+    make_textured_pictures.make_meshes(folder)
     os.symlink(ROOT / "samples", folder / "samples")
     os.symlink(ROOT / "scripts", folder / "scripts")
     (folder / "build" / "release").mkdir(parents=True)

@@ -51,7 +51,7 @@ struct TriangleLabels {
   [[nodiscard]] bool empty() const { return of_triangle.empty(); }
 };
 
-// A picture. It is never looked into.
+// A picture. Readers and writers of meshes never look into it.
 struct Image {
   std::string name;        // of the file, without folders; may be empty
   std::string media_type;  // "image/png"; may be empty

@@ -40,6 +40,9 @@ struct Scene {
 // where they are.
 [[nodiscard]] Scene split_objects(TriangleSoup& soup, Attributes& attributes);
 
+// Makes one soup of all instances, where they stand; without meshes it stays as it is.
+void place_instances(TriangleSoup& soup, Attributes& attributes, const Scene& scene);
+
 // Whether no mesh stands elsewhere than in its own frame, or twice, or not at all.
 [[nodiscard]] bool is_plain(const Scene& scene);
 

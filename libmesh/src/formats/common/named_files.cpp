@@ -1,6 +1,6 @@
-#include "named_files.h"
-
 #include <system_error>
+
+#include <mesh/named_files.h>
 
 namespace meshrepair {
 namespace {
@@ -22,14 +22,17 @@ std::optional<fs::path> path_of_named(const MeshSource& source, std::string_view
 
 std::optional<fs::path> find_named(const MeshSource& source, std::string_view name) {
   std::optional<fs::path> path = path_of_named(source, name);
-  if (!path) return std::nullopt;
-  std::error_code error;
-  if (!fs::is_regular_file(*path, error)) return std::nullopt;
-  const fs::path folder = fs::canonical(source.folder->empty() ? "." : *source.folder, error);
-  if (error) return std::nullopt;
-  const fs::path real = fs::canonical(*path, error);
-  if (error || leads_out(real.lexically_relative(folder))) return std::nullopt;
+  if (!path || !is_file_within(*source.folder, *path)) return std::nullopt;
   return path;
+}
+
+bool is_file_within(const fs::path& folder, const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
+  const fs::path real_folder = fs::canonical(folder.empty() ? "." : folder, error);
+  if (error) return false;
+  const fs::path real = fs::canonical(path, error);
+  return !error && !leads_out(real.lexically_relative(real_folder));
 }
 
 std::string name_seen_from(const fs::path& folder, const fs::path& path) {

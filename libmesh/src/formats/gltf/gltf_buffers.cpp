@@ -4,8 +4,8 @@
 #include <utility>
 
 #include <base/file_bytes.h>
+#include <mesh/named_files.h>
 
-#include "formats/common/named_files.h"
 #include "formats/common/uri.h"
 #include "gltf_meshopt.h"
 

@@ -6,7 +6,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "formats/common/named_files.h"
+#include <mesh/named_files.h>
+
 #include "formats/common/uri.h"
 
 namespace meshrepair {

@@ -7,7 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "formats/common/named_files.h"
+#include <mesh/named_files.h>
+
 #include "formats/common/uri.h"
 #include "gltf_builder.h"
 #include "gltf_io.h"

@@ -13,8 +13,8 @@
 
 #include <base/error.h>
 #include <base/file_bytes.h>
+#include <mesh/named_files.h>
 
-#include "formats/common/named_files.h"
 #include "formats/common/text_scanner.h"
 #include "formats/common/text_writer.h"
 

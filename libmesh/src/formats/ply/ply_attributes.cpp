@@ -8,8 +8,8 @@
 #include <utility>
 
 #include <base/ids.h>
+#include <mesh/named_files.h>
 
-#include "formats/common/named_files.h"
 #include "ply_names.h"
 
 namespace meshrepair {

@@ -11,8 +11,8 @@
 #include <base/assert.h>
 #include <base/ids.h>
 #include <mesh/attributes.h>
+#include <mesh/named_files.h>
 
-#include "formats/common/named_files.h"
 #include "formats/common/text_writer.h"
 #include "ply_io.h"
 #include "ply_names.h"

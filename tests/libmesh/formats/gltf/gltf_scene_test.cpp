@@ -91,6 +91,10 @@ TEST(GltfScene, MeshesAreInTheirOwnFramesAndNodesStay) {
   EXPECT_EQ(read.scene.meshes[2].name, "table");
   EXPECT_EQ(read.scene.instances.size(), 4u);
   EXPECT_EQ(meshes_of(read.soup, read.scene)[0].points[2], Vec3d(1, 0, 0));
+  ReadResult placed = read;
+  place_instances(placed.soup, placed.attributes, placed.scene);
+  EXPECT_EQ(placed.soup.points, read_joined(glb).points);
+  EXPECT_EQ(placed.soup.triangles, read_joined(glb).triangles);
   const std::string again = write_scene(read, SoupFormat::glb);
   const TestJson root = root_of(again);
   EXPECT_EQ(root["nodes"].size(), 5u);

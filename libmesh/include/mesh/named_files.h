@@ -20,6 +20,11 @@ namespace meshrepair {
 [[nodiscard]] std::optional<std::filesystem::path> find_named(const MeshSource& source,
                                                               std::string_view name);
 
+// Whether there is a file that can be read again and again, and no link to it leads out of the
+// folder; both as this process finds them.
+[[nodiscard]] bool is_file_within(const std::filesystem::path& folder,
+                                  const std::filesystem::path& path);
+
 // The name of the file at `path` as seen from a folder; both as this process finds them.
 [[nodiscard]] std::string name_seen_from(const std::filesystem::path& folder,
                                          const std::filesystem::path& path);

@@ -1,0 +1,1 @@
+"""Meshes with textures and defects, for pictures of what becomes of them."""
