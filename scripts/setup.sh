@@ -37,10 +37,12 @@ build_packages=(
   libspdlog-dev
   libtbb-dev
   libzip-dev
+  libzstd-dev
   ninja-build
   nlohmann-json3-dev
   python3
   python3-jsonschema
+  zlib1g-dev
 )
 check_packages=(
   clang

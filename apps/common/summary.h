@@ -15,6 +15,9 @@ namespace meshrepair {
 // "1 triangle", "1,200 triangles".
 [[nodiscard]] std::string number_of(std::size_t count, std::string_view noun);
 
+// "OBJ", "OBJ in gzip", "OBJ in ZIP, part.obj": what was read.
+[[nodiscard]] std::string format_words(std::string_view format, const PackedFile& packed);
+
 // A dozen aligned lines or so: what was read, what was wrong with it, how it was decided what is
 // solid, and what came out, each as far as it is known. `seconds` is the time that it all took.
 [[nodiscard]] std::string summary_of(const Findings& findings, double seconds);

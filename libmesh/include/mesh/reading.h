@@ -8,6 +8,7 @@
 
 #include <base/progress.h>
 #include <mesh/attributes.h>
+#include <mesh/packing.h>
 #include <mesh/soup.h>
 #include <mesh/soup_format.h>
 
@@ -16,7 +17,8 @@ namespace meshrepair {
 // What a reader passed over. A count of 0 everywhere means that the file was read in full.
 struct ReadReport {
   SoupFormat format = SoupFormat::obj;
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;  // unpacked
+  PackedFile packed;
   std::size_t declared_triangles =
       0;                      // faces or triangles that the header promised; 0 if it has none
   std::size_t polygons = 0;   // faces with more than three corners, triangulated

@@ -45,11 +45,6 @@ void require_32_bit_ids(const MeshSource& source, const TriangleSoup& soup) {
 
 }  // namespace
 
-std::string_view without_byte_order_mark(std::string_view bytes) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  return bytes.starts_with(kMark) ? bytes.substr(kMark.size()) : bytes;
-}
-
 // By content, then by extension.
 SoupFormat recognize_mesh(const MeshSource& source) {
   if (const auto format = recognize_content(source.bytes)) return *format;

@@ -1,6 +1,5 @@
 #include "gltf_materials.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -63,10 +62,9 @@ Image image_of(const GltfDocument& document, GltfBuffers& buffers, const GltfJso
   }
   const std::string uri = gltf_text(json, "uri");
   if (!is_data_uri(uri)) {
-    const std::string name = decode_percent(uri);
-    image.name = std::filesystem::path(name).filename().string();
-    if (const auto path = path_of_named(document.source(), name)) image.path = path->string();
-    return image;
+    Image named = picture_named(document.source(), decode_percent(uri));
+    named.media_type = std::move(image.media_type);
+    return named;
   }
   std::optional<DataUri> data = decode_data_uri(uri);
   if (!data) document.source().fail("an image is a data URI that is broken");
@@ -85,6 +83,11 @@ void read_materials(const GltfDocument& document, GltfBuffers& buffers, Attribut
   for (std::size_t i = 0; i < document.count("images"); ++i) {
     attributes.images.push_back(image_of(document, buffers, document.entry("images", i)));
   }
+}
+
+std::string media_type_of(const Image& image) {
+  if (!image.media_type.empty()) return image.media_type;
+  return image.bytes->starts_with("\xFF\xD8") ? "image/jpeg" : "image/png";
 }
 
 }  // namespace meshrepair

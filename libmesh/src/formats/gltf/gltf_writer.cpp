@@ -11,6 +11,7 @@
 #include "gltf_builder.h"
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
+#include "gltf_materials.h"
 #include "gltf_uri.h"
 #include "gltf_vertices.h"
 
@@ -23,11 +24,6 @@ const char* type_of(std::size_t components) {
   constexpr std::array<const char*, 5> kTypes = {"SCALAR", "SCALAR", "VEC2", "VEC3", "VEC4"};
   if (components < kTypes.size()) return kTypes[components];
   return components == 9 ? "MAT3" : "MAT4";
-}
-
-std::string media_type_of(const Image& image) {
-  if (!image.media_type.empty()) return image.media_type;
-  return image.bytes->starts_with("\xFF\xD8") ? "image/jpeg" : "image/png";
 }
 
 class GltfWriter {

@@ -269,12 +269,9 @@ CornerAttribute PlyAttributes::take_of_faces(Group& group,
 void PlyAttributes::take_materials(const std::vector<FaceList::Origin>& origins,
                                    Attributes& attributes) {
   for (const std::string& name : textures_) {
-    const auto path = path_of_named(source_, name);
-    if (path) {
-      attributes.images.push_back({path->filename().string(), {}, path->string(), nullptr});
-    } else {
-      attributes.images.push_back({name, {}, {}, nullptr});
-    }
+    Image image = picture_named(source_, name);
+    if (image.path.empty() && !image.bytes) image.name = name;  // as it stands there
+    attributes.images.push_back(std::move(image));
   }
   const bool by_texture = materials_.empty() || faces_.material == kNoColumn;
   const std::vector<double>& numbers = by_texture ? texture_of_face_ : material_of_face_;
