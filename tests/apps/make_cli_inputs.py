@@ -13,6 +13,7 @@ import struct
 import subprocess
 import sys
 import zipfile
+import zlib
 
 
 TEXTURED_LIBRARY = b"newmtl wood\nKd 1 0.5 0\nmap_Kd grain.png\nnewmtl steel\nKd 0.5 0.5 0.5\n"
@@ -129,6 +130,14 @@ def binary_pcd(points, promised):
     return header.encode() + b"".join(struct.pack("<3f", *p) for p in points)
 
 
+def png():
+    """One pixel."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1A\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(bytes([0, 200, 150, 100]))) + chunk(b"IEND", b""))
+
+
 def zip_of(parts):
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -151,7 +160,7 @@ def packed_files():
         "packed.zip": zip_of({"read.me": b"", "part/a.obj": tetrahedron()}),
         "packed_textured.obj.gz": gzip.compress(textured_boxes()),
         "packed_textured.zip": zip_of({"a/part.obj": textured_boxes(), "a/textured.mtl": TEXTURED_LIBRARY,
-                                       "a/grain.png": b"\x89PNG"}),
+                                       "a/grain.png": png()}),
         "packed_several.zip": zip_of({"a.obj": tetrahedron(), "b.stl": tetrahedron(), "c.txt": b""}),
         "packed_none.zip": zip_of({"read.me": b"1 mesh"}),
         "packed_cut.obj.gz": tetrahedron_gz[:-9],
@@ -193,6 +202,7 @@ def main():
         "single_triangle.obj": SINGLE_TRIANGLE,
         "textured.obj": textured_boxes(),
         "textured.mtl": TEXTURED_LIBRARY,
+        "grain.png": png(),
         "huge.obj": tetrahedron(b="v 1e12 0 0", c="v 0 1e12 0", d="v 0 0 1e12"),
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),

@@ -1,5 +1,6 @@
 #include "gltf_materials.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -88,6 +89,27 @@ void read_materials(const GltfDocument& document, GltfBuffers& buffers, Attribut
 std::string media_type_of(const Image& image) {
   if (!image.media_type.empty()) return image.media_type;
   return image.bytes->starts_with("\xFF\xD8") ? "image/jpeg" : "image/png";
+}
+
+// All kinds of textures, also those of extensions, are objects with an index, below a name that
+// ends so; an extension may say another set.
+std::size_t needed_textures(const GltfJson& material) {
+  std::size_t needed = 0;
+  if (!material.is_structured()) return needed;
+  for (const auto& [key, value] : material.items()) {
+    if (key == "extras") continue;
+    needed = std::max(needed, needed_textures(value));
+    if (!key.ends_with("Texture") || gltf_member(value, "index") == nullptr) continue;
+    const GltfJson* const transform = gltf_extension(value, "KHR_texture_transform");
+    const GltfJson* set = gltf_member(value, "texCoord");
+    if (transform != nullptr && gltf_member(*transform, "texCoord") != nullptr) {
+      set = gltf_member(*transform, "texCoord");
+    }
+    constexpr std::size_t kMost = 8;  // no more than any program has
+    const bool is_number = set != nullptr && set->is_number_unsigned();
+    needed = std::max(needed, is_number ? std::min(set->get<std::size_t>(), kMost - 1) + 1 : 1);
+  }
+  return needed;
 }
 
 }  // namespace meshrepair

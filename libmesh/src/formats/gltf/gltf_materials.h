@@ -1,6 +1,7 @@
 // The materials and images of a glTF file, as all formats have them.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <mesh/attributes.h>
@@ -16,5 +17,8 @@ void read_materials(const GltfDocument& document, GltfBuffers& buffers, Attribut
 
 // Of an image that has bytes: what the file says, or else the first of its bytes.
 [[nodiscard]] std::string media_type_of(const Image& image);
+
+// How many sets of texture coordinates a mesh has to have for a material.
+[[nodiscard]] std::size_t needed_textures(const GltfJson& material);
 
 }  // namespace meshrepair

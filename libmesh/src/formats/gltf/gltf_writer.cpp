@@ -79,9 +79,14 @@ class GltfWriter {
   std::size_t add_mesh() {
     GltfJson primitives = GltfJson::array();
     for (const auto& [label, triangles] : triangles_by_label()) {
-      GltfJson primitive = make_primitive(triangles);
-      if (label != kNone) primitive["material"] = material_of(label);
-      primitives.push_back(std::move(primitive));
+      if (label == kNone) {
+        primitives.push_back(make_primitive(triangles, 0));
+        continue;
+      }
+      const std::size_t material = material_of(label);
+      const std::size_t textures = needed_textures(builder_.root()["materials"][material]);
+      primitives.push_back(make_primitive(triangles, textures));
+      primitives.back()["material"] = material;
     }
     return builder_.append("meshes", {{"primitives", std::move(primitives)}});
   }
@@ -96,8 +101,8 @@ class GltfWriter {
     return lists;
   }
 
-  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles) {
-    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_);
+  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles, std::size_t textures) {
+    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_, textures);
     GltfJson attributes = GltfJson::object();
     for (const GltfColumn& column : vertices.columns) {
       attributes[column.name] = add_column(column, vertices.count);
