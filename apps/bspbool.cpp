@@ -36,7 +36,7 @@ struct BoolOptions {
 };
 
 bool is_tree_name(const std::string& name) {
-  return CLI::detail::to_lower(std::filesystem::path(name).extension().string()) == ".bsp";
+  return CLI::detail::to_lower(without_packing(name).extension().string()) == ".bsp";
 }
 
 // Meshes as one.

@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
                   "  bspbuild broken.stl -o - | bspsolid - -o - | bspextract - -o repaired.obj\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF; - is standard input")
+                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
+                 "- is standard input")
       ->required();
   add_output_option(app, options.output, "FILE", "Tree to write (.bsp); - is standard output");
   add_holes_option(app, options.repair.holes);

@@ -31,13 +31,17 @@ void write_marked(const TriangleSoup& soup, const std::vector<Colour>& colours,
                   const Options& options, Run& run) {
   std::vector<std::string> comments;
   for (const std::string& line : colour_legend()) comments.push_back(line);
-  write_file_atomically(options.marked, format_coloured_ply(soup, colours, comments));
+  const std::string ply = format_coloured_ply(soup, colours, comments);
+  const Packing packing = packing_of_extension(options.marked);
+  write_file_atomically(options.marked,
+                        packing == Packing::none ? ply : pack_bytes(ply, packing, &run.progress));
   run.report.set_output({{"path", options.marked}, {"format", "coloured PLY"}});
 }
 
 std::string what_was_read(const Findings& findings, const TriangleSoup& soup) {
   return fmt::format(
-      "{}: {}, {}, {}", findings.input_name(), format_name(findings.mesh_read->format),
+      "{}: {}, {}, {}", findings.input_name(),
+      format_words(format_name(findings.mesh_read->format), findings.mesh_read->packed),
       number_of(soup.triangles.size(), "triangle"), number_of(soup.points.size(), "point"));
 }
 
@@ -137,7 +141,8 @@ int main(int argc, char** argv) {
       "  meshcheck part.obj --json | jq .check.defects.open_edges.count\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to check: STL, OBJ, OFF, PLY, glTF or 3MF; - is standard input")
+                 "Mesh to check: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
+                 "- is standard input")
       ->required();
   app.add_flag("--weld", options.check.weld,
                "Treat points with equal coordinates as one, as always in STL")

@@ -51,7 +51,8 @@ int run_program(int argc, char** argv) {
                   "  meshconvert - part.off < part.stl\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF; - is standard input")
+                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
+                 "- is standard input")
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();

@@ -27,7 +27,8 @@ TriangleSoup read(const std::string& path, const std::string& key, Run& run, std
   TriangleSoup soup = read_mesh_stage(read_options(run), run, findings).soup;
   run.report.set_section(key, read_section(*findings.mesh_read));
   lines +=
-      fmt::format("{}: {}, {}\n", findings.input_name(), format_name(findings.mesh_read->format),
+      fmt::format("{}: {}, {}\n", findings.input_name(),
+                  format_words(format_name(findings.mesh_read->format), findings.mesh_read->packed),
                   number_of(soup.triangles.size(), "triangle"));
   return soup;
 }
@@ -87,8 +88,8 @@ int main(int argc, char** argv) {
                   "  meshdist original.stl repaired.stl --bound --json | jq .distance.bound\n");
   CLI::App& app = program.command_line();
   app.add_option("A", options.first,
-                 "Mesh: STL, OBJ, OFF, PLY, glTF or 3MF; its diagonal is the measure of relative\n"
-                 "distances; - is standard input")
+                 "Mesh: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip); its\n"
+                 "diagonal is the measure of relative distances; - is standard input")
       ->required();
   app.add_option("B", options.second, "Mesh; - is standard input")->required();
   add_distance_options(app, options.distance);

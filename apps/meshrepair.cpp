@@ -53,7 +53,8 @@ int main(int argc, char** argv) {
   CLI::App& app = program.command_line();
   app.add_option("IN", options.input,
                  "Mesh to repair: STL, OBJ, OFF, PLY, glTF or 3MF; or points: XYZ, PTS, PWN, PCD,\n"
-                 "PLY, OBJ or OFF without faces; - is standard input")
+                 "PLY, OBJ or OFF without faces; maybe packed (.gz, .zst, .zip); - is standard\n"
+                 "input")
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();

@@ -14,7 +14,8 @@ int run_program(int argc, char** argv) {
                   "  pointmesh scan.pcd -o - --format ply | meshrepair - solid.obj\n");
   CLI::App& app = program.command_line();
   app.add_option("POINTS", options.input,
-                 "Points to read: XYZ, PTS, PWN, PCD, PLY, OBJ or OFF; - is standard input")
+                 "Points to read: XYZ, PTS, PWN, PCD, PLY, OBJ or OFF, maybe packed (.gz, .zst,\n"
+                 ".zip); - is standard input")
       ->required();
   add_output_option(app, options.output, "FILE",
                     "Triangles to write, with holes and any way round; - is standard output");

@@ -2,7 +2,7 @@
 # Builds the fuzz targets and runs them for a while.
 set -euo pipefail
 
-all=(stl obj off ply gltf om threemf points tree clip repair)
+all=(stl obj off ply gltf om threemf packed points tree clip repair)
 
 usage() {
   cat <<TEXT

@@ -18,6 +18,7 @@ import random
 import struct
 import sys
 import zipfile
+import zlib
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "tests" / "fuzz" / "seeds"
 
@@ -310,6 +311,58 @@ def om_seeds():
 
 # ---- trees, see libbsp/include/bsp/tree_io.h
 
+def packed_seeds():
+    points, faces = TETRAHEDRON
+    obj = "".join("v %d %d %d\n" % p for p in points) + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in faces)
+    text = obj.encode()
+
+    def member(data, flags=0, fields=b""):
+        """Stored as it is, which is the same with each version of zlib."""
+        header = b"\x1F\x8B\x08" + bytes([flags]) + b"\0\0\0\0\0\x03" + fields
+        block = b"\x01" + struct.pack("<HH", len(data), len(data) ^ 0xFFFF) + data
+        return header + block + struct.pack("<II", zlib.crc32(data), len(data))
+
+    def block(kind, size, data, last=True):
+        return struct.pack("<I", size << 3 | kind << 1 | last)[:3] + data
+
+    def frame(*blocks, descriptor=b"\0\x50"):
+        return b"\x28\xB5\x2F\xFD" + descriptor + b"".join(blocks)
+
+    def skippable(data):
+        return b"\x51\x2A\x4D\x18" + struct.pack("<I", len(data)) + data
+
+    def archive(parts):
+        data = io.BytesIO()
+        with zipfile.ZipFile(data, "w", zipfile.ZIP_STORED) as file:
+            for name, content in parts.items():
+                file.writestr(zipfile.ZipInfo(name), content)
+        return data.getvalue()
+
+    raw = frame(block(0, len(text), text))
+    textured = "mtllib part.mtl\nusemtl a\n" + obj
+    return {
+        "gzip": member(text),
+        "gzip_members": member(text[:20]) + member(b"") + member(text[20:]) + bytes(16),
+        "gzip_fields": member(text, 4 | 8 | 16, b"\2\0ab" + b"part.obj\0" + b"comment\0"),
+        "gzip_more_behind": member(text) + b"hello",
+        "gzip_cut": member(text)[:-6],
+        "gzip_twice": member(member(text)),
+        "zstd_raw": raw,
+        "zstd_frames": skippable(b"index") + frame(block(0, 20, text[:20])) + skippable(b"")
+                       + frame(block(0, len(text) - 20, text[20:])),
+        "zstd_run": frame(block(1, 1000, b"\n", False), block(0, len(text), text)),
+        "zstd_size": frame(block(0, len(text), text), descriptor=b"\x20" + bytes([len(text)])),
+        "zstd_bomb": frame(*[block(1, 1 << 17, b"v", False)] * 300, block(1, 1, b"v")),
+        "zstd_dictionary": frame(block(0, len(text), text), descriptor=b"\x01\x50\x07"),
+        "zip": archive({"part.obj": text, "readme.txt": "1 2 3"}),
+        "zip_textured": archive({"a/part.obj": textured, "a/part.mtl": "newmtl a\nmap_Kd ../b.png\n", "b.png": "PNG"}),
+        "zip_by_content": archive({"part": text, "__MACOSX/._part.obj": "x"}),
+        "zip_of_gzip": archive({"part.obj.gz": member(text)}),
+        "zip_of_points": archive({"part.xyz": "0 0 0\n1 0 0\n"}),
+        "zip_several": archive({"a.obj": text, "b.obj": text}),
+    }
+
+
 def point_seeds():
     """The first byte chooses the name of the file."""
     cube = [(x, y, z) for x in range(3) for y in range(3) for z in range(3) if (x, y, z) != (1, 1, 1)]
@@ -542,7 +595,8 @@ def repair_seeds():
 
 
 SEEDS = {"stl": stl_seeds, "obj": obj_seeds, "off": off_seeds, "ply": ply_seeds, "gltf": gltf_seeds, "om": om_seeds,
-         "threemf": threemf_seeds, "points": point_seeds, "tree": tree_seeds, "clip": clip_seeds, "repair": repair_seeds}
+         "threemf": threemf_seeds, "packed": packed_seeds, "points": point_seeds, "tree": tree_seeds, "clip": clip_seeds,
+         "repair": repair_seeds}
 
 
 def main():

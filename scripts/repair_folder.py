@@ -43,8 +43,10 @@ Examples:
   repair_folder.py --format obj --jobs 4 --timeout 60 --max-memory 2G scans repaired
   repair_folder.py scans repaired -- --inside solidity --strict
 
-A mesh file is one by its extension: .stl, .obj, .off, .ply, .glb, .gltf or .3mf, in upper or lower case. Links to files are
-followed, links to folders are not.
+A mesh file is one by its extension: .stl, .obj, .off, .ply, .glb, .gltf or .3mf, in upper or lower case; with .gz or .zst
+behind it, it is packed, and so is its output. A .zip counts if just one file in it has such an extension; its
+output is a mesh with that extension. With --format no output is packed. Links to files are followed, links to
+folders are not.
 
 OUT_DIR gets the repaired meshes under their names and in their sub-folders, summary.csv, summary.json and
 the folder .repair_folder with the journal. The same command again goes on where the last run stopped:

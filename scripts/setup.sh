@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that the project needs. This is the only place that names them.
+# Installs the packages that the project needs, Debian's and npm's. This is the only place that names Debian's; those
+# of npm stand in tests/node/package.json.
 set -euo pipefail
 
 usage() {
@@ -7,8 +8,8 @@ usage() {
 Usage: scripts/setup.sh [build|all|bench]
 
   build   what is needed to build the programs and to run the tests
-  all     the same, and what the checks need: clang-format, clang-tidy, and the
-          runtime of clang's fuzzer (default)
+  all     the same, and what the checks need: clang-format, clang-tidy, the
+          runtime of clang's fuzzer, and the validator of glTF, for node (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
 
@@ -39,10 +40,12 @@ build_packages=(
   libspdlog-dev
   libtbb-dev
   libzip-dev
+  libzstd-dev
   ninja-build
   nlohmann-json3-dev
   python3
   python3-jsonschema
+  zlib1g-dev
 )
 check_packages=(
   clang
@@ -52,6 +55,9 @@ check_packages=(
   lld
   python3-numpy
 )
+# From wherever they are: others than Debian's have npm in the package of node.
+command -v node >/dev/null || check_packages+=(nodejs)
+command -v npm >/dev/null || check_packages+=(npm)
 
 bench_packages=(
   libcgal-dev
@@ -77,27 +83,41 @@ is_installed() {
   [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
+install_packages() {
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "setup.sh: not root, and there is no sudo; as root, run: apt-get install $*" >&2
+      exit 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "setup: installing $*"
+  apt() {
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 --quiet "$@"
+  }
+  apt update
+  apt install --yes --no-install-recommends "$@"
+}
+
+# What the lock file of tests/node names, unless just that is there.
+install_node_packages() {
+  local folder installed
+  folder=$(dirname "${BASH_SOURCE[0]}")/../tests/node
+  installed=$folder/node_modules/.installed-lock.json
+  if cmp --silent "$folder/package-lock.json" "$installed"; then return; fi
+  echo "setup: installing the packages of tests/node"
+  npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --loglevel=error
+  cp "$folder/package-lock.json" "$installed"
+}
+
 missing=()
 for package in "${packages[@]}"; do
   is_installed "$package" || missing+=("$package")
 done
-if [ "${#missing[@]}" -eq 0 ]; then
+if [ "${#missing[@]}" -gt 0 ]; then
+  install_packages "${missing[@]}"
+else
   echo "setup: all ${#packages[@]} packages are installed"
-  exit 0
 fi
-
-as_root=()
-if [ "$(id -u)" -ne 0 ]; then
-  if ! command -v sudo >/dev/null; then
-    echo "setup.sh: not root, and there is no sudo; as root, run: apt-get install ${missing[*]}" >&2
-    exit 1
-  fi
-  as_root=(sudo)
-fi
-
-echo "setup: installing ${missing[*]}"
-apt() {
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 --quiet "$@"
-}
-apt update
-apt install --yes --no-install-recommends "${missing[@]}"
+if [ "${1:-all}" = all ]; then install_node_packages; fi

@@ -172,7 +172,7 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
       "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii,\n"
-      "glb, gltf, 3mf")
+      "glb, gltf, 3mf. If the name of OUT ends in .gz or .zst, it is packed as well")
       ->default_str("by the name of OUT")
       ->group("Output");
 }

@@ -253,7 +253,8 @@ WriteOptions mesh_format(const StepOptions& options) {
   if (!format.format) {
     throw UsageError(output == "-" ? "standard output has no name that tells a format: use --format"
                                    : output + ": no mesh format has this extension (" +
-                                         std::string(known_extensions()) + "): use --format");
+                                         std::string(known_extensions()) +
+                                         "; .gz or .zst behind it packs): use --format");
   }
   if (options.sources && !holds_sources(*format.format)) {
     throw UsageError("--sources: " + std::string(format_name(*format.format)) +

@@ -13,10 +13,18 @@ bool was_begun(const RepairReport& repair, std::string_view stage) {
                      [&](const StageReport& s) { return s.name == stage; });
 }
 
+Json packed_of(const PackedFile& packed) {
+  if (packed.packing == Packing::none) return nullptr;
+  return {{"in", packing_name(packed.packing)},
+          {"bytes", packed.bytes},
+          {"entry", packed.entry.empty() ? Json() : Json(packed.entry)}};
+}
+
 Json section_of(const ReadReport& read) {
   return {{"format", format_name(read.format)},
           {"bytes", read.bytes},
           {"unit", read.unit ? Json(unit_name(*read.unit)) : Json()},
+          {"packed", packed_of(read.packed)},
           {"declared_triangles", read.declared_triangles},
           {"polygons", read.polygons},
           {"bad_faces", read.bad_faces},
@@ -29,6 +37,7 @@ Json section_of(const ReadReport& read) {
 Json section_of(const PointReadReport& read) {
   return {{"format", format_name(read.format)},
           {"bytes", read.bytes},
+          {"packed", packed_of(read.packed)},
           {"declared_points", read.declared_points},
           {"bad_points", read.bad_points},
           {"missing_points", read.missing_points},

@@ -35,6 +35,10 @@ void add_count(std::vector<std::string>& texts, std::size_t count, std::string_v
   if (count > 0) texts.push_back(number_of(count, noun) + " " + what);
 }
 
+std::string words_of(const ReadReport& read) {
+  return format_words(format_name(read.format), read.packed);
+}
+
 std::string reading_troubles(const ReadReport& read) {
   std::vector<std::string> texts;
   add_count(texts, read.missing_faces, "face", "promised but missing");
@@ -100,7 +104,8 @@ void describe_points(const Findings& findings, Lines& lines) {
   const PointReadReport& read = *findings.points_read;
   const PointSoupReport& soup = *findings.point_soup;
   lines.add("read",
-            fmt::format("{}: {}, {}, {} apart{}", findings.input_name(), format_name(read.format),
+            fmt::format("{}: {}, {}, {} apart{}", findings.input_name(),
+                        format_words(format_name(read.format), read.packed),
                         number_of(soup.points_in, "point"), fmt::format("{:.3g}", soup.spacing),
                         soup.normals_used ? ", with normals" : ""));
   if (const std::string dropped = dropped_points(findings); !dropped.empty()) {
@@ -120,16 +125,15 @@ void describe_input(const Findings& findings, Lines& lines) {
     if (!findings.soup_written) lines.add("wrong", troubles_of(findings));
   }
   if (findings.mesh_read && findings.soup_written) {
-    lines.add("read", fmt::format("{}: {}", findings.input_name(),
-                                  format_name(findings.mesh_read->format)));
+    lines.add("read", fmt::format("{}: {}", findings.input_name(), words_of(*findings.mesh_read)));
     if (const std::string troubles = reading_troubles(*findings.mesh_read); !troubles.empty()) {
       lines.add("wrong", troubles);
     }
   } else if (findings.mesh_read) {
-    lines.add("read", fmt::format("{}: {}, {} in {}", findings.input_name(),
-                                  format_name(findings.mesh_read->format),
-                                  number_of(findings.repair.clean.triangles_in, "triangle"),
-                                  number_of(findings.repair.input.parts, "part")));
+    lines.add("read",
+              fmt::format("{}: {}, {} in {}", findings.input_name(), words_of(*findings.mesh_read),
+                          number_of(findings.repair.clean.triangles_in, "triangle"),
+                          number_of(findings.repair.input.parts, "part")));
     lines.add("wrong", troubles_of(findings));
   }
   if (findings.tree_read) {
@@ -315,6 +319,15 @@ std::string predicates_summary(const RepairReport& repair) {
   Lines lines;
   describe_predicates(repair, lines);
   return lines.text();
+}
+
+std::string format_words(std::string_view format, const PackedFile& packed) {
+  std::string words(format);
+  if (packed.packing == Packing::none) return words;
+  words += " in ";
+  words += packing_name(packed.packing);
+  if (!packed.entry.empty()) words += ", " + packed.entry;
+  return words;
 }
 
 std::string summary_of(const Findings& findings, double seconds) {

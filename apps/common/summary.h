@@ -22,6 +22,9 @@ namespace meshrepair {
 // "the input's units" where the unit is not known.
 [[nodiscard]] std::string units_text(std::optional<LengthUnit> unit);
 
+// "OBJ", "OBJ in gzip", "OBJ in ZIP, part.obj": what was read.
+[[nodiscard]] std::string format_words(std::string_view format, const PackedFile& packed);
+
 // A dozen aligned lines or so: what was read, what was wrong with it, how it was decided what is
 // solid, and what came out, each as far as it is known. `seconds` is the time that it all took.
 [[nodiscard]] std::string summary_of(const Findings& findings, double seconds);

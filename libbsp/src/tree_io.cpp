@@ -8,7 +8,9 @@
 #include <base/file_bytes.h>
 #include <bsp/tree_io.h>
 #include <exact/predicates.h>
+#include <mesh/packing.h>
 #include <mesh/recognize_format.h>
+#include <mesh/unpack.h>
 
 #include "tree_sections.h"
 
@@ -300,12 +302,26 @@ Tree parse_tree(std::string_view bytes, const std::string& name, const ReadOptio
 }
 
 void write_tree(const Tree& tree, const std::filesystem::path& path, ProgressObserver* progress) {
-  write_file_atomically(path, format_tree(tree), progress);
+  const Packing packing = packing_of_extension(path);
+  std::string bytes = format_tree(tree);
+  if (packing != Packing::none) bytes = pack_bytes(bytes, packing, progress);
+  write_file_atomically(path, bytes, progress);
 }
 
 Tree read_tree(const std::filesystem::path& path, const ReadOptions& options) {
   const FileBytes file(path, options.progress);
-  return parse_tree(file.bytes(), path == "-" ? "standard input" : path.string(), options);
+  const std::string name = path == "-" ? "standard input" : path.string();
+  const Packing packing = packing_of_content(file.bytes());
+  if (packing != Packing::gzip && packing != Packing::zstd) {
+    return parse_tree(file.bytes(), name, options);
+  }
+  CancelOnly cancel_only(options.progress);
+  ReadOptions unpacking;
+  unpacking.progress = &cancel_only;
+  std::vector<std::string> warnings;  // a tree is followed by nothing
+  const TrivialVector<char> bytes = unpack({file.bytes(), name, unpacking}, packing, warnings);
+  if (!warnings.empty()) throw InputError(name + ": is followed by " + warnings.front());
+  return parse_tree({bytes.begin(), bytes.size()}, name, options);
 }
 
 }  // namespace meshrepair

@@ -9,6 +9,8 @@ FORMAT_OF_EXTENSION = {b".stl": "stl", b".obj": "obj", b".off": "off", b".ply": 
                        b".gltf": "gltf", b".3mf": "3mf"}
 EXTENSION_OF_FORMAT = {"obj": b".obj", "stl": b".stl", "stl-ascii": b".stl", "off": b".off",
                        "ply": b".ply", "ply-ascii": b".ply", "glb": b".glb", "gltf": b".gltf", "3mf": b".3mf"}
+PACKINGS = (b".gz", b".zst")  # that may stand behind these
+ARCHIVE = b".zip"
 
 GUARANTEES = ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles")
 SAME_IN_EACH_RUN = ("path", "output", "exit_code", *GUARANTEES, "triangles_in", "triangles_out",

@@ -71,10 +71,10 @@ class FolderRun:
 
     def run(self):
         """Returns the exit code."""
-        names, left_out = find_meshes(self.options.in_dir, self.out.path, lambda: self.stop_signal)
+        meshes, left_out = find_meshes(self.options.in_dir, self.out.path, lambda: self.stop_signal)
         self.stop_if_told()
-        outputs = name_outputs(names, self.options.format)
-        jobs = [Job(name, outputs[name], self.options) for name in names]
+        outputs = name_outputs(meshes, self.options.format)
+        jobs = [Job(name, mesh, outputs[name], self.options) for name, mesh in meshes.items()]
         if not self.options.restart:
             self.out.refuse_foreign_files(jobs)
         self.journal = Journal(self.out.journal_path, self.settings, self.options.restart)
@@ -109,7 +109,7 @@ class FolderRun:
         if self.options.quiet:
             return
         if not jobs:
-            say(f"no .stl, .obj, .off or .ply files in {text(self.options.in_dir)}")
+            say(f"no mesh files in {text(self.options.in_dir)}")
         elif self.rows:
             say(f"{len(self.rows):,} of {len(jobs):,} files were finished before")
         for name in sorted(self.journal.outputs() - {job.output for job in jobs}):

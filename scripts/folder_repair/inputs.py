@@ -4,9 +4,10 @@ import collections
 import errno
 import os
 import stat
+import zipfile
 
-from .basics import (EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, MEASURED, SAME_IN_EACH_RUN,
-                     text, value_of)
+from .basics import (ARCHIVE, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, MEASURED, PACKINGS,
+                     SAME_IN_EACH_RUN, text, value_of)
 
 STATE = b".repair_folder"  # of a run, in its OUT_DIR; folders of this name are no input
 
@@ -16,8 +17,43 @@ def identity(path):
     return status.st_dev, status.st_ino
 
 
+def split_name(name):
+    """b"sub/a.OBJ.gz" -> b"sub/a", b".obj", b".gz"."""
+    stem, extension = os.path.splitext(name)
+    packing = b""
+    if extension.lower() in PACKINGS:
+        packing = extension
+        stem, extension = os.path.splitext(stem)
+    return stem, extension.lower(), packing
+
+
+def meshes_in_archive(path):
+    """The extensions of the meshes in a ZIP archive, of each of them; None if it cannot be read. Which of its
+    files are meshes is told by their names alone; the program looks at what is in them."""
+    try:
+        with zipfile.ZipFile(os.fsdecode(path)) as archive:
+            names = [os.fsencode(name).replace(b"\\", b"/") for name in archive.namelist()]
+    except Exception:  # pylint: disable=broad-exception-caught  # a broken archive may raise anything
+        return None
+    meshes = [name for name in names if not name.startswith(b"__MACOSX/")
+              and not os.path.basename(name).startswith(b".")]
+    return [extension for _, extension, packing in map(split_name, meshes)
+            if extension in FORMAT_OF_EXTENSION and not packing]
+
+
+def kind_of_archive(path):
+    """As kind_of(); the extension of the mesh in it for "mesh"."""
+    found = meshes_in_archive(path)
+    if found is None:
+        return "is no ZIP archive that can be read"
+    if len(found) > 1:
+        return "holds several meshes"
+    return found[0] if found else None
+
+
 def kind_of(entry, out_identity):
-    """"mesh", "folder", why it is left out, or None for what is not meant."""
+    """"mesh", "folder", why it is left out, or None for what is not meant. For an archive with a mesh in it the
+    extension of that mesh, as bytes."""
     try:
         if entry.is_dir(follow_symlinks=False):
             is_own = entry.name == STATE or identity(entry.path) == out_identity
@@ -26,18 +62,24 @@ def kind_of(entry, out_identity):
             return "is a link to a folder"
     except OSError:
         pass  # a loop of links, or gone: said when it is opened, if the name is that of a mesh
-    if os.path.splitext(entry.name)[1].lower() not in FORMAT_OF_EXTENSION:
+    extension = split_name(entry.name)[1]
+    is_archive = os.path.splitext(entry.name)[1].lower() == ARCHIVE
+    if extension not in FORMAT_OF_EXTENSION and not is_archive:
         return None
     try:
-        return "mesh" if stat.S_ISREG(entry.stat().st_mode) else "is no regular file"
+        is_file = stat.S_ISREG(entry.stat().st_mode)
     except OSError:
-        return "mesh"
+        return None if is_archive else "mesh"
+    if not is_file:
+        return "is no regular file"
+    return kind_of_archive(entry.path) if is_archive else "mesh"
 
 
 def find_meshes(folder, out_folder, stopped):
-    """The names of mesh files, relative to the folder and sorted, and what was left out: name -> why. The
-    name of a folder that cannot be read ends with a slash."""
-    meshes, left_out, waiting, out_identity = [], {}, [b""], identity(out_folder)
+    """The names of mesh files, relative to the folder and sorted: name -> extension of the mesh, which for an
+    archive is that of what is in it; and what was left out: name -> why. The name of a folder that cannot be
+    read ends with a slash."""
+    meshes, left_out, waiting, out_identity = {}, {}, [b""], identity(out_folder)
     while waiting and not stopped():
         current = waiting.pop()
         try:
@@ -45,14 +87,16 @@ def find_meshes(folder, out_folder, stopped):
                 for entry in entries:
                     name, kind = os.path.join(current, entry.name), kind_of(entry, out_identity)
                     if kind == "mesh":
-                        meshes.append(name)
+                        meshes[name] = split_name(name)[1]
+                    elif isinstance(kind, bytes):
+                        meshes[name] = kind
                     elif kind == "folder":
                         waiting.append(name)
                     elif kind:
                         left_out[name] = kind
         except OSError as error:
             left_out[(current or b".") + b"/"] = f"cannot be read: {error.strerror}"
-    return sorted(meshes), left_out
+    return dict(sorted(meshes.items())), left_out
 
 
 def folders_of(names):
@@ -63,31 +107,46 @@ def folders_of(names):
     return found
 
 
-def name_outputs(names, output_format):
-    """Input -> output. Inputs that would get one name keep their extensions: a.stl.obj, a.off.obj."""
-    if not output_format:
-        return {name: name for name in names}
-    extension, folders, whole = EXTENSION_OF_FORMAT[output_format], folders_of(names), set()
+def name_outputs(meshes, output_format):
+    """Input -> output, of what find_meshes() has found. The name stays, but for --format and for archives, which
+    give way to the mesh in them. Inputs that would get one name keep their extensions: a.stl.obj, a.off.obj."""
+    folders = folders_of(meshes)
+    trials = {name: 0 for name, mesh in meshes.items() if output_format or name.lower().endswith(ARCHIVE)}
+    fixed = len(meshes) + 1  # more than there are trials
+
+    def output_of(name, mesh):
+        if name not in trials:
+            return name
+        extension = EXTENSION_OF_FORMAT[output_format] if output_format else mesh
+        return name + trials[name] * extension if trials[name] else split_name(name)[0] + extension
+
     while True:
-        outputs = {name: (name if name in whole else os.path.splitext(name)[0]) + extension
-                   for name in names}
-        users = collections.Counter(outputs.values())
-        clashing = {name for name, output in outputs.items()
-                    if name not in whole and (users[output] > 1 or output in folders)}
-        if not clashing:  # whole names differ, so this comes to an end
+        outputs = {name: output_of(name, mesh) for name, mesh in meshes.items()}
+        users = collections.defaultdict(list)
+        for name, output in outputs.items():
+            users[output].append(name)
+        clashing = set()
+        for output, names in users.items():
+            if len(names) > 1 or output in folders:
+                least = min(trials.get(name, fixed) for name in names)
+                clashing.update(name for name in names if trials.get(name) == least)
+        if not clashing:  # names that were lengthened equally often differ, so this comes to an end
             return outputs
-        whole |= clashing
+        for name in clashing:
+            trials[name] += 1
 
 
 class Job:
     """One file to repair."""
 
-    def __init__(self, name, output, options):
+    def __init__(self, name, mesh, output, options):
+        """`mesh` is the extension of the mesh that it is or holds."""
         self.name = name
         self.source = os.path.join(options.in_dir, name)
         self.output = output
         self.target = os.path.join(options.out_dir, output)
-        self.format = options.format or FORMAT_OF_EXTENSION[os.path.splitext(name)[1].lower()]
+        self.format = options.format or FORMAT_OF_EXTENSION[mesh]
+        self.packing = split_name(output)[2]  # the program packs what has such a name
         self.size = self.mtime_ns = None
         self.trials = 0
 

@@ -38,7 +38,7 @@ class Worker:
     def __init__(self, job, command, folder, lock):
         self.job = job
         self.folder = folder
-        self.mesh = os.path.join(folder, b"mesh" + EXTENSION_OF_FORMAT[job.format])
+        self.mesh = os.path.join(folder, b"mesh" + EXTENSION_OF_FORMAT[job.format] + job.packing)
         self.report_path = os.path.join(folder, b"report.json")
         self.started = time.monotonic()
         self.told_to_end = self.killed = None  # when

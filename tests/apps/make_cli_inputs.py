@@ -4,14 +4,19 @@
 Usage: make_cli_inputs.py BSPBUILD MESH FOLDER   (trees are made of MESH by the program BSPBUILD)
 """
 
+import gzip
+import io
 import math
 import pathlib
 import random
 import struct
 import subprocess
 import sys
+import zipfile
+import zlib
 
 
+TEXTURED_LIBRARY = b"newmtl wood\nKd 1 0.5 0\nmap_Kd grain.png\nnewmtl steel\nKd 0.5 0.5 0.5\n"
 SINGLE_TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
@@ -133,6 +138,47 @@ def binary_pcd(points, promised):
     return header.encode() + b"".join(struct.pack("<3f", *p) for p in points)
 
 
+def png():
+    """One pixel."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1A\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(bytes([0, 200, 150, 100]))) + chunk(b"IEND", b""))
+
+
+def zip_of(parts):
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content)
+    return data.getvalue()
+
+
+def zstd_of(data):
+    """A frame of one block that is stored as it is."""
+    return b"\x28\xB5\x2F\xFD\0\x50" + struct.pack("<I", len(data) << 3 | 1)[:3] + data
+
+
+def packed_files():
+    tetrahedron_gz = gzip.compress(tetrahedron())
+    return {
+        "packed.obj.gz": tetrahedron_gz,
+        "packed.obj.zst": zstd_of(tetrahedron()),
+        "packed.xyz.gz": gzip.compress(lines_of(sphere_points(1500))),
+        "packed.zip": zip_of({"read.me": b"", "part/a.obj": tetrahedron()}),
+        "packed_textured.obj.gz": gzip.compress(textured_boxes()),
+        "packed_textured.zip": zip_of({"a/part.obj": textured_boxes(), "a/textured.mtl": TEXTURED_LIBRARY,
+                                       "a/grain.png": png()}),
+        "packed_several.zip": zip_of({"a.obj": tetrahedron(), "b.stl": tetrahedron(), "c.txt": b""}),
+        "packed_none.zip": zip_of({"read.me": b"1 mesh"}),
+        "packed_cut.obj.gz": tetrahedron_gz[:-9],
+        "packed_damaged.obj.gz": tetrahedron_gz[:-8] + b"abcd" + tetrahedron_gz[-4:],
+        "packed_twice.obj.gz": gzip.compress(tetrahedron_gz),
+        "packed_bomb.obj.gz": gzip.compress(bytes(1 << 26)),
+        "packed_many.xyz.gz": gzip.compress(lines_of(hill_points(300000)), 1),
+    }
+
+
 def tree_of(bspbuild, mesh):
     return subprocess.run([bspbuild, "--quiet", "-", "-o", "-"], input=mesh, check=True,
                           stdout=subprocess.PIPE).stdout
@@ -164,7 +210,8 @@ def main():
         "single_triangle.obj": SINGLE_TRIANGLE,
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
-        "textured.mtl": b"newmtl wood\nKd 1 0.5 0\nmap_Kd grain.png\nnewmtl steel\nKd 0.5 0.5 0.5\n",
+        "textured.mtl": TEXTURED_LIBRARY,
+        "grain.png": png(),
         "huge.obj": tetrahedron(b="v 1e12 0 0", c="v 0 1e12 0", d="v 0 0 1e12"),
         "inside_out.obj": tetrahedron(f1="f 1 2 3", f2="f 1 4 2", f3="f 2 4 3", f4="f 1 3 4"),
         "one_flipped.obj": tetrahedron(f1="f 1 2 3"),
@@ -195,6 +242,8 @@ def main():
         "cut.bsp": tree[:len(tree) // 2],
         "altered.bsp": altered(tree),
         "newer.bsp": tree[:8] + struct.pack("<I", 2) + tree[12:],
+        "packed.bsp.gz": gzip.compress(tree),
+        **packed_files(),
     }
     for name, data in files.items():
         (folder / name).write_bytes(data)

@@ -1,5 +1,6 @@
 """The files that commands in the documents name."""
 
+import gzip
 import os
 import pathlib
 import shutil
@@ -52,6 +53,8 @@ def make_folder(folder: pathlib.Path, programs: pathlib.Path) -> None:
     for name, data in {**clouds(), "triangle.obj": make_cli_inputs.SINGLE_TRIANGLE}.items():
         (folder / name).write_bytes(data)
     make_textured_pictures.make_meshes(folder)
+    (folder / "scan.stl.gz").write_bytes(gzip.compress((folder / "broken.stl").read_bytes()))
+    (folder / "part.zip").write_bytes(make_cli_inputs.zip_of({"a/part.stl": (folder / "part.stl").read_bytes(), "read.me": b""}))
     os.symlink(ROOT / "samples", folder / "samples")
     os.symlink(ROOT / "scripts", folder / "scripts")
     (folder / "build" / "release").mkdir(parents=True)

@@ -34,10 +34,12 @@ inline void require_one_line(const std::string& message) {
 inline void require_consistent(const ReadResult& result, std::size_t bytes) {
   const ReadReport& report = result.report;
   require(!result.soup.triangles.empty(), "a soup without triangles was not refused");
-  require(report.bytes == bytes, "the report has another number of bytes");
+  const bool is_packed = report.packed.packing != Packing::none;
+  require((is_packed ? report.packed.bytes : report.bytes) == bytes,
+          "the report has another number of bytes");
   require(report.polygons <= result.soup.triangles.size(), "more polygons than triangles");
   require(report.missing_faces <= report.declared_triangles, "more missing than declared");
-  require(report.trailing_bytes < bytes, "more trailing bytes than bytes");
+  require(report.trailing_bytes < report.bytes, "more trailing bytes than bytes");
   for (const std::string& warning : report.warnings) require_one_line(warning);
   const std::size_t lost =
       report.bad_faces + report.bad_points + report.missing_faces + report.trailing_bytes;

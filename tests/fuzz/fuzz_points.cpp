@@ -9,11 +9,11 @@
 namespace meshrepair::testing {
 namespace {
 
-void require_consistent(const PointReadResult& result, std::size_t bytes) {
+void require_consistent(const PointReadResult& result) {
   const PointCloud& cloud = result.cloud;
   const PointReadReport& report = result.report;
   require(!cloud.points.empty(), "a cloud without points was not refused");
-  require(cloud.points.size() <= bytes, "more points than bytes");
+  require(cloud.points.size() <= report.bytes, "more points than bytes");
   require(cloud.normals.empty() || cloud.normals.size() == cloud.points.size(),
           "not as many normals as points");
   require(cloud.colours.empty() || cloud.colours.size() == cloud.points.size(),
@@ -43,7 +43,7 @@ void check_triangulation(const PointCloud& cloud) {
 void check_points(std::string_view bytes, const std::string& name) {
   try {
     const PointReadResult result = read_points(bytes, name, {.colours = true});
-    require_consistent(result, bytes.size());
+    require_consistent(result);
     check_triangulation(result.cloud);
   } catch (const InputError& error) {
     require_one_line(error.what());

@@ -9,6 +9,8 @@ manners with a false one, which does what the name of its input says.
 
 import csv
 import fcntl
+import gzip
+import io
 import json
 import os
 import pathlib
@@ -22,6 +24,7 @@ import sys
 import tempfile
 import time
 import unittest
+import zipfile
 
 sys.dont_write_bytecode = True  # a copy that is cut on a full disk would end all later tests
 sys.pycache_prefix = os.devnull
@@ -480,6 +483,34 @@ class Names(FolderTest):
         self.assertEqual(names_in(self.out), {row["output"] for row in self.rows().values()})
 
 
+    def test_packed_files_come_out_packed_and_archives_as_what_they_hold(self):
+        def archive(*names):
+            data = io.BytesIO()
+            with zipfile.ZipFile(data, "w") as file:
+                for name in names:
+                    file.writestr(name, TETRAHEDRON)
+            return data.getvalue()
+        packed = gzip.compress(TETRAHEDRON)
+        write_files(self.source, {
+            "a.obj.gz": packed, "B.OBJ.GZ": packed, "c.zip": archive("read.me", "d/c.obj", "__MACOSX/._c.obj"),
+            "e.zip": archive("e.OBJ"), "e.obj": TETRAHEDRON, "e.zip.obj": TETRAHEDRON,
+            "two.zip": archive("a.obj", "b.stl"), "none.zip": archive("a.txt"), "cut.zip": archive("a.obj")[:-5],
+            "other.tar.gz": packed})
+        result = self.run_script(program=MESHREPAIR)
+        self.assertEqual({path: row["output"] for path, row in self.rows().items()}, {
+            "a.obj.gz": "a.obj.gz", "B.OBJ.GZ": "B.OBJ.GZ", "c.zip": "c.obj", "e.zip": "e.zip.obj.obj",
+            "e.obj": "e.obj", "e.zip.obj": "e.zip.obj"})
+        self.assertTrue(gzip.decompress((self.out / "a.obj.gz").read_bytes()).startswith(b"v "))
+        self.assertTrue((self.out / "c.obj").read_bytes().startswith(b"v "))
+        self.assertIn("two.zip: left out: holds several meshes", result.stderr)
+        self.assertIn("cut.zip: left out: is no ZIP archive that can be read", result.stderr)
+        self.assertNotIn("none.zip", result.stderr)
+        self.run_script("--format", "stl", "--restart", program=MESHREPAIR)
+        self.assertEqual({path: row["output"] for path, row in self.rows().items()}, {
+            "a.obj.gz": "a.stl", "B.OBJ.GZ": "B.stl", "c.zip": "c.stl", "e.zip": "e.zip.stl",
+            "e.obj": "e.obj.stl", "e.zip.obj": "e.zip.obj.stl"})
+
+
 class Folders(FolderTest):
     def test_outputs_never_become_inputs_or_replace_them(self):
         write_files(self.source, {"good.stl": b"x", "sub/good.stl": b"x"})
@@ -513,7 +544,7 @@ class Folders(FolderTest):
         self.assertEqual(names_in(self.out), {"good.stl"})
 
     def test_an_empty_folder_is_no_failure(self):
-        self.assertIn("no .stl, .obj, .off or .ply files", self.run_script().stderr)
+        self.assertIn("no mesh files in", self.run_script().stderr)
         self.assertEqual(self.rows(), {})
 
 

@@ -36,6 +36,22 @@ class CancelOnly : public ProgressObserver {
   ProgressObserver* observer_;
 };
 
+// Passes on a whole as a part of the observer's stage: from one share of it to another.
+class PartOfStage : public ProgressObserver {
+ public:
+  // `observer` may be null.
+  PartOfStage(ProgressObserver* observer, double from, double to)
+      : observer_(observer), from_(from), to_(to) {}
+  void advance(double share) override {
+    if (observer_ != nullptr) observer_->advance(from_ + share * (to_ - from_));
+  }
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  ProgressObserver* observer_;
+  double from_, to_;
+};
+
 // For loops whose turns are too short to ask in each: asks in one of a thousand.
 class CancelCheck {
  public:

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,19 @@
 
 namespace meshrepair {
 
+// The files that lie beside a mesh in the archive that it came out of.
+class FilesBeside {
+ public:
+  FilesBeside() = default;
+  FilesBeside(const FilesBeside&) = delete;
+  FilesBeside& operator=(const FilesBeside&) = delete;
+  virtual ~FilesBeside() = default;
+
+  // All of the file that has this name as seen from the mesh, with '/' between folders; null if
+  // there is none. Throws InputError when it cannot be unpacked.
+  [[nodiscard]] virtual std::shared_ptr<const std::string> bytes_of(std::string_view name) = 0;
+};
+
 struct MeshSource {
   std::string_view bytes;
   std::string name;
@@ -18,6 +32,10 @@ struct MeshSource {
   // Of the file, where what it names may be looked for: see named_files.h. Nothing if it came
   // from elsewhere.
   std::optional<std::filesystem::path> folder = std::nullopt;
+  // Null unless it came out of an archive; not owned.
+  FilesBeside* beside = nullptr;
+  // Of the file that the bytes were unpacked from; 0: they are those of the file.
+  std::size_t packed_bytes = 0;
 
   // 1-based number of the line that holds the byte at `position`; LF, CRLF and CR end lines.
   // Linear.

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include <mesh/attributes.h>
 #include <mesh/mesh_source.h>
 
 namespace meshrepair {
@@ -24,6 +26,23 @@ namespace meshrepair {
 // folder; both as this process finds them.
 [[nodiscard]] bool is_file_within(const std::filesystem::path& folder,
                                   const std::filesystem::path& path);
+
+struct NamedFile {
+  std::string_view bytes;
+  std::shared_ptr<const void> owner;
+  std::filesystem::path path;  // empty: it is in the archive of the source
+};
+
+// What is in a file that find_named() finds, or that lies beside the source in its archive. Nothing
+// if there is none. Throws InputError when it cannot be read.
+[[nodiscard]] std::optional<NamedFile> read_named(const MeshSource& source, std::string_view name);
+
+// Words for messages on files that are not there: "its folder", "its archive".
+[[nodiscard]] std::string_view place_of_named(const MeshSource& source);
+
+// A picture, without its type: its path, or its bytes if it is in the archive of the source. It has
+// neither where the name leads out, or there is no such file in the archive.
+[[nodiscard]] Image picture_named(const MeshSource& source, std::string_view name);
 
 // The name of the file at `path` as seen from a folder; both as this process finds them.
 [[nodiscard]] std::string name_seen_from(const std::filesystem::path& folder,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <mesh/packing.h>
 #include <mesh/point_cloud.h>
 
 namespace meshrepair {
@@ -25,7 +26,8 @@ enum class PointFormat {
 
 struct PointReadReport {
   PointFormat format = PointFormat::xyz;
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;  // unpacked
+  PackedFile packed;
   std::size_t declared_points = 0;  // by the header; 0 if it has none
   std::size_t bad_points = 0;       // left out: not numbers, or too few
   std::size_t missing_points = 0;   // promised by the header, not in the file

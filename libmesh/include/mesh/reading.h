@@ -10,6 +10,7 @@
 #include <base/progress.h>
 #include <mesh/attributes.h>
 #include <mesh/length_unit.h>
+#include <mesh/packing.h>
 #include <mesh/scene.h>
 #include <mesh/soup.h>
 #include <mesh/soup_format.h>
@@ -19,8 +20,9 @@ namespace meshrepair {
 // What a reader passed over. A count of 0 everywhere means that the file was read in full.
 struct ReadReport {
   SoupFormat format = SoupFormat::obj;
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;                          // unpacked
   std::optional<LengthUnit> unit = std::nullopt;  // of the soup; nothing: the file does not say
+  PackedFile packed;
   std::size_t declared_triangles =
       0;                      // faces or triangles that the header promised; 0 if it has none
   std::size_t polygons = 0;   // faces with more than three corners, triangulated

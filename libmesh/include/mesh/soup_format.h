@@ -23,7 +23,7 @@ enum class SoupFormat {
 [[nodiscard]] std::string_view format_name(SoupFormat format);
 
 // The format that an extension stands for, if any (.stl is binary, .ply is binary little endian).
-// Case does not matter.
+// That of "part.obj.gz" is .obj. Case does not matter.
 [[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
 
 // ".stl, .obj, .off, .ply, .glb, .gltf, .3mf": for messages.

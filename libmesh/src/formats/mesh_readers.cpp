@@ -82,11 +82,6 @@ ReadResult read_by_object(SoupFormat format, const MeshSource& source) {
 
 }  // namespace
 
-std::string_view without_byte_order_mark(std::string_view bytes) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  return bytes.starts_with(kMark) ? bytes.substr(kMark.size()) : bytes;
-}
-
 // By content, then by extension.
 SoupFormat recognize_mesh(const MeshSource& source) {
   if (const auto format = recognize_content(source.bytes)) return *format;

@@ -1,14 +1,10 @@
 // Which mesh format a source is in, and the reader that it needs.
 #pragma once
 
-#include <string_view>
-
 #include <mesh/mesh_source.h>
 #include <mesh/soup_io.h>
 
 namespace meshrepair {
-
-[[nodiscard]] std::string_view without_byte_order_mark(std::string_view bytes);
 
 // By content, then by extension. Throws InputError when it is none that is known.
 [[nodiscard]] SoupFormat recognize_mesh(const MeshSource& source);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <base/error.h>
-#include <base/file_bytes.h>
 #include <mesh/mesh_source.h>
 #include <mesh/point_io.h>
 #include <mesh/recognize_format.h>
@@ -17,6 +16,7 @@
 #include "formats/ply/ply_io.h"
 #include "formats/xyz/xyz_points.h"
 #include "mesh_readers.h"
+#include "opened_file.h"
 
 namespace meshrepair {
 namespace {
@@ -73,41 +73,36 @@ void judge(const MeshSource& source, const PointReadResult& result) {
               (warnings.empty() ? std::string() : " (" + warnings.front() + ")"));
 }
 
-PointReadResult read_source(const MeshSource& source, const PointReadOptions& options) {
-  PointReadResult result = read_any(source, options);
-  result.report.bytes = source.bytes.size();
-  judge(source, result);
+PointReadResult read_points_of(const OpenedFile& file, PointReadOptions options) {
+  options.progress = file.source().options.progress;
+  PointReadResult result = read_any(file.source(), options);
+  judge(file.source(), result);
+  file.describe(result.report);
   return result;
 }
 
-MeshSource source_of(std::string_view bytes, const std::string& name, const ReadOptions& options,
-                     std::optional<std::filesystem::path> folder = std::nullopt) {
-  MeshSource source = {without_byte_order_mark(bytes), name, options, std::move(folder)};
-  if (source.bytes.empty()) source.fail("is empty");
-  return source;
-}
-
-MeshOrPoints read_any_of(const MeshSource& source) {
-  PointReadOptions point_options;
-  point_options.progress = source.options.progress;
+MeshOrPoints read_any_of(const OpenedFile& file) {
+  const MeshSource& source = file.source();
   MeshOrPoints result;
   if (is_point_cloud(source)) {
-    result.points = read_source(source, point_options);
+    result.points = read_points_of(file, {});
     return result;
   }
   ReadResult mesh = read_mesh_as(recognize_mesh(source), source);
   if (is_without_faces(mesh)) {
-    result.points = read_source(source, point_options);
+    result.points = read_points_of(file, {});
     return result;
   }
-  mesh.report.bytes = source.bytes.size();
   require_mesh(source, mesh);
+  file.describe(mesh.report);
   result.mesh = std::move(mesh);
   return result;
 }
 
-std::string name_of(const std::filesystem::path& path) {
-  return path == "-" ? "standard input" : path.string();
+ReadOptions asking(ProgressObserver* progress) {
+  ReadOptions options;
+  options.progress = progress;
+  return options;
 }
 
 }  // namespace
@@ -120,26 +115,21 @@ std::string_view format_name(PointFormat format) {
 }
 
 PointReadResult read_points(const std::filesystem::path& path, const PointReadOptions& options) {
-  const FileBytes file(path, options.progress);
-  return read_points(file.bytes(), name_of(path), options);
+  return read_points_of(OpenedFile(path, asking(options.progress)), options);
 }
 
 PointReadResult read_points(std::string_view bytes, const std::string& name,
                             const PointReadOptions& options) {
-  ReadOptions as_mesh;
-  as_mesh.progress = options.progress;
-  return read_source(source_of(bytes, name, as_mesh), options);
+  return read_points_of(OpenedFile(bytes, name, asking(options.progress)), options);
 }
 
 MeshOrPoints read_mesh_or_points(const std::filesystem::path& path, const ReadOptions& options) {
-  const FileBytes file(path, options.progress);
-  if (path == "-") return read_any_of(source_of(file.bytes(), name_of(path), options));
-  return read_any_of(source_of(file.bytes(), path.string(), options, path.parent_path()));
+  return read_any_of(OpenedFile(path, options));
 }
 
 MeshOrPoints read_mesh_or_points(std::string_view bytes, const std::string& name,
                                  const ReadOptions& options) {
-  return read_any_of(source_of(bytes, name, options));
+  return read_any_of(OpenedFile(bytes, name, options));
 }
 
 }  // namespace meshrepair

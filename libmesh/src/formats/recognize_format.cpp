@@ -58,9 +58,12 @@ bool looks_like_tree(std::string_view bytes) {
 
 std::string_view name_foreign_format(std::string_view bytes) {
   using namespace std::string_view_literals;
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSignatures = {{
-      {"PK\x03\x04"sv, "a ZIP archive without a 3D model, or a broken one"},
-      {"\x1F\x8B"sv, "compressed by gzip"},
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kSignatures = {{
+      {"\x1F\x8B"sv, "compressed by gzip, in a way that is not known"},
+      {"BZh"sv, "compressed by bzip2"},
+      {"\xFD\x37zXZ"sv, "compressed by xz"},
+      {"7z\xBC\xAF\x27\x1C"sv, "a 7z archive"},
+      {"Rar!\x1A\x07"sv, "a RAR archive"},
       {"OM"sv, "a mesh of OpenMesh (.om)"},
       {"\xFF\xFE"sv, "text in UTF-16, not in UTF-8"},
       {"\xFE\xFF"sv, "text in UTF-16, not in UTF-8"},

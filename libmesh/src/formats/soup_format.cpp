@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include <mesh/packing.h>
 #include <mesh/soup_format.h>
 
 #include "formats/common/text_scanner.h"
@@ -49,7 +50,7 @@ std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path)
       {".gltf", SoupFormat::gltf},
       {".3mf", SoupFormat::threemf},
   }};
-  const std::string extension = path.extension().string();
+  const std::string extension = without_packing(path).extension().string();
   for (const auto& [name, format] : kExtensions) {
     if (equals_ignoring_case(extension, name)) return format;
   }

@@ -5,7 +5,6 @@
 
 #include <base/atomic_file.h>
 #include <base/error.h>
-#include <base/file_bytes.h>
 #include <mesh/float32.h>
 #include <mesh/mesh_source.h>
 #include <mesh/soup_io.h>
@@ -18,17 +17,24 @@
 #include "formats/stl/stl_io.h"
 #include "formats/threemf/threemf_io.h"
 #include "mesh_readers.h"
+#include "opened_file.h"
 
 namespace meshrepair {
 namespace {
 
-ReadResult read_from(std::string_view bytes, MeshSource source) {
-  source.bytes = without_byte_order_mark(bytes);
-  if (source.bytes.empty()) source.fail("is empty");
+ReadResult read_opened(const OpenedFile& file) {
+  const MeshSource& source = file.source();
   ReadResult result = read_mesh_as(recognize_mesh(source), source);
-  result.report.bytes = bytes.size();
   require_mesh(source, result);
+  file.describe(result.report);
   return result;
+}
+
+// What comes last, which is the mesh.
+void pack_as_named(SideFile& mesh, const std::filesystem::path& path, ProgressObserver* progress) {
+  const Packing packing = packing_of_extension(path);
+  if (packing != Packing::none) mesh.bytes = pack_bytes(mesh.bytes, packing, progress);
+  mesh.path = path;
 }
 
 // In this order, so that what the last names is there. Files that are new go again if one cannot be
@@ -51,13 +57,11 @@ void write_together(const std::vector<SideFile>& files, ProgressObserver* progre
 }  // namespace
 
 ReadResult read_soup(const std::filesystem::path& path, const ReadOptions& options) {
-  const FileBytes file(path, options.progress);
-  if (path == "-") return read_soup(file.bytes(), "standard input", options);
-  return read_from(file.bytes(), {{}, path.string(), options, path.parent_path()});
+  return read_opened(OpenedFile(path, options));
 }
 
 ReadResult read_soup(std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  return read_from(bytes, {{}, name, options});
+  return read_opened(OpenedFile(bytes, name, options));
 }
 
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
@@ -65,14 +69,18 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
   const auto format = options.format ? options.format : format_of_extension(path);
   if (!format) {
     throw UsageError(path.string() + ": no mesh format has this extension (" +
-                     std::string(known_extensions()) + ")");
+                     std::string(known_extensions()) + "; .gz or .zst behind it packs)");
   }
   SoupExtras extras = options.extras;
   extras.folder = path.parent_path();
+  std::vector<SideFile> files;
   if (*format == SoupFormat::obj && extras.attributes != nullptr && path != "-") {
-    return write_together(obj_files(soup, extras, path), options.progress);
+    files = obj_files(soup, extras, without_packing(path));
+  } else {
+    files.push_back({path, format_soup(soup, *format, extras)});
   }
-  write_file_atomically(path, format_soup(soup, *format, extras), options.progress);
+  pack_as_named(files.back(), path, options.progress);
+  write_together(files, options.progress);
 }
 
 std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupExtras& extras) {

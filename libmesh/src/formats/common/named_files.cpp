@@ -1,5 +1,7 @@
 #include <system_error>
 
+#include <base/error.h>
+#include <base/file_bytes.h>
 #include <mesh/named_files.h>
 
 namespace meshrepair {
@@ -33,6 +35,36 @@ bool is_file_within(const fs::path& folder, const fs::path& path) {
   if (error) return false;
   const fs::path real = fs::canonical(path, error);
   return !error && !leads_out(real.lexically_relative(real_folder));
+}
+
+std::optional<NamedFile> read_named(const MeshSource& source, std::string_view name) {
+  if (source.beside != nullptr) {
+    const auto bytes = source.beside->bytes_of(name);
+    if (!bytes) return std::nullopt;
+    return NamedFile{*bytes, bytes, {}};
+  }
+  const std::optional<fs::path> path = find_named(source, name);
+  if (!path) return std::nullopt;
+  const auto file = std::make_shared<const FileBytes>(*path, source.options.progress);
+  return NamedFile{file->bytes(), file, *path};
+}
+
+std::string_view place_of_named(const MeshSource& source) {
+  return source.beside != nullptr ? "its archive" : "its folder";
+}
+
+Image picture_named(const MeshSource& source, std::string_view name) {
+  Image image;
+  image.name = fs::path(name).filename().string();
+  if (source.beside == nullptr) {
+    if (const auto path = path_of_named(source, name)) image.path = path->string();
+    return image;
+  }
+  try {
+    image.bytes = source.beside->bytes_of(name);
+  } catch (const InputError&) {  // a picture less is no reason to refuse the mesh
+  }
+  return image;
 }
 
 std::string name_seen_from(const fs::path& folder, const fs::path& path) {

@@ -3,7 +3,6 @@
 #include <optional>
 #include <utility>
 
-#include <base/file_bytes.h>
 #include <mesh/named_files.h>
 
 #include "formats/common/uri.h"
@@ -63,10 +62,12 @@ GltfBuffers::Bytes GltfBuffers::load(std::size_t number) const {
     const auto owner = std::make_shared<const std::string>(std::move(data->bytes));
     return {*owner, owner};
   }
-  const auto path = find_named(source, decode_percent(name));
-  if (!path) source.fail(what + ", " + printable(name) + ", is not in its folder");
-  const auto owner = std::make_shared<const FileBytes>(*path, source.options.progress);
-  return {owner->bytes(), owner};
+  std::optional<NamedFile> file = read_named(source, decode_percent(name));
+  if (!file) {
+    source.fail(what + ", " + printable(name) + ", is not in " +
+                std::string(place_of_named(source)));
+  }
+  return {file->bytes, std::move(file->owner)};
 }
 
 }  // namespace meshrepair

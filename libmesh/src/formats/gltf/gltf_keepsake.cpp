@@ -8,6 +8,9 @@
 
 #include <base/error.h>
 
+#include "formats/common/uri.h"
+#include "gltf_materials.h"
+
 namespace meshrepair {
 namespace {
 
@@ -122,8 +125,22 @@ class KeepsakeMaker {
     for (std::size_t i = 0; i < document_.count("images"); ++i) {
       GltfJson& image = root()["images"][i];
       const auto view = document_.whole(image, "bufferView");
-      if (view) image["bufferView"] = kept_view(*view, attributes_.images[i].bytes);
+      if (view) {
+        image["bufferView"] = kept_view(*view, attributes_.images[i].bytes);
+      } else if (attributes_.images[i].bytes && !is_data_uri(gltf_text(image, "uri"))) {
+        take_in(image, attributes_.images[i]);
+      }
     }
+  }
+
+  // A file of the archive that the document came out of: others have no such file beside them.
+  void take_in(GltfJson& json, const Image& image) {
+    json.erase("uri");
+    json["bufferView"] = views_.size();
+    json["mimeType"] = media_type_of(image);
+    if (gltf_text(json, "name").empty()) json["name"] = image.name;
+    views_.push_back(GltfJson::object());
+    kept_->views.push_back(image.bytes);
   }
 
   std::size_t kept_view(std::size_t number, std::shared_ptr<const std::string> bytes) {

@@ -1,6 +1,6 @@
 #include "gltf_materials.h"
 
-#include <filesystem>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -64,10 +64,9 @@ Image image_of(const GltfDocument& document, GltfBuffers& buffers, const GltfJso
   }
   const std::string uri = gltf_text(json, "uri");
   if (!is_data_uri(uri)) {
-    const std::string name = decode_percent(uri);
-    image.name = std::filesystem::path(name).filename().string();
-    if (const auto path = path_of_named(document.source(), name)) image.path = path->string();
-    return image;
+    Image named = picture_named(document.source(), decode_percent(uri));
+    named.media_type = std::move(image.media_type);
+    return named;
   }
   std::optional<DataUri> data = decode_data_uri(uri);
   if (!data) document.source().fail("an image is a data URI that is broken");
@@ -86,6 +85,32 @@ void read_materials(const GltfDocument& document, GltfBuffers& buffers, Attribut
   for (std::size_t i = 0; i < document.count("images"); ++i) {
     attributes.images.push_back(image_of(document, buffers, document.entry("images", i)));
   }
+}
+
+std::string media_type_of(const Image& image) {
+  if (!image.media_type.empty()) return image.media_type;
+  return image.bytes->starts_with("\xFF\xD8") ? "image/jpeg" : "image/png";
+}
+
+// All kinds of textures, also those of extensions, are objects with an index, below a name that
+// ends so; an extension may say another set.
+std::size_t needed_textures(const GltfJson& material) {
+  std::size_t needed = 0;
+  if (!material.is_structured()) return needed;
+  for (const auto& [key, value] : material.items()) {
+    if (key == "extras") continue;
+    needed = std::max(needed, needed_textures(value));
+    if (!key.ends_with("Texture") || gltf_member(value, "index") == nullptr) continue;
+    const GltfJson* const transform = gltf_extension(value, "KHR_texture_transform");
+    const GltfJson* set = gltf_member(value, "texCoord");
+    if (transform != nullptr && gltf_member(*transform, "texCoord") != nullptr) {
+      set = gltf_member(*transform, "texCoord");
+    }
+    constexpr std::size_t kMost = 8;  // no more than any program has
+    const bool is_number = set != nullptr && set->is_number_unsigned();
+    needed = std::max(needed, is_number ? std::min(set->get<std::size_t>(), kMost - 1) + 1 : 1);
+  }
+  return needed;
 }
 
 }  // namespace meshrepair

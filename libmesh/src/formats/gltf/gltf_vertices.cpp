@@ -108,9 +108,9 @@ std::vector<WrittenSet> sources_of(const Attributes& attributes) {
 class VertexMaker {
  public:
   VertexMaker(const TriangleSoup& soup, std::span<const std::uint32_t> triangles,
-              const Attributes* attributes, const GltfKeepsake* kept)
-      : soup_(soup), triangles_(triangles), kept_(kept) {
-    if (attributes != nullptr) sources_ = used(sources_of(*attributes));
+              const Attributes* attributes, const GltfKeepsake* kept, std::size_t needed_textures)
+      : soup_(soup), triangles_(triangles), kept_(kept), needed_textures_(needed_textures) {
+    if (attributes != nullptr) sources_ = used(with_needed_textures(sources_of(*attributes)));
   }
 
   GltfVertices run() {
@@ -128,15 +128,34 @@ class VertexMaker {
   }
 
  private:
+  // Sets that nobody has are without values.
+  [[nodiscard]] std::vector<WrittenSet> with_needed_textures(std::vector<WrittenSet> all) const {
+    static const CornerAttribute no_values;
+    const auto is_texture = [](const WrittenSet& source) {
+      return source.attribute->kind == CornerAttribute::Kind::texture;
+    };
+    auto count = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_texture));
+    for (; count < needed_textures_; ++count) {
+      all.push_back({&no_values, "TEXCOORD_" + std::to_string(count), count, 2});
+    }
+    return all;
+  }
+
+  [[nodiscard]] bool is_used(const WrittenSet& source) const {
+    const CornerAttribute& attribute = *source.attribute;
+    if (attribute.kind == CornerAttribute::Kind::texture && source.number < needed_textures_) {
+      return true;
+    }
+    const auto& of_corner = attribute.of_corner;
+    return std::any_of(triangles_.begin(), triangles_.end(), [&](std::size_t t) {
+      return of_corner[3 * t] != kNone || of_corner[3 * t + 1] != kNone ||
+             of_corner[3 * t + 2] != kNone;
+    });
+  }
+
   // Those below a set that is used are written, too: sets are numbered from 0 on.
   std::vector<WrittenSet> used(std::vector<WrittenSet> all) const {
-    for (WrittenSet& source : all) {
-      const auto& of_corner = source.attribute->of_corner;
-      source.is_used = std::any_of(triangles_.begin(), triangles_.end(), [&](std::size_t t) {
-        return of_corner[3 * t] != kNone || of_corner[3 * t + 1] != kNone ||
-               of_corner[3 * t + 2] != kNone;
-      });
-    }
+    for (WrittenSet& source : all) source.is_used = is_used(source);
     std::vector<WrittenSet> kept;
     for (const WrittenSet& source : all) {
       const bool is_below = std::any_of(all.begin(), all.end(), [&](const WrittenSet& other) {
@@ -188,7 +207,8 @@ class VertexMaker {
 
   void fill_value(const WrittenSet& source, std::size_t t, std::size_t k) {
     const CornerAttribute& attribute = *source.attribute;
-    const std::uint32_t number = attribute.of_corner[3 * t + k];
+    const std::uint32_t number =
+        attribute.of_corner.empty() ? kNone : attribute.of_corner[3 * t + k];
     value_.assign(source.components, attribute.kind == CornerAttribute::Kind::colour ? 1.0f : 0.0f);
     if (number != kNone) {
       const double* const given = attribute.values.data() + attribute.components * number;
@@ -268,6 +288,7 @@ class VertexMaker {
   const TriangleSoup& soup_;
   std::span<const std::uint32_t> triangles_;
   const GltfKeepsake* kept_;
+  std::size_t needed_textures_;  // sets of coordinates
   std::vector<WrittenSet> sources_;
   std::string records_;  // of the vertices, all columns of one side by side
   std::string record_;   // of the corner that is looked at
@@ -278,8 +299,9 @@ class VertexMaker {
 }  // namespace
 
 GltfVertices make_vertices(const TriangleSoup& soup, std::span<const std::uint32_t> triangles,
-                           const Attributes* attributes, const GltfKeepsake* kept) {
-  return VertexMaker(soup, triangles, attributes, kept).run();
+                           const Attributes* attributes, const GltfKeepsake* kept,
+                           std::size_t needed_textures) {
+  return VertexMaker(soup, triangles, attributes, kept, needed_textures).run();
 }
 
 }  // namespace meshrepair

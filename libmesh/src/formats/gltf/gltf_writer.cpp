@@ -13,6 +13,7 @@
 #include "gltf_builder.h"
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
+#include "gltf_materials.h"
 #include "gltf_nodes.h"
 #include "gltf_vertices.h"
 
@@ -25,11 +26,6 @@ const char* type_of(std::size_t components) {
   constexpr std::array<const char*, 5> kTypes = {"SCALAR", "SCALAR", "VEC2", "VEC3", "VEC4"};
   if (components < kTypes.size()) return kTypes[components];
   return components == 9 ? "MAT3" : "MAT4";
-}
-
-std::string media_type_of(const Image& image) {
-  if (!image.media_type.empty()) return image.media_type;
-  return image.bytes->starts_with("\xFF\xD8") ? "image/jpeg" : "image/png";
 }
 
 class GltfWriter {
@@ -118,9 +114,14 @@ class GltfWriter {
   std::size_t add_mesh(std::size_t first, std::size_t end, GltfJson mesh) {
     GltfJson primitives = GltfJson::array();
     for (const auto& [label, triangles] : triangles_by_label(first, end)) {
-      GltfJson primitive = make_primitive(triangles);
-      if (label != kNone) primitive["material"] = material_of(label);
-      primitives.push_back(std::move(primitive));
+      if (label == kNone) {
+        primitives.push_back(make_primitive(triangles, 0));
+        continue;
+      }
+      const std::size_t material = material_of(label);
+      const std::size_t textures = needed_textures(builder_.root()["materials"][material]);
+      primitives.push_back(make_primitive(triangles, textures));
+      primitives.back()["material"] = material;
     }
     mesh["primitives"] = std::move(primitives);
     return builder_.append("meshes", std::move(mesh));
@@ -137,8 +138,8 @@ class GltfWriter {
     return lists;
   }
 
-  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles) {
-    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_);
+  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles, std::size_t textures) {
+    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_, textures);
     GltfJson attributes = GltfJson::object();
     for (const GltfColumn& column : vertices.columns) {
       attributes[column.name] = add_column(column, vertices.count);

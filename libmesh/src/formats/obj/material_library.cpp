@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -12,7 +13,6 @@
 #include <utility>
 
 #include <base/error.h>
-#include <base/file_bytes.h>
 #include <mesh/named_files.h>
 
 #include "formats/common/text_scanner.h"
@@ -122,6 +122,11 @@ std::optional<std::array<double, 3>> numbers_of(std::string_view rest) {
   return values;
 }
 
+// The name of a picture as the mesh would have it.
+std::string name_beside(const MaterialLibraries::Library& library, const std::string& name) {
+  return (fs::path(with_slashes(library.name)).parent_path() / name).generic_string();
+}
+
 // Reads one library.
 class LibraryReader {
  public:
@@ -157,19 +162,17 @@ class LibraryReader {
 
   // None where the name leads out of the folder.
   std::uint32_t image_of(const std::string& name) {
-    const fs::path beside = fs::path(with_slashes(library_.name)).parent_path() / name;
-    const auto place = path_of_named(source_, beside.string());
+    const std::string beside = name_beside(library_, name);
+    Image image = picture_named(source_, beside);
+    if (image.path.empty() && !image.bytes) return kNone;
     std::error_code error;
-    if (!place || (fs::exists(*place, error) && !find_named(source_, beside.string())))
-      return kNone;
-    const std::string path = place->string();
-    const auto same = std::find_if(attributes_.images.begin(), attributes_.images.end(),
-                                   [&](const Image& image) { return image.path == path; });
-    if (same == attributes_.images.end()) {
-      attributes_.images.push_back({fs::path(name).filename().string(), {}, path, nullptr});
-      return static_cast<std::uint32_t>(attributes_.images.size() - 1);
-    }
-    return static_cast<std::uint32_t>(same - attributes_.images.begin());
+    if (fs::exists(image.path, error) && !find_named(source_, beside)) return kNone;
+    const auto same = std::find_if(
+        attributes_.images.begin(), attributes_.images.end(),
+        [&](const Image& known) { return known.path == image.path && known.bytes == image.bytes; });
+    const auto number = static_cast<std::uint32_t>(same - attributes_.images.begin());
+    if (same == attributes_.images.end()) attributes_.images.push_back(std::move(image));
+    return number;
   }
 
   const MeshSource& source_;
@@ -179,14 +182,19 @@ class LibraryReader {
   Material* look_ = nullptr;
 };
 
-// A text in which pictures have names relative to another folder.
+using NameOfPacked =
+    std::function<std::string(std::string_view, const std::shared_ptr<const std::string>&)>;
+
+// A text in which pictures have names relative to another folder. Those of an archive have names
+// there that `name_of_packed` gives them.
 class LibraryMover {
  public:
-  LibraryMover(const MaterialLibraries::Library& library, const fs::path& folder)
-      : library_(library), folder_(full(folder)) {}
+  LibraryMover(const MaterialLibraries::Library& library, const fs::path& folder,
+               NameOfPacked name_of_packed)
+      : library_(library), folder_(full(folder)), name_of_packed_(std::move(name_of_packed)) {}
 
   std::string run() {
-    if (full(library_.folder) == folder_) return library_.text;
+    if (!library_.is_packed && full(library_.folder) == folder_) return library_.text;
     std::string moved;
     visit_lines(library_.text, [&](std::string_view text) {
       const Line line = split(text);
@@ -205,6 +213,11 @@ class LibraryMover {
  private:
   // What is no way within the library's folder stays: nobody knows what it means elsewhere.
   [[nodiscard]] std::string moved_name(std::string_view name) const {
+    if (library_.is_packed) {
+      const auto picture = library_.pictures.find(name);
+      if (picture == library_.pictures.end()) return std::string(name);
+      return name_of_packed_(name, picture->second);
+    }
     const fs::path path = fs::path(with_slashes(name)).lexically_normal();
     if (path.empty() || path.has_root_path() || *path.begin() == "..") return std::string(name);
     return name_seen_from(folder_, library_.folder / path);
@@ -212,6 +225,7 @@ class LibraryMover {
 
   const MaterialLibraries::Library& library_;
   fs::path folder_;
+  NameOfPacked name_of_packed_;
 };
 
 std::unordered_set<std::string> materials_in(std::string_view text) {
@@ -241,7 +255,11 @@ class MaterialFiles {
     std::string text;
     if (known != nullptr) {
       for (const MaterialLibraries::Library& library : known->libraries) {
-        text += LibraryMover(library, path_.parent_path()).run();
+        text += LibraryMover(library, path_.parent_path(),
+                             [this](std::string_view name, const auto& bytes) {
+                               return name_of_packed(name, bytes);
+                             })
+                    .run();
         if (!text.empty() && text.back() != '\n') text += '\n';
       }
     }
@@ -278,11 +296,29 @@ class MaterialFiles {
     if (!image.bytes) {
       return name_seen_from(path_.parent_path(), image.path);
     }
-    std::string name = path_.stem().string() + "_" + std::to_string(number) + extension_of(image);
-    if (written_.insert(number).second) {
-      files_.push_back({path_.parent_path() / name, *image.bytes});
-    }
+    return written_picture(number, extension_of(image), *image.bytes);
+  }
+
+  std::string written_picture(std::size_t number, const std::string& extension,
+                              const std::string& bytes) {
+    std::string name = path_.stem().string() + "_" + std::to_string(number) + extension;
+    if (written_.insert(number).second) files_.push_back({path_.parent_path() / name, bytes});
     return name;
+  }
+
+  // Of a picture that is in an archive, maybe one that no material's colour needs.
+  std::string name_of_packed(std::string_view name,
+                             const std::shared_ptr<const std::string>& bytes) {
+    const auto& images = attributes_.images;
+    const auto same = std::find_if(images.begin(), images.end(),
+                                   [&](const Image& image) { return image.bytes == bytes; });
+    if (same != images.end()) {
+      return name_of_image(static_cast<std::uint32_t>(same - images.begin()));
+    }
+    const auto known = std::find(others_.begin(), others_.end(), bytes);
+    const std::size_t number = images.size() + static_cast<std::size_t>(known - others_.begin());
+    if (known == others_.end()) others_.push_back(bytes);
+    return written_picture(number, fs::path(name).extension().string(), *bytes);
   }
 
   // Never over a library of the input that is another now.
@@ -308,8 +344,37 @@ class MaterialFiles {
   const fs::path& path_;
   const Attributes& attributes_;
   std::vector<SideFile> files_;
-  std::unordered_set<std::uint32_t> written_;
+  std::unordered_set<std::size_t> written_;                 // pictures, by their numbers
+  std::vector<std::shared_ptr<const std::string>> others_;  // pictures that are no images
 };
+
+void take_packed_pictures(const MeshSource& source, MaterialLibraries::Library& library) {
+  visit_lines(library.text, [&](std::string_view text) {
+    const Line line = split(text);
+    if (!names_picture(line.key)) return;
+    const std::string_view name = picture_of(line.rest);
+    const Image image = picture_named(source, name_beside(library, with_slashes(name)));
+    if (image.bytes) library.pictures.emplace(name, image.bytes);
+  });
+}
+
+MaterialLibraries::Library read_library(const MeshSource& source, const std::string& name,
+                                        ReadReport& report) {
+  MaterialLibraries::Library library;
+  library.name = name;
+  if (const auto file = read_named(source, with_slashes(name))) {
+    library.text = file->bytes;
+    library.path = file->path;
+    library.folder = file->path.parent_path();
+    library.is_packed = source.beside != nullptr;
+    if (library.is_packed) take_packed_pictures(source, library);
+  } else if (source.folder || source.beside != nullptr) {
+    std::string warning = "the library of materials " + printable(name) + " is not in ";
+    warning += place_of_named(source);
+    report.warnings.push_back(std::move(warning));
+  }
+  return library;
+}
 
 }  // namespace
 
@@ -319,13 +384,20 @@ std::shared_ptr<const Keepsake> MaterialLibraries::joined(const Keepsake& other)
   auto all = std::make_shared<MaterialLibraries>();
   all->libraries = libraries;
   for (const Library& library : others->libraries) {
-    const bool is_known =
-        std::any_of(libraries.begin(), libraries.end(), [&](const Library& known) {
-          return known.text == library.text && known.folder == library.folder;
-        });
+    const bool is_known = std::any_of(libraries.begin(), libraries.end(),
+                                      [&](const Library& known) { return known.is_like(library); });
     if (!is_known) all->libraries.push_back(library);
   }
   return all;
+}
+
+bool MaterialLibraries::Library::is_like(const Library& other) const {
+  const auto same_picture = [](const auto& a, const auto& b) {
+    return a.first == b.first && *a.second == *b.second;
+  };
+  return text == other.text && folder == other.folder && is_packed == other.is_packed &&
+         std::equal(pictures.begin(), pictures.end(), other.pictures.begin(), other.pictures.end(),
+                    same_picture);
 }
 
 void read_material_libraries(const MeshSource& source, const std::vector<std::string>& names,
@@ -333,16 +405,7 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
   if (names.empty()) return;
   auto kept = std::make_shared<MaterialLibraries>();
   for (const std::string& name : names) {
-    MaterialLibraries::Library library{name, {}, {}, {}};
-    if (const auto path = find_named(source, with_slashes(name))) {
-      library.text = FileBytes(*path, source.options.progress).bytes();
-      library.path = *path;
-      library.folder = path->parent_path();
-    } else if (source.folder) {
-      report.warnings.push_back("the library of materials " + printable(name) +
-                                " is not in its folder");
-    }
-    kept->libraries.push_back(std::move(library));
+    kept->libraries.push_back(read_library(source, name, report));
   }
   std::unordered_map<std::string_view, std::uint32_t> numbers;
   for (std::uint32_t m = 0; m < attributes.materials.names.size(); ++m) {
@@ -364,7 +427,7 @@ std::string unread_libraries(const Attributes& attributes) {
   const auto* const known = dynamic_cast<const MaterialLibraries*>(attributes.keepsake.get());
   if (known == nullptr) return lines;
   for (const MaterialLibraries::Library& library : known->libraries) {
-    if (library.path.empty()) lines += "mtllib " + library.name + "\n";
+    if (library.path.empty() && !library.is_packed) lines += "mtllib " + library.name + "\n";
   }
   return lines;
 }

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +20,15 @@ namespace meshrepair {
 struct MaterialLibraries final : Keepsake {
   struct Library {
     std::string name;              // as the OBJ file has it
-    std::filesystem::path path;    // empty: it was not found
+    std::filesystem::path path;    // empty: it was not found, or in an archive
     std::filesystem::path folder;  // which names of pictures are relative to
     std::string text;
+    bool is_packed = false;  // it was in an archive
+    // Those of the archive, by the names that the text has for them.
+    std::map<std::string, std::shared_ptr<const std::string>, std::less<>> pictures;
+
+    // Says the same.
+    [[nodiscard]] bool is_like(const Library& other) const;
   };
   std::vector<Library> libraries;
 

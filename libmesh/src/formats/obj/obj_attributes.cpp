@@ -122,7 +122,12 @@ void append_obj(std::string& text, const TriangleSoup& soup, const Attributes& a
   }
 }
 
+// Without a name none holds from here on.
 void ObjAttributes::Labels::choose(std::string_view name) {
+  if (name.empty()) {
+    current = kNone;
+    return;
+  }
   const auto fresh = static_cast<std::uint32_t>(labels.names.size());
   const auto [found, is_new] = number.try_emplace(std::string(name), fresh);
   if (is_new) labels.names.emplace_back(name);

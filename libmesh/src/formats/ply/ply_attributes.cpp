@@ -1,6 +1,7 @@
 #include "ply_attributes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -35,6 +36,7 @@ const std::vector<KnownGroup>& known_groups() {
       {Kind::texture, {"texture_u", "texture_v"}, 2},
       {Kind::texture, {"texture_s", "texture_t"}, 2},
       {Kind::normal, {"nx", "ny", "nz"}, 3},
+      {Kind::tangent, {"tangent_0", "tangent_1", "tangent_2", "tangent_3"}, 4},
       {Kind::colour, {"red", "green", "blue", "alpha"}, 3},
       {Kind::colour, {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}, 3},
       {Kind::colour, {"r", "g", "b", "a"}, 3}};
@@ -74,6 +76,24 @@ double as_stored(double value, Storage storage) {
 bool is_nothing(const CornerAttribute& attribute, std::size_t value) {
   const double* const first = attribute.values.data() + attribute.components * value;
   return std::all_of(first, first + attribute.components, [](double x) { return std::isnan(x); });
+}
+
+// "NAME_0", "NAME_1" and so on, of one type, are one attribute, if they are as many as others hold
+// in one, too; else the property alone.
+Names components_from(const PlyElement& element, std::size_t first) {
+  const auto& properties = element.properties;
+  Names names = {properties[first].name};
+  if (!properties[first].name.ends_with("_0")) return names;
+  const std::string base = properties[first].name.substr(0, properties[first].name.size() - 1);
+  for (std::size_t i = first + 1; i < properties.size(); ++i) {
+    const bool follows = !properties[i].is_list && properties[i].type == properties[first].type &&
+                         properties[i].name == base + std::to_string(names.size());
+    if (!follows) break;
+    names.push_back(properties[i].name);
+  }
+  constexpr std::array<std::size_t, 5> kHeld = {2, 3, 4, 9, 16};
+  const bool is_held = std::find(kHeld.begin(), kHeld.end(), names.size()) != kHeld.end();
+  return is_held ? names : Names{properties[first].name};
 }
 
 }  // namespace
@@ -156,8 +176,12 @@ void PlyAttributes::add_others(const PlyElement& element, Element& found) const 
     if (property.is_list || found.group_of[i] != kNoColumn || is_known_otherwise(property.name)) {
       continue;
     }
-    add_group(element, Kind::other, {property.name}, 1, found);
-    if (found.group_of[i] != kNoColumn) found.groups.back().attribute.name = property.name;
+    const Names vector = components_from(element, i);
+    add_group(element, Kind::other, vector, vector.size(), found);
+    if (found.group_of[i] == kNoColumn) continue;
+    std::string_view name = property.name;
+    if (vector.size() > 1) name.remove_suffix(std::string_view("_0").size());
+    found.groups.back().attribute.name = name;
   }
 }
 
@@ -277,12 +301,9 @@ CornerAttribute PlyAttributes::take_of_faces(Group& group,
 void PlyAttributes::take_materials(const std::vector<FaceList::Origin>& origins,
                                    Attributes& attributes) {
   for (const std::string& name : textures_) {
-    const auto path = path_of_named(source_, name);
-    if (path) {
-      attributes.images.push_back({path->filename().string(), {}, path->string(), nullptr});
-    } else {
-      attributes.images.push_back({name, {}, {}, nullptr});
-    }
+    Image image = picture_named(source_, name);
+    if (image.path.empty() && !image.bytes) image.name = name;  // as it stands there
+    attributes.images.push_back(std::move(image));
   }
   const bool by_texture = materials_.empty() || faces_.material == kNoColumn;
   const std::vector<double>& numbers = by_texture ? texture_of_face_ : material_of_face_;

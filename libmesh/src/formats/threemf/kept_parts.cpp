@@ -6,7 +6,7 @@
 
 #include <base/error.h>
 
-#include "part_names.h"
+#include "formats/common/part_names.h"
 
 namespace meshrepair {
 namespace {

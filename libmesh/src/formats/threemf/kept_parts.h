@@ -11,10 +11,10 @@
 #include <mesh/attributes.h>
 #include <mesh/mesh_source.h>
 
+#include "formats/common/zip_reader.h"
 #include "model_instances.h"
 #include "model_part.h"
 #include "package_parts.h"
-#include "zip_reader.h"
 
 namespace meshrepair {
 

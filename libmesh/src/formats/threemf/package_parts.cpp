@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "part_names.h"
+#include "formats/common/part_names.h"
 #include "xml_stream.h"
 
 namespace meshrepair {

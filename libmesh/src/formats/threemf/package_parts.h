@@ -8,7 +8,7 @@
 
 #include <mesh/mesh_source.h>
 
-#include "zip_reader.h"
+#include "formats/common/zip_reader.h"
 
 namespace meshrepair {
 

@@ -7,15 +7,15 @@
 
 #include <base/error.h>
 
+#include "formats/common/part_names.h"
+#include "formats/common/zip_reader.h"
 #include "kept_parts.h"
 #include "model_instances.h"
 #include "model_reader.h"
 #include "package_parts.h"
-#include "part_names.h"
 #include "property_labels.h"
 #include "threemf_io.h"
 #include "xml_stream.h"
-#include "zip_reader.h"
 
 namespace meshrepair {
 namespace {

@@ -8,10 +8,10 @@
 #include <base/error.h>
 #include <mesh/edge_table.h>
 
+#include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
 #include "kept_parts.h"
 #include "package_parts.h"
-#include "part_names.h"
 #include "threemf_io.h"
 #include "written_properties.h"
 #include "xml_text.h"

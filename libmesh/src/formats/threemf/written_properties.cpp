@@ -13,8 +13,8 @@
 #include <base/error.h>
 #include <base/file_bytes.h>
 
+#include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
-#include "part_names.h"
 #include "property_labels.h"
 #include "xml_text.h"
 

@@ -187,7 +187,7 @@ bool begins_with_points(std::string_view bytes) {
 bool has_point_extension(const std::string& name) {
   constexpr std::array<std::string_view, 9> kExtensions = {
       ".xyz", ".xyzn", ".xyzrgb", ".pts", ".pwn", ".txt", ".asc", ".csv", ".pnt"};
-  const std::string extension = std::filesystem::path(name).extension().string();
+  const std::string extension = without_packing(name).extension().string();
   return std::any_of(kExtensions.begin(), kExtensions.end(), [&](std::string_view known) {
     return equals_ignoring_case(extension, known);
   });

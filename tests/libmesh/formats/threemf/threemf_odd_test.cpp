@@ -113,14 +113,14 @@ std::vector<OddPackage> odd_archives() {
       {"Truncated", [=] { return good().substr(0, good().size() / 2); }, "ZIP archive"},
       {"WithoutItsEnd", [=] { return good().substr(0, good().size() - 22); }, "ZIP archive"},
       {"WithoutDirectory", [] { return std::string("PK\x03\x04"); }, "ZIP archive"},
-      {"EmptyArchive", [] { return zip_of({}); }, "is not 3MF: it is no ZIP archive"},
+      {"EmptyArchive", [] { return zip_of({}); }, "holds no mesh"},
       {"NoArchive", [] { return good_model(); }, "an XML file"},
       {"Text", [] { return std::string("hello"); }, "it is no ZIP archive"},
       {"NoModel",
        [] {
          return zip_of({{"a.txt", "hello"}});
        },
-       "without a 3D model"},
+       "holds no mesh"},
       {"ManyEntriesPromised", [] { return zip64_with_many_entries(); }, "ZIP archive"},
       {"SizeTooLarge",
        [] {
@@ -171,7 +171,7 @@ std::vector<OddPackage> odd_archives() {
        [] {
          return zip_of({{"../3dmodel.model", good_model()}});
        },
-       "without a 3D model"},
+       "holds no mesh"},
       {"NameTwice",
        [] {
          return package_of(good_model(), {{"3D/3DMODEL.model", "x"}});

@@ -13,6 +13,8 @@
 
 #include <mesh/mesh_source.h>
 
+#include "unpack_budget.h"
+
 struct zip;
 
 namespace meshrepair {
@@ -50,14 +52,13 @@ class ZipReader {
   };
 
   void add_entry(std::uint64_t number);
-  void take_from_budget(const Entry& entry, std::uint64_t bytes);
 
   const MeshSource& source_;
   std::unique_ptr<zip, Discard> archive_;
   std::vector<Entry> entries_;
   std::unordered_map<std::string, std::size_t> by_key_;  // see part_key()
   std::size_t passed_over_ = 0;
-  std::uint64_t budget_ = 0;  // bytes that may still come out
+  UnpackBudget budget_;
 };
 
 }  // namespace meshrepair

@@ -13,12 +13,6 @@
 namespace meshrepair {
 namespace {
 
-// What comes out of an archive, all entries together: meshes are packed to a tenth, seldom to a
-// fiftieth; deflate can do a thousandth, of one byte over and over. Small archives may do as they
-// like.
-constexpr std::uint64_t kMostPerByte = 200;
-constexpr std::uint64_t kAlwaysAllowed = std::uint64_t{32} << 20;
-
 constexpr std::size_t kPiece = std::size_t{64} << 10;
 
 // How many entries the archive's end promises, if it is one of 64 bits: memory is taken for all of
@@ -75,7 +69,8 @@ struct CloseEntry {
 void ZipReader::Discard::operator()(zip* archive) const { zip_discard(archive); }
 
 ZipReader::ZipReader(const MeshSource& source)
-    : source_(source), budget_(kAlwaysAllowed + kMostPerByte * source.bytes.size()) {
+    : source_(source),
+      budget_(source.packed_bytes > 0 ? source.packed_bytes : source.bytes.size()) {
   if (promises_too_many(source.bytes)) {
     source.fail("is no usable ZIP archive: it promises more entries than it has room for");
   }
@@ -118,20 +113,13 @@ const ZipReader::Entry* ZipReader::find(std::string_view name) const {
   return found == by_key_.end() ? nullptr : &entries_[found->second];
 }
 
-void ZipReader::take_from_budget(const Entry& entry, std::uint64_t bytes) {
-  if (bytes > budget_) {
-    source_.fail("its part " + printable(entry.name) +
-                 " unpacks to more than a file of this size should hold");
-  }
-  budget_ -= bytes;
-}
-
 void ZipReader::read(const Entry& entry, const std::function<void(std::string_view)>& sink) {
   const auto fail = [&](const std::string& what) {
     source_.fail("its part " + printable(entry.name) + " " + what);
   };
+  constexpr const char* kTooMuch = "unpacks to more than a file of this size should hold";
   if (entry.encrypted) fail("is encrypted");
-  if (entry.size > budget_) take_from_budget(entry, entry.size);
+  if (entry.size > budget_.left()) fail(kTooMuch);
   const std::unique_ptr<zip_file_t, CloseEntry> file(
       zip_fopen_index(archive_.get(), entry.number, 0));
   if (!file) fail("cannot be read: " + reason_of(zip_get_error(archive_.get())));
@@ -144,7 +132,7 @@ void ZipReader::read(const Entry& entry, const std::function<void(std::string_vi
     const auto read = static_cast<std::uint64_t>(count);
     total += read;
     if (total > entry.size) fail("is larger than it says");
-    take_from_budget(entry, read);
+    if (!budget_.take(read)) fail(kTooMuch);
     sink(std::string_view(piece.data(), read));
   }
   if (total != entry.size) fail("is smaller than it says");
