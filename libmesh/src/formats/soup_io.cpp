@@ -10,6 +10,7 @@
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 
+#include "formats/common/plain_names.h"
 #include "formats/gltf/gltf_io.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
@@ -54,6 +55,24 @@ void write_together(const std::vector<SideFile>& files, ProgressObserver* progre
   }
 }
 
+// What is written of a soup, with names that fit into the lines of text formats.
+class PlainExtras {
+ public:
+  PlainExtras(SoupFormat format, const SoupExtras& extras) : extras_(extras) {
+    const bool has_lines = format == SoupFormat::obj || holds_sources(format);
+    if (has_lines && extras.attributes != nullptr) plain_ = with_plain_names(*extras.attributes);
+    if (plain_) extras_.attributes = &*plain_;
+  }
+  PlainExtras(const PlainExtras&) = delete;
+  PlainExtras& operator=(const PlainExtras&) = delete;
+
+  [[nodiscard]] const SoupExtras& get() const { return extras_; }
+
+ private:
+  std::optional<Attributes> plain_;
+  SoupExtras extras_;
+};
+
 }  // namespace
 
 ReadResult read_soup(const std::filesystem::path& path, const ReadOptions& options) {
@@ -75,7 +94,7 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
   extras.folder = path.parent_path();
   std::vector<SideFile> files;
   if (*format == SoupFormat::obj && extras.attributes != nullptr && path != "-") {
-    files = obj_files(soup, extras, without_packing(path));
+    files = obj_files(soup, PlainExtras(*format, extras).get(), without_packing(path));
   } else {
     files.push_back({path, format_soup(soup, *format, extras)});
   }
@@ -83,7 +102,9 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
   write_together(files, options.progress);
 }
 
-std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupExtras& extras) {
+std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupExtras& all) {
+  const PlainExtras plain(format, all);
+  const SoupExtras& extras = plain.get();
   if (!extras.sources.empty() && !holds_sources(format)) {
     throw UsageError(std::string(format_name(format)) + " cannot hold the sources of triangles");
   }

@@ -1,4 +1,5 @@
 // Attributes come back bit for bit from every format that holds them.
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -111,6 +112,41 @@ std::string coloured_stl(const std::string& header, std::uint16_t first, std::ui
   std::memcpy(bytes.data() + 132, &first, 2);
   std::memcpy(bytes.data() + 182, &second, 2);
   return bytes;
+}
+
+// Names may come from formats that have no lines.
+TEST(CarriedNames, DoNotBecomeLinesOfTheirOwn) {
+  TriangleSoup soup;
+  soup.points = {Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
+  soup.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  Attributes attributes;
+  attributes.materials = {{"a\nv 9 9 9\nf 1 2 3", "a_v 9 9 9_f 1 2 3", "back\\", "tab\t\r"},
+                          {0, 1, 2, 3}};
+  attributes.groups = {{"g\nf 1 2 3", "end_header\n"}, {0, 0, 1, 1}};
+  CornerAttribute other;
+  other.kind = CornerAttribute::Kind::other;
+  other.name = "x\nelement face 7";
+  other.components = 1;
+  other.values = {1, 2, 3};
+  other.of_corner = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2};
+  attributes.corners = {other};
+  ReadOptions options;
+  options.attributes = true;
+  for (const SoupFormat format : {SoupFormat::obj, SoupFormat::ply_ascii, SoupFormat::ply_binary,
+                                  SoupFormat::glb, SoupFormat::gltf, SoupFormat::threemf}) {
+    SoupExtras extras;
+    extras.attributes = &attributes;
+    const ReadResult back =
+        read_soup(std::string_view(format_soup(soup, format, extras)), "back", options);
+    EXPECT_EQ(back.soup.triangles.size(), 4u) << format_name(format);
+    EXPECT_EQ(back.soup.points.size(), 4u) << format_name(format);
+    if (format == SoupFormat::threemf) continue;  // materials alone need looks there
+    const TriangleLabels& materials = back.attributes.materials;
+    std::vector<std::string> names;
+    for (const std::uint32_t m : materials.of_triangle) names.push_back(materials.names[m]);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::unique(names.begin(), names.end()) - names.begin(), 4) << format_name(format);
+  }
 }
 
 TEST(StlColours, OfVisCamComeBack) {

@@ -1,0 +1,15 @@
+// Names that stand in lines of text files.
+#pragma once
+
+#include <optional>
+
+#include <mesh/attributes.h>
+
+namespace meshrepair {
+
+// The same attributes with names that fit into a line and do not make the next one part of it:
+// others have '_' instead of what does not. No two names of one list become one. Nothing where all
+// fit already.
+[[nodiscard]] std::optional<Attributes> with_plain_names(const Attributes& attributes);
+
+}  // namespace meshrepair
