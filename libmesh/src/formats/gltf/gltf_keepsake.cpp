@@ -85,8 +85,9 @@ class KeepsakeMaker {
       kept_->meshes.push_back(std::move(mesh));
     }
     for (std::size_t n = 0; n < document_.count("nodes"); ++n) {
-      GltfJson& node = root()["nodes"][n];
+      // This adds a node, so others move in memory.
       if (gltf_member(document_.entry("nodes", n), "skin") != nullptr) stand_apart(n);
+      GltfJson& node = root()["nodes"][n];
       if (gltf_extension(node, kInstancing) == nullptr) continue;
       for (GltfJson& accessor : node["extensions"][kInstancing]["attributes"]) {
         accessor = kept_accessor(document_.whole_of(accessor, "attribute"));
