@@ -33,6 +33,7 @@ constexpr std::array<Choice<Kind>, 5> kCornerKinds = {{{"textures", Kind::textur
 
 std::vector<std::string> kinds() {
   std::vector<std::string> names;
+  names.reserve(kCornerKinds.size() + 2);
   for (const auto& [name, kind] : kCornerKinds) names.emplace_back(name);
   names.insert(names.end(), {"materials", "groups"});
   return names;
