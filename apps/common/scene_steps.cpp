@@ -50,11 +50,12 @@ void append(const Surface& mesh, std::size_t first_source, Surface& all) {
 
 class SceneRepair {
  public:
-  SceneRepair(const AnySoup& input, const Attributes& given, const RepairOptions& repair_options,
+  SceneRepair(const AnySoup& input, const Attributes& given, RepairOptions repair_options,
               const WriteOptions& format, const StepOptions& options, Run& run, Findings& findings)
       : input_(input),
         given_(given),
-        repair_options_(repair_options),
+        reach_(std::exchange(repair_options.reach, {})),
+        repair_options_(std::move(repair_options)),
         format_(format),
         options_(options),
         run_(run),
@@ -111,8 +112,8 @@ class SceneRepair {
 
   [[nodiscard]] RepairOptions options_of(const TriangleSoup& soup) const {
     RepairOptions options = repair_options_;
-    if (options.reach.empty()) return options;
-    const auto first = repair_options_.reach.begin() + static_cast<std::ptrdiff_t>(first_);
+    if (reach_.empty()) return options;
+    const auto first = reach_.begin() + static_cast<std::ptrdiff_t>(first_);
     options.reach.assign(first, first + static_cast<std::ptrdiff_t>(soup.triangles.size()));
     return options;
   }
@@ -211,7 +212,8 @@ class SceneRepair {
 
   const AnySoup& input_;
   const Attributes& given_;
-  const RepairOptions& repair_options_;
+  std::vector<double> reach_;     // of all meshes
+  RepairOptions repair_options_;  // without it
   const WriteOptions& format_;
   const StepOptions& options_;
   Run& run_;

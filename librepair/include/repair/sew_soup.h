@@ -52,7 +52,8 @@ struct SewnSoup {
 // SewMode::automatic compares how far corners are from the nearest open edge that is not theirs
 // with the edges at them. Corners that are much nearer are apart by mistake. It sews over twice the
 // largest of these distances, at most a 250th of the diagonal of the bounding box. If most corners
-// are farther apart than that, nothing is sewn, and report.refused_distance is set. Nothing is sewn
+// are farther apart than that, nothing is sewn, and report.refused_distance is set; so it is
+// where so many corners are within the distance that they cannot be told apart. Nothing is sewn
 // either if fewer edges find a partner than corners are moved and edges split.
 //
 // Nothing if there is nothing to sew. n log n. Throws Cancelled.

@@ -9,6 +9,12 @@
 #include <check/box_tree.h>
 
 namespace meshrepair::internal {
+namespace {
+
+// Corners near another, on average: a vertex of a soup has six triangles.
+constexpr std::size_t kMostNear = 64;
+
+}  // namespace
 
 CornerClusters::CornerClusters(const TriangleSoup& soup, const OpenRims& rims)
     : soup_(soup), rims_(rims), cluster_(soup.points.size()), members_(soup.points.size()) {
@@ -26,9 +32,11 @@ CornerClusters::CornerClusters(const TriangleSoup& soup, const OpenRims& rims)
   }
 }
 
-void CornerClusters::join(double distance, double share) {
+bool CornerClusters::join(double distance, double share) {
+  const std::optional<std::vector<Pair>> pairs = pairs_within(distance, share);
+  if (!pairs) return false;
   const double narrow = std::isinf(share) ? distance : 0;
-  for (const Pair& pair : pairs_within(distance, share)) {
+  for (const Pair& pair : *pairs) {
     std::uint32_t a = cluster_[pair.a], b = cluster_[pair.b];
     if (a > b) std::swap(a, b);
     if (a == b || !may_join(a, b, 2 * distance, narrow)) continue;
@@ -36,15 +44,17 @@ void CornerClusters::join(double distance, double share) {
     members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
     members_[b].clear();
   }
+  return true;
 }
 
-std::vector<CornerClusters::Pair> CornerClusters::pairs_within(double distance,
-                                                               double share) const {
+std::optional<std::vector<CornerClusters::Pair>> CornerClusters::pairs_within(double distance,
+                                                                              double share) const {
   std::vector<Box> boxes(rims_.corners.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].add(soup_.points[rims_.corners[i]]);
   const BoxTree tree(boxes);
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  const std::size_t most = kMostNear * boxes.size();
+  for (std::size_t i = 0; i < boxes.size() && pairs.size() <= most; ++i) {
     const std::uint32_t a = rims_.corners[i];
     const double reach = std::min(distance, share * rims_.size[a]);
     Box around = boxes[i];
@@ -59,6 +69,7 @@ std::vector<CornerClusters::Pair> CornerClusters::pairs_within(double distance,
                  pairs.push_back({squared, a, b});
                });
   }
+  if (pairs.size() > most) return std::nullopt;
   std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
     return std::tie(x.squared_distance, x.a, x.b) < std::tie(y.squared_distance, y.a, y.b);
   });

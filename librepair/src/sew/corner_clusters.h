@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <mesh/soup.h>
@@ -19,7 +20,8 @@ class CornerClusters {
   // Joins clusters of corners no farther apart than the distance and than `share` of the edges at
   // both, nearest first, where the cluster is not wider than twice the distance and has no two
   // corners of one triangle; with an infinite share, none that are farther apart than the distance.
-  void join(double distance, double share);
+  // False, and nothing is joined, where so many are near each other that they cannot be told apart.
+  [[nodiscard]] bool join(double distance, double share);
 
   // The first corner of its cluster; of a point that is no corner itself.
   [[nodiscard]] std::uint32_t of(std::uint32_t point) const { return cluster_[point]; }
@@ -36,7 +38,7 @@ class CornerClusters {
     std::uint32_t a, b;
   };
 
-  [[nodiscard]] std::vector<Pair> pairs_within(double distance, double share) const;
+  [[nodiscard]] std::optional<std::vector<Pair>> pairs_within(double distance, double share) const;
   [[nodiscard]] bool may_join(std::uint32_t a, std::uint32_t b, double width, double narrow) const;
   [[nodiscard]] bool share_a_triangle(std::uint32_t a, std::uint32_t b) const;
 

@@ -81,7 +81,10 @@ class Sewing {
   }
 
   std::optional<SewnSoup> run(double distance) {
-    clusters_.join(distance, is_loose() ? std::numeric_limits<double>::infinity() : kMove);
+    if (!clusters_.join(distance, is_loose() ? std::numeric_limits<double>::infinity() : kMove)) {
+      report_.refused_distance = distance;
+      return std::nullopt;
+    }
     check_.ask();
     if (!is_loose()) splits_ = find_splits(rims_, strangers_, clusters_, distance, kMove);
     for (int round = 0; round < kMostRounds; ++round) {
@@ -198,9 +201,9 @@ class Sewing {
     return longest > 0 ? area(soup, t).norm() / longest : 0;
   }
 
-  // What had no area before has no side.
+  // What had no area before has no side, and neither has what is not finite.
   static bool faces_as(const Vec3d& before, const Vec3d& after) {
-    return before.squaredNorm() == 0 || before.dot(after) > 0;
+    return before.squaredNorm() == 0 || !(before.dot(after) <= 0);
   }
 
   std::optional<SewnSoup> finish(SewnSoup sewn, const OpenRims& after, double distance) {
@@ -247,9 +250,7 @@ std::optional<SewnSoup> sew_soup(const TriangleSoup& soup, const SewOptions& opt
   std::optional<SewnSoup> sewn = sewing.run(distance);
   const bool pays = report.sewn_edges >= report.joined_points + report.split_edges;
   if (sewn && is_automatic && !pays) {
-    const std::size_t open_edges = report.open_edges;
-    report = {};
-    report.open_edges = open_edges;
+    report = {.open_edges = report.open_edges};
     sewn.reset();
   }
   return sewn;

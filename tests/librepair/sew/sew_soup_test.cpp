@@ -146,6 +146,24 @@ TEST(SewSoup, OrderScaleAndPlaceDoNotMatter) {
   }
 }
 
+TEST(SewSoup, TrianglesThatAreNotFiniteDoNotKeepOthersFromBeingSewn) {
+  TriangleSoup soup = torn(torus(20, 12), 1e-3, 1);
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  for (int k = 0; k < 3; ++k) soup.points.push_back(Vec3d::Constant(std::nan("")));
+  soup.triangles.push_back({first, first + 1, first + 2});
+  SewReport report;
+  ASSERT_TRUE(sew_soup(soup, kAutomatic, report));
+  EXPECT_EQ(report.sewn_edges, report.open_edges);
+}
+
+// All corners are within such a distance of all others: not one pair after the other is looked at.
+TEST(SewSoup, NotOverDistancesThatHoldEverything) {
+  SewReport report;
+  EXPECT_FALSE(sew_soup(torn(sphere(20000), 1e-4, 1), {SewMode::distance, 100, nullptr}, report));
+  EXPECT_EQ(report.refused_distance, 100);
+  EXPECT_EQ(report.joined_points, 0u);
+}
+
 // A soup of points anywhere, also where there are none to be had.
 TEST(SewSoup, AnySoupIsSewnOrNot) {
   for (unsigned seed = 0; seed < 200; ++seed) {
