@@ -26,7 +26,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   const Attributes held = chosen_for(*format.format, options.assets, all);
   Attributes still_held = held_by(*format.format, all);
   if (options.assets.by_mesh) still_held.objects = all.objects;
-  const std::string lost = lost_attributes(all, still_held);
+  const std::string lost = lost_attributes(soup, all, still_held, *format.format);
   if (!lost.empty()) {
     spdlog::warn("{}: {} cannot hold what {} has: {}", findings.output_name(),
                  format_name(*format.format), findings.input_name(), lost);

@@ -1,6 +1,8 @@
 // meshdist A B: how far two meshes are apart.
 #include <iostream>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -22,7 +24,12 @@ struct Options {
   DistanceOptions distance;
 };
 
-TriangleSoup read(const std::string& path, const std::string& key, Run& run, std::string& lines) {
+struct Read {
+  TriangleSoup soup;
+  std::optional<LengthUnit> unit;
+};
+
+Read read(const std::string& path, const std::string& key, Run& run, std::string& lines) {
   Findings findings(path, "");
   TriangleSoup soup = read_mesh_stage(read_options(run), run, findings).soup;
   run.report.set_section(key, read_section(*findings.mesh_read));
@@ -30,7 +37,16 @@ TriangleSoup read(const std::string& path, const std::string& key, Run& run, std
       fmt::format("{}: {}, {}\n", findings.input_name(),
                   format_words(format_name(findings.mesh_read->format), findings.mesh_read->packed),
                   number_of(soup.triangles.size(), "triangle"));
-  return soup;
+  return {std::move(soup), findings.unit};
+}
+
+// Of two that say their units, the second is brought to that of the first.
+void bring_to_unit(const Read& first, Read& second, std::string& lines) {
+  if (!first.unit || !second.unit || first.unit == second.unit) return;
+  const double scale = millimeters(*second.unit) / millimeters(*first.unit);
+  for (Vec3d& point : second.soup.points) point *= scale;
+  lines += fmt::format("B is in {}, and is brought to {}\n", units_text(second.unit),
+                       units_text(first.unit));
 }
 
 ExitCode measure(Options& options, Run& run) {
@@ -42,9 +58,10 @@ ExitCode measure(Options& options, Run& run) {
   run.report.set_input({{"a", options.first}, {"b", options.second}});
   options.distance.progress = &run.progress;
   std::string lines;
-  const TriangleSoup first = read(options.first, "read", run, lines);
-  const TriangleSoup second = read(options.second, "read_b", run, lines);
-  const MeshDistance distance = mesh_distance(first, second, options.distance);
+  const Read first = read(options.first, "read", run, lines);
+  Read second = read(options.second, "read_b", run, lines);
+  bring_to_unit(first, second, lines);
+  const MeshDistance distance = mesh_distance(first.soup, second.soup, options.distance);
   run.report.set_section("distance", distance_section(distance, options.distance));
   run.progress.finish();
   if (run.options.report != "-" && !run.options.quiet) {

@@ -38,6 +38,17 @@ std::string_view kind_name(Kind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+// OBJ has colours of points alone, and PLY what is no texture for points or for triangles; normals
+// for points alone.
+bool has_place_for(SoupFormat format, const TriangleSoup& soup, const CornerAttribute& attribute) {
+  const bool is_ply = holds_sources(format);
+  const bool is_normal = attribute.kind == Kind::normal;
+  if (!is_ply && format != SoupFormat::obj) return true;
+  if (attribute.kind == Kind::texture || (!is_ply && is_normal)) return true;
+  if (values_by_point(soup, attribute)) return true;
+  return is_ply && !is_normal && values_by_triangle(attribute);
+}
+
 using NamedLabels = std::pair<std::string_view, const TriangleLabels*>;
 
 std::array<NamedLabels, 4> all_labels(const Attributes& attributes) {
@@ -65,7 +76,8 @@ std::vector<std::string> attribute_words(const TriangleSoup& soup, const Attribu
   return words;
 }
 
-std::string lost_attributes(const Attributes& all, const Attributes& held) {
+std::string lost_attributes(const TriangleSoup& soup, const Attributes& all, const Attributes& held,
+                            SoupFormat format) {
   std::vector<std::string> lost;
   const auto count = [](const Attributes& attributes, const std::string& words) {
     return std::count_if(
@@ -81,6 +93,11 @@ std::string lost_attributes(const Attributes& all, const Attributes& held) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (!before[i].second->empty() && after[i].second->empty()) {
       lost.push_back(std::string(before[i].first) + "s");
+    }
+  }
+  for (const CornerAttribute& attribute : held.corners) {
+    if (!has_place_for(format, soup, attribute)) {
+      lost.push_back(kind_words(attribute) + " where triangles of one point have different ones");
     }
   }
   return fmt::format("{}", fmt::join(lost, ", "));

@@ -6,6 +6,7 @@
 
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
+#include <mesh/soup_format.h>
 
 #include "common/json_report.h"
 
@@ -15,8 +16,10 @@ namespace meshrepair {
 [[nodiscard]] std::vector<std::string> attribute_words(const TriangleSoup& soup,
                                                        const Attributes& attributes);
 
-// The names of the kinds alone that are among `all` and not among `held`, joined by commas.
-[[nodiscard]] std::string lost_attributes(const Attributes& all, const Attributes& held);
+// The names of the kinds alone that are among `all` and not among `held`, or that a file of this
+// format has no place for where they stand, joined by commas.
+[[nodiscard]] std::string lost_attributes(const TriangleSoup& soup, const Attributes& all,
+                                          const Attributes& held, SoupFormat format);
 
 // Section "attributes" of a report.
 [[nodiscard]] Json attributes_section(const TriangleSoup& soup, const Attributes& attributes);

@@ -26,6 +26,13 @@ def binary_stl(triangles, promised):
     return b"cut".ljust(80) + struct.pack("<I", promised) + b"".join(facets)
 
 
+def coloured_stl():
+    """Two triangles with an edge in common, of different colours."""
+    places = ((0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0))
+    facets = [struct.pack("<12fH", 0, 0, 0, *p, 0x8000 | colour) for p, colour in zip(places, (31, 31 << 10))]
+    return b"coloured".ljust(80) + struct.pack("<I", len(facets)) + b"".join(facets)
+
+
 def tetrahedron(**replaced):
     """OBJ text; replaced: lines by their name."""
     lines = {"a": "v 0 0 0", "b": "v 1 0 0", "c": "v 0 1 0", "d": "v 0 0 1", "extra": "",
@@ -210,6 +217,7 @@ def main():
         "single_triangle.obj": SINGLE_TRIANGLE,
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
+        "coloured_sides.stl": coloured_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
         "grain.png": png(),
         "huge.obj": tetrahedron(b="v 1e12 0 0", c="v 0 1e12 0", d="v 0 0 1e12"),

@@ -53,7 +53,9 @@ struct TriangleLabels {
 
 // A picture. Readers and writers of meshes never look into it.
 struct Image {
-  std::string name;        // of the file, without folders; may be empty
+  // Of the file, without folders; as whoever names it has it where it is not to be followed; may be
+  // empty.
+  std::string name;
   std::string media_type;  // "image/png"; may be empty
   std::string path;  // of the file, as this process finds it; empty: none, or not to be followed
   std::shared_ptr<const std::string> bytes;  // if it is none

@@ -12,6 +12,10 @@
 
 namespace meshrepair {
 
+// Whether a name, with '/' between folders, is a way to a file within the folder of whoever names
+// it: not "/a", "../a", "C:/a" or "https://a".
+[[nodiscard]] bool stays_within(std::string_view name);
+
 // Where the file is that has this name, relative to the folder of the source, with '/' between
 // folders. Nothing if the source has no folder, or the name leads out of it: names in files are
 // not to be trusted. There need be no such file.
@@ -41,10 +45,11 @@ struct NamedFile {
 [[nodiscard]] std::string_view place_of_named(const MeshSource& source);
 
 // A picture, without its type: its path, or its bytes if it is in the archive of the source. It has
-// neither where the name leads out, or there is no such file in the archive.
+// neither, but its whole name, where the name leads out, or there is no such file in the archive.
 [[nodiscard]] Image picture_named(const MeshSource& source, std::string_view name);
 
-// The name of the file at `path` as seen from a folder; both as this process finds them.
+// The name of the file at `path` as seen from a folder; both as this process finds them. Links to
+// folders are followed.
 [[nodiscard]] std::string name_seen_from(const std::filesystem::path& folder,
                                          const std::filesystem::path& path);
 

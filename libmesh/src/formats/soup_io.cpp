@@ -60,7 +60,9 @@ class PlainExtras {
  public:
   PlainExtras(SoupFormat format, const SoupExtras& extras) : extras_(extras) {
     const bool has_lines = format == SoupFormat::obj || holds_sources(format);
-    if (has_lines && extras.attributes != nullptr) plain_ = with_plain_names(*extras.attributes);
+    if (has_lines && extras.attributes != nullptr) {
+      plain_ = with_plain_names(*extras.attributes, format == SoupFormat::obj);
+    }
     if (plain_) extras_.attributes = &*plain_;
   }
   PlainExtras(const PlainExtras&) = delete;

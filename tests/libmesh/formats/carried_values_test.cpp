@@ -336,5 +336,60 @@ TEST_F(ObjLibraries, OutsideTheFolderAreNotOpened) {
   }
 }
 
+// Two meshes whose materials have one name: the second gets another, and its library's goes.
+TEST_F(ObjLibraries, OfTwoMeshesWithOneNameMakeTwoMaterials) {
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl one\nf 1 2 3\n";
+  write("in/a.mtl", "newmtl one\nKd 1 0 0\n");
+  write("in/b.mtl", "newmtl one\nKd 0 0 1\nNs 3\nnewmtl other\nKd 0 1 0\nNs 7\n");
+  write("in/a.obj", "mtllib a.mtl\n" + mesh);
+  write("in/b.obj", "mtllib b.mtl\n" + mesh);
+  ReadResult both = read_with_attributes(folder_.path() / "in/a.obj");
+  ReadResult second = read_with_attributes(folder_.path() / "in/b.obj");
+  append_attributes(both.attributes, 1, second.attributes, 1);
+  both.soup.triangles.push_back(both.soup.triangles[0]);
+  const auto out = folder_.path() / "out/both.obj";
+  write_soup(both.soup, out, {.extras = {.attributes = &both.attributes}});
+  const ReadResult back = read_with_attributes(out);
+  const TriangleLabels& materials = back.attributes.materials;
+  ASSERT_EQ(materials.of_triangle.size(), 2u);
+  const auto colour_of = [&](std::size_t t) {
+    return back.attributes.looks.at(materials.of_triangle[t]).colour;
+  };
+  EXPECT_EQ(colour_of(0), (std::array<double, 4>{1, 0, 0, 1}));
+  EXPECT_EQ(colour_of(1), (std::array<double, 4>{0, 0, 1, 1}));
+  const std::string library = text_of(folder_.path() / "out/both.mtl");
+  EXPECT_NE(library.find("newmtl other\nKd 0 1 0\nNs 7\n"), std::string::npos);
+  EXPECT_EQ(library.find("Ns 3"), std::string::npos);
+}
+
+TEST_F(ObjLibraries, NamesOfPicturesElsewhereStay) {
+  const std::vector<std::string> names = {"C:\\tex\\y.png", "http://x.y/z.png", "../../up.png",
+                                          "/tmp/root.png"};
+  for (const std::string& name : names) {
+    write("in/p.mtl", "newmtl wood\nmap_Kd " + name + "\n");
+    write("in/p.obj", "mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
+    const ReadResult read = read_with_attributes(folder_.path() / "in/p.obj");
+    const WriteOptions options{.extras = {.attributes = &read.attributes}};
+    write_soup(read.soup, folder_.path() / "out/deep/p.obj", options);
+    EXPECT_NE(text_of(folder_.path() / "out/deep/p.mtl").find("map_Kd " + name + "\n"),
+              std::string::npos);
+    write_soup(read.soup, folder_.path() / "out/deep/p.gltf", options);
+    const ReadResult back = read_with_attributes(folder_.path() / "out/deep/p.gltf");
+    EXPECT_EQ(back.attributes.images.at(0).path, "") << name;
+  }
+}
+
+TEST_F(ObjLibraries, PicturesAreFoundThroughLinksToFolders) {
+  write("in/lib/grain.png", "picture");
+  write("in/lib/p.mtl", "newmtl wood\nmap_Kd grain.png\n");
+  write("in/p.obj", "mtllib lib/p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
+  std::filesystem::create_directory_symlink(folder_.path() / "out/deep", folder_.path() / "link");
+  const ReadResult read = read_with_attributes(folder_.path() / "in/p.obj");
+  write_soup(read.soup, folder_.path() / "link/p.obj",
+             {.extras = {.attributes = &read.attributes}});
+  EXPECT_EQ(text_of(folder_.path() / "out/deep/p.mtl"),
+            "newmtl wood\nmap_Kd ../../in/lib/grain.png\n");
+}
+
 }  // namespace
 }  // namespace meshrepair

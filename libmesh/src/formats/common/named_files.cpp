@@ -15,11 +15,18 @@ bool leads_out(const fs::path& path) {
 
 }  // namespace
 
+bool stays_within(std::string_view name) {
+  if (name.find('\0') != std::string_view::npos) return false;
+  // Of another machine, or another drive.
+  const std::size_t colon = name.find(':');
+  const bool has_root = colon != std::string_view::npos && colon + 1 < name.size() &&
+                        (name[colon + 1] == '/' || name[colon + 1] == '\\');
+  return !has_root && !leads_out(fs::path(name).lexically_normal());
+}
+
 std::optional<fs::path> path_of_named(const MeshSource& source, std::string_view name) {
-  if (!source.folder || name.find('\0') != std::string_view::npos) return std::nullopt;
-  const fs::path path = fs::path(name).lexically_normal();
-  if (leads_out(path)) return std::nullopt;
-  return (*source.folder / path).lexically_normal();
+  if (!source.folder || !stays_within(name)) return std::nullopt;
+  return (*source.folder / fs::path(name).lexically_normal()).lexically_normal();
 }
 
 std::optional<fs::path> find_named(const MeshSource& source, std::string_view name) {
@@ -58,20 +65,26 @@ Image picture_named(const MeshSource& source, std::string_view name) {
   image.name = fs::path(name).filename().string();
   if (source.beside == nullptr) {
     if (const auto path = path_of_named(source, name)) image.path = path->string();
-    return image;
+  } else {
+    try {
+      image.bytes = source.beside->bytes_of(name);
+    } catch (const InputError&) {  // a picture less is no reason to refuse the mesh
+    }
   }
-  try {
-    image.bytes = source.beside->bytes_of(name);
-  } catch (const InputError&) {  // a picture less is no reason to refuse the mesh
-  }
+  if (image.path.empty() && !image.bytes) image.name = name;
   return image;
 }
 
 std::string name_seen_from(const fs::path& folder, const fs::path& path) {
   const auto full = [](const fs::path& p) {
-    return fs::absolute(p.empty() ? "." : p).lexically_normal();
+    std::error_code error;
+    const fs::path absolute = fs::absolute(p.empty() ? "." : p);
+    const fs::path real = fs::weakly_canonical(absolute, error);
+    return error ? absolute.lexically_normal() : real;
   };
-  return full(path).lexically_relative(full(folder)).generic_string();
+  return (full(path.parent_path()) / path.filename())
+      .lexically_relative(full(folder))
+      .generic_string();
 }
 
 }  // namespace meshrepair

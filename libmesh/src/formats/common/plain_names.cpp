@@ -9,19 +9,37 @@
 namespace meshrepair {
 namespace {
 
-bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7F; }
+// What names of a format cannot have.
+class PlainNames {
+ public:
+  explicit PlainNames(bool for_obj) : for_obj_(for_obj) {}
 
-bool is_plain_name(std::string_view name) {
-  return std::none_of(name.begin(), name.end(), is_control) && !name.ends_with('\\');
-}
+  [[nodiscard]] bool is_plain_name(std::string_view name) const {
+    return std::none_of(name.begin(), name.end(), [&](char c) { return is_odd(c); }) &&
+           !name.ends_with('\\') && !(for_obj_ && (name.starts_with(' ') || name.ends_with(' ')));
+  }
 
-std::string plain_name(std::string name) {
-  std::replace_if(name.begin(), name.end(), is_control, '_');
-  if (name.ends_with('\\')) name.back() = '_';
-  return name;
-}
+  [[nodiscard]] std::string plain_name(std::string name) const {
+    std::replace_if(
+        name.begin(), name.end(), [&](char c) { return is_odd(c); }, '_');
+    if (name.ends_with('\\') || (for_obj_ && name.ends_with(' '))) name.back() = '_';
+    if (for_obj_ && name.starts_with(' ')) name.front() = '_';
+    return name;
+  }
 
-void make_plain(std::vector<std::string>& names) {
+  void make_plain(std::vector<std::string>& names) const;
+  [[nodiscard]] bool are_plain(const TriangleLabels& labels) const;
+
+ private:
+  // A comment of OBJ begins with '#'.
+  [[nodiscard]] bool is_odd(char c) const {
+    return (c >= 0 && c < ' ') || c == 0x7F || (for_obj_ && c == '#');
+  }
+
+  bool for_obj_;
+};
+
+void PlainNames::make_plain(std::vector<std::string>& names) const {
   std::unordered_set<std::string> taken;
   for (const std::string& name : names) {
     if (is_plain_name(name)) taken.insert(name);
@@ -37,31 +55,36 @@ void make_plain(std::vector<std::string>& names) {
   }
 }
 
-bool are_plain(const TriangleLabels& labels) {
-  return std::all_of(labels.names.begin(), labels.names.end(), is_plain_name);
+bool PlainNames::are_plain(const TriangleLabels& labels) const {
+  return std::all_of(labels.names.begin(), labels.names.end(),
+                     [&](const std::string& name) { return is_plain_name(name); });
 }
 
 }  // namespace
 
-std::optional<Attributes> with_plain_names(const Attributes& attributes) {
+std::optional<Attributes> with_plain_names(const Attributes& attributes, bool for_obj) {
+  const PlainNames names(for_obj);
   const bool are_all =
-      are_plain(attributes.materials) && are_plain(attributes.groups) &&
-      are_plain(attributes.objects) && are_plain(attributes.smoothing) &&
+      names.are_plain(attributes.materials) && names.are_plain(attributes.groups) &&
+      names.are_plain(attributes.objects) && names.are_plain(attributes.smoothing) &&
       std::all_of(attributes.corners.begin(), attributes.corners.end(),
-                  [](const CornerAttribute& one) { return is_plain_name(one.name); }) &&
-      std::all_of(attributes.images.begin(), attributes.images.end(), [](const Image& one) {
-        return is_plain_name(one.name) && is_plain_name(one.path);
+                  [&](const CornerAttribute& one) { return names.is_plain_name(one.name); }) &&
+      std::all_of(attributes.images.begin(), attributes.images.end(), [&](const Image& one) {
+        return names.is_plain_name(one.name) && names.is_plain_name(one.path);
       });
   if (are_all) return std::nullopt;
   Attributes plain = attributes;
   for (TriangleLabels* labels :
        {&plain.materials, &plain.groups, &plain.objects, &plain.smoothing}) {
-    make_plain(labels->names);
+    names.make_plain(labels->names);
   }
-  for (CornerAttribute& attribute : plain.corners) attribute.name = plain_name(attribute.name);
+  for (CornerAttribute& attribute : plain.corners) {
+    attribute.name = names.plain_name(attribute.name);
+  }
   for (Image& image : plain.images) {
-    image.name = plain_name(image.name);
-    if (!is_plain_name(image.path)) image.path.clear();
+    image.name = names.plain_name(image.name);
+    // A path that no line can name is none; '#' stands in many names of files.
+    if (!PlainNames(false).is_plain_name(image.path)) image.path.clear();
   }
   return plain;
 }

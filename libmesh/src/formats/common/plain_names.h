@@ -7,9 +7,10 @@
 
 namespace meshrepair {
 
-// The same attributes with names that fit into a line and do not make the next one part of it:
-// others have '_' instead of what does not. No two names of one list become one. Nothing where all
-// fit already.
-[[nodiscard]] std::optional<Attributes> with_plain_names(const Attributes& attributes);
+// The same attributes with names that fit into a line, do not make the next one part of it, and,
+// for OBJ, come back as they are: others have '_' instead of what does not. No two names of one
+// list become one. Nothing where all fit already.
+[[nodiscard]] std::optional<Attributes> with_plain_names(const Attributes& attributes,
+                                                         bool for_obj);
 
 }  // namespace meshrepair

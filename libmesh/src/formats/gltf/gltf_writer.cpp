@@ -106,6 +106,11 @@ class GltfWriter {
     }
   }
 
+  // Of a file that is elsewhere.
+  static std::string name_as_uri(const std::string& name) {
+    return name.find("://") == std::string::npos ? encode_percent(name) : name;
+  }
+
   [[nodiscard]] std::string relative_name(const Image& image) const {
     return name_seen_from(extras_.folder, image.path);
   }
@@ -242,7 +247,8 @@ class GltfWriter {
       json["mimeType"] = media_type_of(image);
       json["bufferView"] = builder_.append_view(*image.bytes, GltfBuilder::Target::none);
     } else {
-      json["uri"] = encode_percent(relative_name(image));
+      json["uri"] =
+          image.path.empty() ? name_as_uri(image.name) : encode_percent(relative_name(image));
     }
     return builder_.append("images", std::move(json));
   }

@@ -218,9 +218,9 @@ class LibraryMover {
       if (picture == library_.pictures.end()) return std::string(name);
       return name_of_packed_(name, picture->second);
     }
-    const fs::path path = fs::path(with_slashes(name)).lexically_normal();
-    if (path.empty() || path.has_root_path() || *path.begin() == "..") return std::string(name);
-    return name_seen_from(folder_, library_.folder / path);
+    const std::string path = with_slashes(name);
+    if (!stays_within(path)) return std::string(name);
+    return name_seen_from(folder_, library_.folder / fs::path(path).lexically_normal());
   }
 
   const MaterialLibraries::Library& library_;
@@ -244,6 +244,20 @@ std::string extension_of(const Image& image) {
   return fs::path(image.name).extension().string();
 }
 
+// Without materials whose name was there before: in libraries of several meshes they are others,
+// and have other names now.
+std::string without_repeats(std::string_view text) {
+  std::unordered_set<std::string> known;
+  std::string once;
+  bool is_repeat = false;
+  visit_lines(text, [&](std::string_view line) {
+    const Line parts = split(line);
+    if (parts.key == "newmtl") is_repeat = !known.emplace(parts.rest).second;
+    if (!is_repeat) once.append(line).append("\n");
+  });
+  return once;
+}
+
 // Makes the files of one mesh.
 class MaterialFiles {
  public:
@@ -263,6 +277,7 @@ class MaterialFiles {
         if (!text.empty() && text.back() != '\n') text += '\n';
       }
     }
+    if (known != nullptr && known->libraries.size() > 1) text = without_repeats(text);
     const bool is_read = !text.empty();
     append_others(text);
     if (text.empty() || (!is_read && attributes_.looks.empty())) return {};
