@@ -11,6 +11,7 @@ namespace {
 bool same_look(const Attributes& all, const Material& a, const Material& b) {
   if (a.colour != b.colour || (a.image == kNone) != (b.image == kNone)) return false;
   if (a.image == kNone) return true;
+  if (a.texture_set != b.texture_set || a.transform != b.transform) return false;
   const Image &first = all.images[a.image], &second = all.images[b.image];
   if (first.bytes && second.bytes) return *first.bytes == *second.bytes;
   return !first.bytes && !second.bytes && first.path == second.path;
@@ -31,9 +32,17 @@ bool same_set(const CornerAttribute& a, const CornerAttribute& b) {
   return a.kind == b.kind && a.name == b.name && a.components == b.components;
 }
 
+std::uint32_t texture_sets_before(const Attributes& all, std::size_t set) {
+  return static_cast<std::uint32_t>(std::count_if(
+      all.corners.begin(), all.corners.begin() + static_cast<std::ptrdiff_t>(set),
+      [](const CornerAttribute& one) { return one.kind == CornerAttribute::Kind::texture; }));
+}
+
+// Materials of the other say by number which set of texture coordinates they use.
 void append_all_corners(Attributes& all, std::size_t triangles, Attributes& other,
                         std::size_t triangles_of_other) {
   std::vector<char> is_taken(all.corners.size(), 0);
+  std::vector<std::uint32_t> new_number;  // of the sets of texture coordinates
   for (CornerAttribute& from : other.corners) {
     std::size_t to = 0;
     while (to < all.corners.size() &&
@@ -48,7 +57,13 @@ void append_all_corners(Attributes& all, std::size_t triangles, Attributes& othe
       is_taken.resize(all.corners.size(), 0);
     }
     is_taken[to] = 1;
+    if (from.kind == CornerAttribute::Kind::texture) {
+      new_number.push_back(texture_sets_before(all, to));
+    }
     append_corners(all.corners[to], std::move(from));
+  }
+  for (Material& look : other.looks) {
+    if (look.texture_set < new_number.size()) look.texture_set = new_number[look.texture_set];
   }
   for (CornerAttribute& attribute : all.corners) {
     attribute.of_corner.resize(3 * (triangles + triangles_of_other), kNone);

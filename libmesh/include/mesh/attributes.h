@@ -12,6 +12,7 @@
 
 #include <base/ids.h>
 #include <mesh/soup.h>
+#include <mesh/soup_format.h>
 
 namespace meshrepair {
 
@@ -61,10 +62,21 @@ struct Image {
   std::shared_ptr<const std::string> bytes;  // if it is none
 };
 
+// Scales coordinates in a texture, turns them by an angle in radians, and moves them, in this
+// order; with v downwards, as KHR_texture_transform of glTF has it.
+struct TextureTransform {
+  std::array<double, 2> offset = {0, 0}, scale = {1, 1};
+  double rotation = 0;
+
+  bool operator==(const TextureTransform&) const = default;
+};
+
 // What all formats that have materials can say of one.
 struct Material {
   std::array<double, 4> colour = {1, 1, 1, 1};  // red, green, blue, opacity
   std::uint32_t image = kNone;                  // of Attributes::images: times the colour
+  std::uint32_t texture_set = 0;    // of the attributes with texture coordinates: that of the image
+  TextureTransform transform = {};  // of these coordinates
 };
 
 // What else a file held and another of its format can hold again. Its reader and writer alone know
@@ -74,6 +86,9 @@ struct Keepsake {
   Keepsake(const Keepsake&) = delete;
   Keepsake& operator=(const Keepsake&) = delete;
   virtual ~Keepsake() = default;
+
+  // Words on what no file of another format can hold of it.
+  [[nodiscard]] virtual std::vector<std::string> lost_in(SoupFormat format) const;
 
   // What two files held, for one; null: this alone, as nothing of the other can be kept.
   [[nodiscard]] virtual std::shared_ptr<const Keepsake> joined(const Keepsake& other) const;

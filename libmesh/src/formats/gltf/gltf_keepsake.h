@@ -49,6 +49,8 @@ struct GltfKeepsake final : Keepsake {
   std::vector<std::shared_ptr<const std::string>> views;  // the bytes of root["bufferViews"]
   std::vector<std::string> materials;                     // labels of root["materials"]
   GltfSmallV small_v;
+
+  [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
 };
 
 // `attributes` has the images and the names of the materials, if there are to be looks. Animations

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include <mesh/attributes.h>
@@ -32,12 +33,14 @@ struct MaterialLibraries final : Keepsake {
   };
   std::vector<Library> libraries;
 
+  // Keys of lines.
+  [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
   [[nodiscard]] std::shared_ptr<const Keepsake> joined(const Keepsake& other) const override;
 };
 
-// Reads the libraries with these names, as far as they lie in the source's folder or below it: the
-// looks of the attributes' materials, their images, and the keepsake. Warns of others.
-void read_material_libraries(const MeshSource& source, const std::vector<std::string>& names,
+// Reads the libraries that these lines name, as far as they lie in the source's folder or below it:
+// the looks of the attributes' materials, their images, and the keepsake. Warns of others.
+void read_material_libraries(const MeshSource& source, const std::vector<std::string>& lines,
                              Attributes& attributes, ReadReport& report);
 
 // What a mesh at `path` that is written as OBJ needs beside it: one library for all materials, in
@@ -46,6 +49,9 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
 // were read from is among them, unless its text stays as it is.
 [[nodiscard]] std::vector<SideFile> material_files(const std::filesystem::path& path,
                                                    const Attributes& attributes);
+
+// Names of the materials that libraries say all of, for an OBJ file.
+[[nodiscard]] std::unordered_set<std::string> library_materials(const Attributes& attributes);
 
 // Lines that name libraries that could not be read, as they were.
 [[nodiscard]] std::string unread_libraries(const Attributes& attributes);

@@ -37,6 +37,8 @@ struct KeptPackage final : Keepsake {
   std::vector<Part> parts;
   std::vector<PackageRelationship> of_package, of_model;  // to these parts
   std::vector<Tiling> tilings;
+
+  [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
 };
 
 // Reads all parts but those that are written anew: models, relationships, types of content and the
