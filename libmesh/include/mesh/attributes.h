@@ -12,9 +12,10 @@
 
 #include <base/ids.h>
 #include <mesh/soup.h>
-#include <mesh/soup_format.h>
 
 namespace meshrepair {
+
+enum class SoupFormat;
 
 // One value for each corner of each triangle. Corners share values by number, so that seams show:
 // there two triangles have different numbers at one point.

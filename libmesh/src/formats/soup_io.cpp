@@ -13,7 +13,6 @@
 
 #include "formats/common/plain_names.h"
 #include "formats/gltf/gltf_io.h"
-#include "formats/obj/material_library.h"
 #include "formats/obj/obj_io.h"
 #include "formats/off/off_io.h"
 #include "formats/ply/ply_io.h"

@@ -12,6 +12,7 @@
 #include "formats/common/text_writer.h"
 #include "material_library.h"
 #include "mtl_text.h"
+#include "obj_io.h"
 
 namespace meshrepair {
 namespace {

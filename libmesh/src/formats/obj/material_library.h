@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include <mesh/attributes.h>
@@ -49,9 +48,6 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
 // were read from is among them, unless its text stays as it is.
 [[nodiscard]] std::vector<SideFile> material_files(const std::filesystem::path& path,
                                                    const Attributes& attributes);
-
-// Names of the materials that libraries say all of, for an OBJ file.
-[[nodiscard]] std::unordered_set<std::string> library_materials(const Attributes& attributes);
 
 // Lines that name libraries that could not be read, as they were.
 [[nodiscard]] std::string unread_libraries(const Attributes& attributes);
