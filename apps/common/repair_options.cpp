@@ -114,6 +114,13 @@ void add_sew_option(CLI::App& app, SewOptions& sew) {
       ->group("Repair");
 }
 
+void add_seal_option(CLI::App& app, SealOptions& seal) {
+  app.add_option("--seal", seal.size, "Close openings that a ball of this diameter cannot pass")
+      ->type_name("SIZE")
+      ->default_str("none")
+      ->group("Repair");
+}
+
 void add_holes_option(CLI::App& app, HoleOptions& holes) {
   add_choice(
       app, "--holes", kHoleModes, [&holes](HoleMode value) { holes.mode = value; },

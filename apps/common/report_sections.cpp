@@ -130,6 +130,14 @@ Json section_of(const HoleReport& holes) {
           {"longest_loop", holes.longest_loop}};
 }
 
+Json section_of(const SealReport& seal) {
+  return {{"size", seal.size},
+          {"step", seal.step},
+          {"openings", seal.openings},
+          {"triangles", seal.triangles},
+          {"filled_volume", seal.filled_volume}};
+}
+
 Json section_of(const BuildTreeReport& tree) {
   return {{"nodes", tree.nodes},         {"leaves", tree.leaves},
           {"depth", tree.depth},         {"spatial_cuts", tree.spatial_cuts},
@@ -305,6 +313,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "sew")) report.set_section("sew", section_of(repair.sew));
   if (has("tree") || was_begun(repair, "arrange"))
     report.set_section("holes", section_of(repair.holes));
+  if (was_begun(repair, "seal")) report.set_section("seal", section_of(repair.seal));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
   if (repair.arrange.chambers > 0) report.set_section("arrange", section_of(repair.arrange));

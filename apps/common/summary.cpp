@@ -193,6 +193,18 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
   lines.add("closed", texts);
 }
 
+void describe_seals(const SealReport& seal, Lines& lines) {
+  if (seal.size <= 0) return;
+  if (seal.openings == 0) {
+    lines.add("sealed",
+              {fmt::format("nothing: no opening below {:.6g} leads into a space", seal.size)});
+    return;
+  }
+  lines.add("sealed",
+            {fmt::format("{} below {:.6g}, volume {:.6g} behind",
+                         number_of(seal.openings, "opening"), seal.size, seal.filled_volume)});
+}
+
 // Loose points are the rule with floating predicates, not worth telling.
 void describe_predicates(const RepairReport& repair, Lines& lines) {
   if (repair.predicates == Predicates::exact) return;
@@ -336,6 +348,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   describe_input(findings, lines);
   describe_sewing(findings.repair.sew, lines);
   describe_holes(findings.repair, lines);
+  describe_seals(findings.repair.seal, lines);
   describe_predicates(findings.repair, lines);
   if (findings.repair.inside.solid_cells > 0 || findings.repair.spared_cells) {
     describe_decision(findings.repair, lines);

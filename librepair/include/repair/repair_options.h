@@ -12,6 +12,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/seal_openings.h>
 #include <repair/sew_soup.h>
 
 namespace meshrepair {
@@ -28,6 +29,7 @@ struct RepairOptions {
   std::vector<float> opacity;
   SewOptions sew;
   HoleOptions holes;
+  SealOptions seal;
   BuildTreeOptions tree;
   InsideOptions inside;
   ExtractOptions extract;

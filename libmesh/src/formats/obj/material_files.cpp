@@ -229,7 +229,8 @@ std::string unread_libraries(const Attributes& attributes) {
   const auto* const known = dynamic_cast<const MaterialLibraries*>(attributes.keepsake.get());
   if (known == nullptr) return lines;
   for (const MaterialLibraries::Library& library : known->libraries) {
-    if (library.path.empty() && !library.is_packed) lines += "mtllib " + library.name + "\n";
+    if (!library.path.empty() || library.is_packed) continue;
+    lines.append("mtllib ").append(plain_obj_name(library.name)).append("\n");
   }
   return lines;
 }

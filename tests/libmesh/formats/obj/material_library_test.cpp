@@ -190,6 +190,16 @@ TEST_F(ObjLibraries, AMeshThatIsNoFileHasNone) {
   EXPECT_NE(read.report.warnings[0].find("lib/cube.mtl"), std::string::npos);
 }
 
+// Else they would have the next line as a part of them.
+TEST_F(ObjLibraries, NamesThatEndWithABackslashEndTheirLine) {
+  write("in/b.obj", "mtllib a\\\\ \nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
+  const ReadResult read = read_with_attributes(folder_.path() / "in/b.obj");
+  const std::string text =
+      format_soup(read.soup, SoupFormat::obj, {.attributes = &read.attributes});
+  EXPECT_TRUE(text.starts_with("mtllib a\\_\nv 0 0 0\n")) << text;
+  EXPECT_EQ(read_soup(text, "b.obj", {}).soup.triangles.size(), 1u);
+}
+
 // '#' begins a comment only at the start of a word.
 TEST_F(ObjLibraries, NamesMayHaveNumberSigns) {
   write("in/s.mtl", "newmtl Material#25\nKd 0 0 1\n");
