@@ -95,11 +95,15 @@ void add_patch(CleanSoup& soup, const SealPatch& patch) {
 
 void seal_openings(CleanSoup& soup, const SealOptions& options, SealReport& report,
                    ProgressObserver* progress) {
-  report = {.size = options.size};
+  report = {};
   if (options.size <= 0 || soup.triangles.empty()) return;
   const TriangleSoup triangles = on_grid(soup);
+  const double diagonal = extent_of(triangles).norm();
+  const double asked =
+      options.is_share ? options.size * diagonal : options.size / soup.grid.unit;
+  report.size = asked * soup.grid.unit;
   // A ball that is larger rolls around the whole hardly otherwise.
-  const double size = std::min(options.size / soup.grid.unit, extent_of(triangles).norm());
+  const double size = std::min(asked, diagonal);
   SpaceGrid grid = make_grid(triangles, size, soup.grid.unit, options.most_cubes, progress);
   report.step = grid.step() * soup.grid.unit;
   grid.measure(progress);
