@@ -61,7 +61,8 @@ int main(int argc, char** argv) {
   add_inside_options(app, options.repair.inside);
   add_sew_option(app, options.repair.sew);
   add_holes_option(app, options.repair.holes);
-  add_max_hole_option(app, options.repair.holes);
+  const CLI::Option& max_hole = add_max_hole_option(app, options.repair.holes);
+  add_thicken_options(app, max_hole, options.repair.thicken);
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   add_scene_option(app, options.assets);

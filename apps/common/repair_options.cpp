@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -48,6 +51,10 @@ constexpr std::array<Choice<Touching>, 2> kTouchings = {
 constexpr std::array<Choice<SewMode>, 2> kSewModes = {
     {{"auto", SewMode::automatic}, {"none", SewMode::none}}};
 
+constexpr std::array<Choice<ThickenSide>, 3> kThickenSides = {{{"middle", ThickenSide::middle},
+                                                               {"outside", ThickenSide::outside},
+                                                               {"inside", ThickenSide::inside}}};
+
 // For CLI11: an empty text where the word is a way to sew.
 std::string why_no_sewing(const std::string& word) {
   double value = 0;
@@ -62,6 +69,22 @@ std::string why_no_share(const std::string& word) {
   double value = 0;
   const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
   return is_number && value >= 0 ? std::string() : word + " is not a share: a number from 0 on";
+}
+
+// A thickness, and whether it is a share; nothing where the word says none.
+std::optional<std::pair<double, bool>> thickness_in(std::string word) {
+  const bool is_share = !word.empty() && word.back() == '%';
+  if (is_share) word.pop_back();
+  double value = 0;
+  if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value) || value <= 0) return {};
+  return std::pair(is_share ? value / 100 : value, is_share);
+}
+
+// For CLI11: an empty text where the word is a thickness.
+std::string why_no_thickness(const std::string& word) {
+  return thickness_in(word)
+             ? std::string()
+             : word + " is no thickness: a number above 0, or one with a % behind it";
 }
 
 // For CLI11: an empty text where the word is a tolerance.
@@ -127,15 +150,41 @@ void add_holes_option(CLI::App& app, HoleOptions& holes) {
       ->group("Repair");
 }
 
-void add_max_hole_option(CLI::App& app, HoleOptions& holes) {
-  app.add_option_function<double>(
-         "--max-hole",
-         [&holes](double share) { holes.largest_share = holes.largest_flat_share = share; },
-         "Patch holes of at most this share of the area of the rest of their component")
-      ->check(why_no_share)
-      ->type_name("SHARE")
-      ->default_str(
-          fmt::format("{}, or {} in a plane", holes.largest_share, holes.largest_flat_share))
+const CLI::Option& add_max_hole_option(CLI::App& app, HoleOptions& holes) {
+  return *app.add_option_function<double>(
+                 "--max-hole",
+                 [&holes](double share) { holes.largest_share = holes.largest_flat_share = share; },
+                 "Patch holes of at most this share of the area of the rest of their component")
+              ->check(why_no_share)
+              ->type_name("SHARE")
+              ->default_str(fmt::format("{}, or {} in a plane", holes.largest_share,
+                                        holes.largest_flat_share))
+              ->group("Repair");
+}
+
+void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOptions& thicken) {
+  app.add_option_function<std::string>(
+         "--thicken",
+         [&thicken, &max_hole](const std::string& word) {
+           std::tie(thicken.thickness, thicken.is_share) = *thickness_in(word);
+           if (max_hole.count() > 0) {
+             thicken.largest_hole_share = std::numeric_limits<double>::infinity();
+           }
+         },
+         "Make walls of open sheets, which enclose nothing and are dropped else: so thick,\n"
+         "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
+         "Only holes up to SHARE 0.25 are closed then, unless --max-hole is given")
+      ->check(why_no_thickness)
+      ->type_name("X|X%")
+      ->default_str("none")
+      ->group("Repair");
+  add_choice(
+      app, "--thicken-side", kThickenSides, [&thicken](ThickenSide side) { thicken.side = side; },
+      "Where a sheet is in its wall:\n"
+      "  middle   half of the wall is on either side of it\n"
+      "  outside  the wall is where its triangles face\n"
+      "  inside   the wall is behind them\n")
+      ->default_str("middle")
       ->group("Repair");
 }
 

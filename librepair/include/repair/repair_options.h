@@ -13,6 +13,7 @@
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
 #include <repair/sew_soup.h>
+#include <repair/thicken_sheets.h>
 
 namespace meshrepair {
 
@@ -28,6 +29,9 @@ struct RepairOptions {
   std::vector<float> opacity;
   SewOptions sew;
   HoleOptions holes;
+  // Open sheets, which enclose nothing: what of them is to become walls. What `holes` leaves open
+  // is a sheet then, unless it is to be extended.
+  ThickenOptions thicken;
   BuildTreeOptions tree;
   InsideOptions inside;
   ExtractOptions extract;

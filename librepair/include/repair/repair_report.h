@@ -21,6 +21,7 @@
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
 #include <repair/sew_soup.h>
+#include <repair/thicken_sheets.h>
 #include <repair/thin_cells.h>
 
 namespace meshrepair {
@@ -36,6 +37,7 @@ struct RepairReport {
   double input_area = 0;  // of the clean soup, in the input's units, squared
   SewReport sew;
   HoleReport holes;
+  ThickenReport thicken;
   BuildTreeReport tree;
   Predicates predicates = Predicates::exact;  // and, if they are not exact, their epsilon
   double epsilon = 0;
