@@ -1,7 +1,7 @@
 // At a point where the sheet has a tip, its walls leave open what is nearest to the point: the
 // directions that lead away from all edges there, the normal cone. The hull of the folds' ends and
 // of some of these directions fills it. All of it is within the ball around the point, and reaches
-// into the walls around the folds.
+// into the walls of folds and triangles there.
 #include "corner_walls.h"
 
 #include <algorithm>
@@ -112,7 +112,12 @@ class CornerMaker {
       points_.insert(points_.end(), end->points.begin(), end->points.end());
       points_.push_back(end->inner);
     }
-    for (const std::uint32_t corner : corners) beside_.push_back(corner / 3);
+    const double reach = std::max(reach_.below, reach_.above);
+    for (const std::uint32_t corner : corners) {
+      beside_.push_back(corner / 3);
+      const Vec3d opposite = 0.5 * (mesh_.at(next_side(corner)) + mesh_.beyond(corner));
+      points_.push_back(on_the_way(p, opposite, reach));
+    }
     add_directions(p, corners);
     append_hull(mesh_, points_, beside_, walls_);
     return true;

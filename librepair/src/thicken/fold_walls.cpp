@@ -167,12 +167,6 @@ class FoldMaker {
     for (FoldEnd& end : ends) ends_.push_back(std::move(end));
   }
 
-  // By half of the reach, or of the way.
-  static Vec3d on_the_way(const Vec3d& from, const Vec3d& to, double reach) {
-    const double length = (to - from).norm();
-    return from + 0.5 * std::min(1.0, reach / length) * (to - from);
-  }
-
   [[nodiscard]] static std::uint32_t corner_of(const Leaf& leaf, bool first) {
     return leaf.along == first ? leaf.side : next_side(leaf.side);
   }

@@ -45,6 +45,11 @@ void append_hull(const SheetMesh& mesh, std::span<const Vec3d> points,
   }
 }
 
+Vec3d on_the_way(const Vec3d& from, const Vec3d& to, double reach) {
+  const double length = (to - from).norm();
+  return from + 0.5 * std::min(1.0, reach / length) * (to - from);
+}
+
 void append_arc(const Vec3d& p, double reach, const Vec3d& from, const Vec3d& over, const Vec3d& to,
                 std::vector<Vec3d>& points) {
   append_halves(p, reach, from, over, points);
