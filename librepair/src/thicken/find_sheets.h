@@ -8,10 +8,11 @@
 
 namespace meshrepair::internal {
 
-// Of the input's triangles of which a piece lies outside what is solid, those that are of open
-// parts, or of flat ones, as leaves are that have two faces. What is closed and encloses nothing is
-// turned inside out, and no sheet. `places` are those of part_fates.h, of each triangle of the
-// soup; empty: none is a sheet. A flag for each triangle.
+// Of the input's triangles of which a piece lies outside what is solid, those that are connected,
+// through others of them, with an edge that is open: patches over it that bound nothing do not
+// count. And those of flat parts, as leaves are that have two faces. All else that encloses nothing
+// is closed, and turned inside out there: it is no sheet. `places` are those of part_fates.h, of
+// each triangle of the soup; empty: none is a sheet. A flag for each triangle.
 [[nodiscard]] std::vector<char> find_sheets(const CleanSoup& soup,
                                             const std::vector<std::uint8_t>& places);
 

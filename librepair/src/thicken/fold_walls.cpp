@@ -43,6 +43,13 @@ struct LeafSide {
 // degrees each, and nothing is left between them.
 constexpr double kSurelyCrossing = 150 * std::numbers::pi / 180;
 
+// The same for walls that do not lean.
+constexpr double kCrossingUpright = 179.9 * std::numbers::pi / 180;
+
+// What is folded onto itself, as cards are that have two faces, has a rim there as others have it:
+// within a degree, which no hinge is.
+constexpr double kFoldedBack = 359 * std::numbers::pi / 180;
+
 class FoldMaker {
  public:
   FoldMaker(const SheetMesh& mesh, const CornerOffsets& offsets, const WallReach& reach,
@@ -100,7 +107,9 @@ class FoldMaker {
   void fill_gap(const Leaf& a, const Leaf& b, bool is_last) {
     const double turn = b.angle - a.angle + (is_last ? 2 * std::numbers::pi : 0);
     const bool has_walls = offsets_.has_wall[a.side / 3] != 0 && offsets_.has_wall[b.side / 3] != 0;
-    if (has_walls && turn < kSurelyCrossing) return;
+    const double crossing =
+        stands_upright(a.side) && stands_upright(b.side) ? kCrossingUpright : kSurelyCrossing;
+    if (has_walls && (turn < crossing || turn > kFoldedBack)) return;
     const LeafSide from{&a, true}, to{&b, false};
     const double r = reach_of(from);
     if (!(r > 0) || reach_of(to) != r) return;
@@ -117,6 +126,13 @@ class FoldMaker {
     }
     const std::array<std::uint32_t, 2> beside = {a.side, b.side};
     append(ends, beside, r);
+  }
+
+  // Whether the wall's end at the side is at right angles to the triangle.
+  [[nodiscard]] bool stands_upright(std::uint32_t side) const {
+    const Vec3d& normal = mesh_.normal[side / 3];
+    return offsets_.vectors[offsets_.of_corner[side]] == normal &&
+           offsets_.vectors[offsets_.of_corner[next_side(side)]] == normal;
   }
 
   // So that walls around edges in a row meet in the same points, that of the vectors alone, where

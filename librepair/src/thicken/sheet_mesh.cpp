@@ -19,6 +19,7 @@ class SheetMeshMaker {
       : all_(index_triangles(soup)), is_sheet_(is_sheet), turned_(all_.size(), 0) {
     mesh_.points.assign(soup.points.begin(), soup.points.end());
     for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
+      is_given_.push_back(soup.triangles[t].source != Triangle::kNoSource ? 1 : 0);
       if (is_sheet_[t.index()] == 0) continue;
       mesh_.source.push_back(soup.triangles[t].source);
       number_.push_back(t.value);
@@ -104,7 +105,7 @@ class SheetMeshMaker {
     // Those of sheets come first, and have the numbers of the mesh.
     std::vector<IndexTriangle> triangles = mesh_.triangles;
     for (std::uint32_t t = 0; t < all_.size(); ++t) {
-      if (is_sheet_[t] == 0) triangles.push_back(all_[t]);
+      if (is_sheet_[t] == 0 && is_given_[t] != 0) triangles.push_back(all_[t]);
     }
     EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
       const auto ours = static_cast<std::size_t>(
@@ -135,6 +136,7 @@ class SheetMeshMaker {
   SheetMesh mesh_;
   std::vector<IndexTriangle> all_;
   const std::vector<char>& is_sheet_;
+  std::vector<char> is_given_;         // of each triangle of the soup, no patch over a hole
   std::vector<char> turned_;           // of each triangle of the soup
   std::vector<std::uint32_t> number_;  // of each triangle of the sheets its number in the soup
   std::vector<std::uint32_t> partner_;

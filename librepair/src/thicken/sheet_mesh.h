@@ -15,7 +15,7 @@ enum class Joint : char {
   rim,   // it is not: nothing else is at the edge
   same,  // to one that is turned alike
   seam,  // to one that is turned the other way, as a Moebius strip has it somewhere
-  many,  // more than two triangles, or others than those of sheets, are at the edge
+  many,  // more than two triangles, or others than those of sheets and patches, are at the edge
 };
 
 // Sides are those of EdgeTable, as corners are: corner 3 t + k is where side 3 t + k begins.
