@@ -25,6 +25,9 @@ constexpr double kSharpFold = 0.86602540378443865;  // the cosine of the angle o
 // triangles say nothing about, and little enough not to be seen in those that they do.
 constexpr double kTowardsMean = 1e-4;
 
+// What is left then is as thin as what rounding does.
+constexpr std::size_t kMostHalvings = 20;
+
 class OffsetFinder {
  public:
   OffsetFinder(const SheetMesh& mesh, const WallReach& reach)
@@ -34,11 +37,10 @@ class OffsetFinder {
     join_corners();
     result_.of_corner.assign(3 * mesh_.triangles.size(), kNone);
     set_common_vectors();
-    result_.has_wall.assign(mesh_.triangles.size(), 1);
+    for (const SheetSide side : kSheetSides) shorten(side);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (is_upright(t)) continue;
-      for (std::uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner) set_own_vector(corner);
-      result_.has_wall[t] = is_upright(t) ? 1 : 0;
+      result_.has_wall.push_back(
+          is_upright(t, places(t, SheetSide::below, 1), places(t, SheetSide::above, 1)) ? 1 : 0);
     }
     return std::move(result_);
   }
@@ -111,25 +113,59 @@ class OffsetFinder {
     result_.vectors.push_back(mesh_.normal[corner / 3]);
   }
 
+  // Halves what vectors reach on one side until no triangle is turned over.
+  void shorten(SheetSide side) {
+    const auto number = static_cast<std::size_t>(side);
+    const double all = side == SheetSide::below ? reach_.below : reach_.above;
+    std::vector<double>& reach = result_.reach[number];
+    reach.assign(result_.vectors.size(), all);
+    result_.has_own[number].assign(mesh_.triangles.size(), 0);
+    if (all == 0) return;
+    for (std::size_t halvings = 0; halvings < kMostHalvings; ++halvings) {
+      const std::vector<double> before = reach;
+      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (is_upright_half(t, side)) continue;
+        for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
+          const std::uint32_t vector = result_.of_corner[c];
+          reach[vector] = std::min(reach[vector], before[vector] / 2);
+        }
+      }
+      if (reach == before) break;
+    }
+    for (std::uint32_t corner = 0; corner < result_.of_corner.size(); ++corner) {
+      if (reach[result_.of_corner[corner]] < all) result_.has_own[number][corner / 3] = 1;
+    }
+  }
+
+  using Places = std::array<Vec3d, 3>;
+
+  // Of the triangle's corners, by this share of the way from the sheet to the side.
+  [[nodiscard]] Places places(std::uint32_t t, SheetSide side, double share) const {
+    Places moved;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t corner = 3 * t + k;
+      const double along = share * result_.reach_at(corner, side);
+      moved[k] = mesh_.at(corner) + (side == SheetSide::below ? -along : along) *
+                                        result_.vectors[result_.of_corner[corner]];
+    }
+    return moved;
+  }
+
+  [[nodiscard]] bool is_upright_half(std::uint32_t t, SheetSide side) const {
+    const Places sheet = places(t, side, 0), moved = places(t, side, 1);
+    return side == SheetSide::below ? is_upright(t, moved, sheet) : is_upright(t, sheet, moved);
+  }
+
   // The wall of a triangle is three tetrahedra, cut along the diagonals of its sides, each of which
   // begins below the corner with the lower number. None of them may be turned over.
-  [[nodiscard]] bool is_upright(std::uint32_t t) const {
-    std::array<std::uint32_t, 3> order = {0, 1, 2};
-    const IndexTriangle& triangle = mesh_.triangles[t];
-    std::rotate(
-        order.begin(),
-        order.begin() + (std::min_element(triangle.begin(), triangle.end()) - triangle.begin()),
-        order.end());
-    const auto place = [&](std::size_t k, double along) -> Vec3d {
-      const std::uint32_t corner = 3 * t + order[k];
-      return mesh_.at(corner) + along * result_.vectors[result_.of_corner[corner]];
-    };
-    const std::array<Vec3d, 3> low = {place(0, -reach_.below), place(1, -reach_.below),
-                                      place(2, -reach_.below)};
-    const std::array<Vec3d, 3> high = {place(0, reach_.above), place(1, reach_.above),
-                                       place(2, reach_.above)};
+  [[nodiscard]] bool is_upright(std::uint32_t t, Places low, Places high) const {
+    IndexTriangle triangle = mesh_.triangles[t];
+    const auto first = std::min_element(triangle.begin(), triangle.end()) - triangle.begin();
+    std::rotate(low.begin(), low.begin() + first, low.end());
+    std::rotate(high.begin(), high.begin() + first, high.end());
+    std::rotate(triangle.begin(), triangle.begin() + first, triangle.end());
     if (orientation(low[0], high[1], high[2], high[0]) <= 0) return false;
-    if (triangle[order[1]] < triangle[order[2]]) {
+    if (triangle[1] < triangle[2]) {
       return orientation(low[0], low[1], low[2], high[2]) > 0 &&
              orientation(low[0], low[1], high[2], high[1]) > 0;
     }

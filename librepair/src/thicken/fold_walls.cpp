@@ -18,6 +18,7 @@
 #include <Eigen/Geometry>
 
 #include "hull_walls.h"
+#include "own_walls.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -43,8 +44,8 @@ struct LeafSide {
 // degrees each, and nothing is left between them.
 constexpr double kSurelyCrossing = 150 * std::numbers::pi / 180;
 
-// The same for walls that do not lean.
-constexpr double kCrossingUpright = 179.9 * std::numbers::pi / 180;
+// The same for walls that do not lean: a crack may be left by rounding alone.
+constexpr double kCrossingUpright = std::numbers::pi * (1 - 1e-6);
 
 // What is folded onto itself, as cards are that have two faces, has a rim there as others have it:
 // within a degree, which no hinge is.
@@ -59,7 +60,7 @@ class FoldMaker {
   std::size_t run() {
     for (std::uint32_t side = 0; side < mesh_.joint.size(); ++side) {
       const bool is_pair = mesh_.joint[side] == Joint::same || mesh_.joint[side] == Joint::seam;
-      if (!is_pair || mesh_.partner[side] < side || offsets_.goes_on(mesh_, side)) continue;
+      if (!is_pair || mesh_.partner[side] < side || is_closed(side)) continue;
       const std::array<std::uint32_t, 2> sides = {side, mesh_.partner[side]};
       make_fold(sides, false);
     }
@@ -74,6 +75,15 @@ class FoldMaker {
   std::vector<FoldEnd> take_ends() { return std::move(ends_); }
 
  private:
+  // Whether one wall, shared by both triangles of the side, is all there is.
+  [[nodiscard]] bool is_closed(std::uint32_t side) const {
+    const auto has_own = [&](std::uint32_t t) {
+      return offsets_.has_own_wall(t, SheetSide::below) ||
+             offsets_.has_own_wall(t, SheetSide::above);
+    };
+    return offsets_.goes_on(mesh_, side) && !has_own(side / 3) && !has_own(mesh_.partner[side] / 3);
+  }
+
   void make_fold(std::span<const std::uint32_t> sides, bool with_others) {
     ++folds_;
     find_leaves(sides);
@@ -106,11 +116,14 @@ class FoldMaker {
   // From one leaf to the one that is next when going round.
   void fill_gap(const Leaf& a, const Leaf& b, bool is_last) {
     const double turn = b.angle - a.angle + (is_last ? 2 * std::numbers::pi : 0);
+    const LeafSide from{&a, true}, to{&b, false};
+    const bool any_own = has_own(from) || has_own(to);
+    if (!any_own && offsets_.goes_on(mesh_, a.side)) return;
+    if (share_own_wall(mesh_, offsets_, a.side, side_of(from))) return;
     const bool has_walls = offsets_.has_wall[a.side / 3] != 0 && offsets_.has_wall[b.side / 3] != 0;
     const double crossing =
-        stands_upright(a.side) && stands_upright(b.side) ? kCrossingUpright : kSurelyCrossing;
+        stands_upright(from) && stands_upright(to) ? kCrossingUpright : kSurelyCrossing;
     if (has_walls && (turn < crossing || turn > kFoldedBack)) return;
-    const LeafSide from{&a, true}, to{&b, false};
     const double r = reach_of(from);
     if (!(r > 0) || reach_of(to) != r) return;
     const bool is_round = turn > std::numbers::pi;
@@ -128,11 +141,21 @@ class FoldMaker {
     append(ends, beside, r);
   }
 
-  // Whether the wall's end at the side is at right angles to the triangle.
-  [[nodiscard]] bool stands_upright(std::uint32_t side) const {
-    const Vec3d& normal = mesh_.normal[side / 3];
-    return offsets_.vectors[offsets_.of_corner[side]] == normal &&
-           offsets_.vectors[offsets_.of_corner[next_side(side)]] == normal;
+  [[nodiscard]] static SheetSide side_of(const LeafSide& side) {
+    return side.is_above() ? SheetSide::above : SheetSide::below;
+  }
+
+  [[nodiscard]] bool has_own(const LeafSide& side) const {
+    return offsets_.has_own_wall(side.leaf->side / 3, side_of(side));
+  }
+
+  // Whether the wall's end is at right angles to the triangle.
+  [[nodiscard]] bool stands_upright(const LeafSide& side) const {
+    const Vec3d& normal = mesh_.normal[side.leaf->side / 3];
+    const auto is_normal = [&](bool first) {
+      return offsets_.vectors[offsets_.of_corner[corner_of(*side.leaf, first)]] == normal;
+    };
+    return has_own(side) || (is_normal(true) && is_normal(false));
   }
 
   // So that walls around edges in a row meet in the same points, that of the vectors alone, where
@@ -194,7 +217,8 @@ class FoldMaker {
   // At one of the edge's ends, away from the leaf.
   [[nodiscard]] Vec3d vector_of(const LeafSide& side, bool first) const {
     const std::uint32_t corner = corner_of(*side.leaf, first);
-    const Vec3d& vector = offsets_.vectors[offsets_.of_corner[corner]];
+    const Vec3d& vector =
+        has_own(side) ? mesh_.normal[corner / 3] : offsets_.vectors[offsets_.of_corner[corner]];
     return side.is_above() ? vector : Vec3d(-vector);
   }
 

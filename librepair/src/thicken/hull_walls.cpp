@@ -52,6 +52,7 @@ Vec3d on_the_way(const Vec3d& from, const Vec3d& to, double reach) {
 
 void append_arc(const Vec3d& p, double reach, const Vec3d& from, const Vec3d& over, const Vec3d& to,
                 std::vector<Vec3d>& points) {
+  if (from.dot(to) >= kLongestChord * from.norm() * to.norm()) return;
   append_halves(p, reach, from, over, points);
   points.emplace_back(p + reach * over);
   append_halves(p, reach, over, to, points);

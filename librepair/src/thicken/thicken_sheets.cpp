@@ -4,6 +4,10 @@
 //
 // - Triangles whose corners are moved together, corner_offsets.h, make a wall of one piece: the
 //   walls of triangles, which are upright each, less the sides that two of them have in common.
+// - Where that would turn some over, as the sheet is curved more than the wall is thick, they go
+// less
+//   far there, and what lies in a plane has a wall of its own, too, that stands upright on it:
+//   own_walls.h.
 // - Where the walls of neighbours do not end in the same four points, a convex piece goes around
 //   their edge: fold_walls.h.
 // - Where several of these meet, another one goes around the point: corner_walls.h.
@@ -18,6 +22,7 @@
 #include "corner_offsets.h"
 #include "corner_walls.h"
 #include "fold_walls.h"
+#include "own_walls.h"
 #include "sheet_mesh.h"
 
 namespace meshrepair {
@@ -25,6 +30,7 @@ namespace {
 
 using internal::CornerOffsets;
 using internal::SheetMesh;
+using internal::SheetSide;
 using internal::WallReach;
 
 WallReach reach_of(double thickness, ThickenSide side) {
@@ -35,15 +41,15 @@ WallReach reach_of(double thickness, ThickenSide side) {
 
 class TriangleWalls {
  public:
-  TriangleWalls(const SheetMesh& mesh, const CornerOffsets& offsets, const WallReach& reach,
-                SheetWalls& walls)
+  TriangleWalls(const SheetMesh& mesh, const CornerOffsets& offsets, SheetWalls& walls)
       : mesh_(mesh), offsets_(offsets), walls_(walls) {
     std::vector<Vec3d>& points = walls_.soup.points;
     points.resize(2 * offsets_.vectors.size(), Vec3d::Zero());
     for (std::uint32_t corner = 0; corner < offsets_.of_corner.size(); ++corner) {
       const Vec3d& vector = offsets_.vectors[offsets_.of_corner[corner]];
-      points[low(corner)] = mesh_.at(corner) - reach.below * vector;
-      points[high(corner)] = mesh_.at(corner) + reach.above * vector;
+      points[low(corner)] = mesh_.at(corner) - offsets_.reach_at(corner, SheetSide::below) * vector;
+      points[high(corner)] =
+          mesh_.at(corner) + offsets_.reach_at(corner, SheetSide::above) * vector;
     }
   }
 
@@ -103,7 +109,8 @@ SheetWalls thicken_sheets(const CleanSoup& soup, const std::vector<char>& is_she
   const CornerOffsets offsets = internal::find_corner_offsets(mesh, reach);
   cancel.ask();
   SheetWalls walls;
-  TriangleWalls(mesh, offsets, reach, walls).run();
+  TriangleWalls(mesh, offsets, walls).run();
+  internal::append_own_walls(mesh, offsets, reach, walls);
   internal::append_corners(mesh, offsets, reach,
                            internal::append_folds(mesh, offsets, reach, walls, report), walls,
                            report);

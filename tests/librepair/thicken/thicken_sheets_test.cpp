@@ -186,7 +186,7 @@ TEST(ThickenSheets, AFinOnASolidIsJoinedWithIt) {
     append(soup, fin);
     for (const ThickenSide side : {ThickenSide::middle, ThickenSide::inside}) {
       const RepairResult result = expect_solid(soup, walls_of(0.05, side));
-      if (side == ThickenSide::middle) EXPECT_EQ(result.report.output.parts, 1u) << lean;
+      EXPECT_TRUE(side != ThickenSide::middle || result.report.output.parts == 1) << lean;
       EXPECT_NEAR(result.report.output_volume, 1 + 0.05 * surface_area(fin), 0.004) << lean;
     }
   }
