@@ -1,5 +1,7 @@
 // meshrepair IN OUT: any triangle mesh or point cloud to the boundary of a solid, the whole way in
 // one process.
+#include <base/error.h>
+
 #include "common/picture_steps.h"
 #include "common/point_steps.h"
 #include "common/repair_options.h"
@@ -8,6 +10,17 @@
 
 namespace meshrepair {
 namespace {
+
+// Who meant sheets can have walls.
+Surface repair_or_advise(const AnySoup& input, const PointOptions& points,
+                         const RepairOptions& options, Findings& findings) {
+  try {
+    return repair_any(input, points, options, findings);
+  } catch (const NoSolidError& error) {
+    if (findings.point_soup) throw;
+    throw NoSolidError(error.what() + advice_to_thicken(findings.repair));
+  }
+}
 
 void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
@@ -19,15 +32,19 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   check_picture(options.picture, input.attributes);
   const Attributes given = options.picture.wanted() ? input.attributes : Attributes();
   input.attributes = chosen_for(*format.format, options.assets, std::move(input.attributes));
+  RepairOptions repair_options = certified_for(*format.format, options.repair);
+  if (!repair_options.thicken.is_share) {
+    repair_options.thicken.thickness *=
+        scale_to_unit(*format.format, options.assets, findings.unit);
+  }
   findings.unit = bring_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
-  RepairOptions repair_options = certified_for(*format.format, options.repair);
   keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
   if (!input.scene.meshes.empty()) {
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
-  const Surface surface = repair_any(input, points, repair_options, findings);
+  const Surface surface = repair_or_advise(input, points, repair_options, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   const Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
@@ -62,7 +79,8 @@ int main(int argc, char** argv) {
   add_sew_option(app, options.repair.sew);
   add_seal_option(app, options.repair.seal);
   add_holes_option(app, options.repair.holes);
-  add_max_hole_option(app, options.repair.holes);
+  const CLI::Option& max_hole = add_max_hole_option(app, options.repair.holes);
+  add_thicken_options(app, max_hole, options.repair.thicken);
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   add_scene_option(app, options.assets);

@@ -113,9 +113,15 @@ std::optional<LengthUnit> bring_to_unit(SoupFormat output, const AssetOptions& o
                                         std::optional<LengthUnit> unit, TriangleSoup& soup) {
   if (!unit) return options.units;
   if (has_unit(output) || !options.units || unit == options.units) return unit;
-  const double scale = millimeters(*unit) / millimeters(*options.units);
+  const double scale = scale_to_unit(output, options, unit);
   for (Vec3d& point : soup.points) point *= scale;
   return options.units;
+}
+
+double scale_to_unit(SoupFormat output, const AssetOptions& options,
+                     std::optional<LengthUnit> unit) {
+  if (!unit || has_unit(output) || !options.units || unit == options.units) return 1;
+  return millimeters(*unit) / millimeters(*options.units);
 }
 
 void check_format(SoupFormat format, const AssetOptions& options) {

@@ -42,6 +42,9 @@ void add_units_option(CLI::App& app, AssetOptions& options);
                                                       const AssetOptions& options,
                                                       std::optional<LengthUnit> unit,
                                                       TriangleSoup& soup);
+// What lengths of the file are multiplied with for that.
+[[nodiscard]] double scale_to_unit(SoupFormat output, const AssetOptions& options,
+                                   std::optional<LengthUnit> unit);
 
 // Throws UsageError where the format cannot hold what is asked for.
 void check_format(SoupFormat format, const AssetOptions& options);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -48,6 +51,10 @@ constexpr std::array<Choice<Touching>, 2> kTouchings = {
 constexpr std::array<Choice<SewMode>, 2> kSewModes = {
     {{"auto", SewMode::automatic}, {"none", SewMode::none}}};
 
+constexpr std::array<Choice<ThickenSide>, 3> kThickenSides = {{{"middle", ThickenSide::middle},
+                                                               {"outside", ThickenSide::outside},
+                                                               {"inside", ThickenSide::inside}}};
+
 // For CLI11: an empty text where the word is a way to sew.
 std::string why_no_sewing(const std::string& word) {
   double value = 0;
@@ -62,6 +69,22 @@ std::string why_no_share(const std::string& word) {
   double value = 0;
   const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
   return is_number && value >= 0 ? std::string() : word + " is not a share: a number from 0 on";
+}
+
+// A length above 0, and whether it is a share; nothing where the word says none.
+std::optional<std::pair<double, bool>> length_in(std::string word) {
+  const bool is_share = !word.empty() && word.back() == '%';
+  if (is_share) word.pop_back();
+  double value = 0;
+  if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value) || value <= 0) return {};
+  return std::pair(is_share ? value / 100 : value, is_share);
+}
+
+// For CLI11: an empty text where the word is a length.
+std::string why_no_length(const std::string& word) {
+  return length_in(word)
+             ? std::string()
+             : word + " is no length: a number above 0, or one with a % behind it";
 }
 
 // For CLI11: an empty text where the word is a tolerance.
@@ -115,8 +138,15 @@ void add_sew_option(CLI::App& app, SewOptions& sew) {
 }
 
 void add_seal_option(CLI::App& app, SealOptions& seal) {
-  app.add_option("--seal", seal.size, "Close openings that a ball of this diameter cannot pass")
-      ->type_name("SIZE")
+  app.add_option_function<std::string>(
+         "--seal",
+         [&seal](const std::string& word) {
+           std::tie(seal.size, seal.is_share) = *length_in(word);
+         },
+         "Close openings that a ball of this diameter cannot pass, and fill what is behind:\n"
+         "in the units of IN, or with % a share of its bounding box's diagonal, as 1%")
+      ->check(why_no_length)
+      ->type_name("X|X%")
       ->default_str("none")
       ->group("Repair");
 }
@@ -134,15 +164,41 @@ void add_holes_option(CLI::App& app, HoleOptions& holes) {
       ->group("Repair");
 }
 
-void add_max_hole_option(CLI::App& app, HoleOptions& holes) {
-  app.add_option_function<double>(
-         "--max-hole",
-         [&holes](double share) { holes.largest_share = holes.largest_flat_share = share; },
-         "Patch holes of at most this share of the area of the rest of their component")
-      ->check(why_no_share)
-      ->type_name("SHARE")
-      ->default_str(
-          fmt::format("{}, or {} in a plane", holes.largest_share, holes.largest_flat_share))
+const CLI::Option& add_max_hole_option(CLI::App& app, HoleOptions& holes) {
+  return *app.add_option_function<double>(
+                 "--max-hole",
+                 [&holes](double share) { holes.largest_share = holes.largest_flat_share = share; },
+                 "Patch holes of at most this share of the area of the rest of their component")
+              ->check(why_no_share)
+              ->type_name("SHARE")
+              ->default_str(fmt::format("{}, or {} in a plane", holes.largest_share,
+                                        holes.largest_flat_share))
+              ->group("Repair");
+}
+
+void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOptions& thicken) {
+  app.add_option_function<std::string>(
+         "--thicken",
+         [&thicken, &max_hole](const std::string& word) {
+           std::tie(thicken.thickness, thicken.is_share) = *length_in(word);
+           if (max_hole.count() > 0) {
+             thicken.largest_hole_share = std::numeric_limits<double>::infinity();
+           }
+         },
+         "Make walls of open sheets, which enclose nothing and are dropped else: so thick,\n"
+         "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
+         "Only holes up to SHARE 0.25 are closed then, unless --max-hole is given")
+      ->check(why_no_length)
+      ->type_name("X|X%")
+      ->default_str("none")
+      ->group("Repair");
+  add_choice(
+      app, "--thicken-side", kThickenSides, [&thicken](ThickenSide side) { thicken.side = side; },
+      "Where a sheet is in its wall:\n"
+      "  middle   half of the wall is on either side of it\n"
+      "  outside  the wall is where its triangles face\n"
+      "  inside   the wall is behind them\n")
+      ->default_str("middle")
       ->group("Repair");
 }
 

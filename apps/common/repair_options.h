@@ -25,7 +25,10 @@ void add_seal_option(CLI::App& app, SealOptions& seal);
 // --holes: how gaps are closed.
 void add_holes_option(CLI::App& app, HoleOptions& holes);
 // --max-hole: how large a patch may be.
-void add_max_hole_option(CLI::App& app, HoleOptions& holes);
+const CLI::Option& add_max_hole_option(CLI::App& app, HoleOptions& holes);
+// --thicken and --thicken-side: open sheets become walls. With `max_hole`, the option, what it says
+// decides alone which holes are closed.
+void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOptions& thicken);
 // --touching: what becomes of solids that touch along an edge.
 void add_touching_option(CLI::App& app, Touching& touching);
 

@@ -316,7 +316,13 @@ Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes
   if (attributes.is_bare()) return attributes;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("attributes");
-  return transfer_attributes(input, attributes, surface);
+  return transfer_attributes(input, attributes, surface,
+                             findings.has_walls || findings.repair.thicken.triangles > 0);
+}
+
+std::string advice_to_thicken(const RepairReport& repair) {
+  if (repair.thicken.fitting == 0) return {};
+  return fmt::format("; --thicken {:g} makes walls of them", repair.thicken.fitting);
 }
 
 void write_mesh_stage(const Surface& surface, const Attributes& attributes, WriteOptions format,

@@ -58,6 +58,7 @@ struct Findings {
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
+  bool has_walls = false;  // of sheets, in some mesh of a scene
   std::optional<Fidelity> fidelity;
   std::size_t output_points = 0;
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
@@ -143,6 +144,8 @@ void measure_distance_stage(const TriangleSoup& input, const Surface& surface, P
                                                    const Attributes& attributes,
                                                    const Surface& surface, Run& run,
                                                    Findings& findings);
+// To go behind the message of a NoSolidError: how its sheets become walls; empty where it has none.
+[[nodiscard]] std::string advice_to_thicken(const RepairReport& repair);
 // Stage "write".
 // Finds which guarantees the file would not hold; if options.strict and there are any, writes
 // nothing. `format` is that of mesh_format(options), `attributes` those of the surface.

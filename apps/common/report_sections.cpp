@@ -138,6 +138,18 @@ Json section_of(const SealReport& seal) {
           {"filled_volume", seal.filled_volume}};
 }
 
+Json section_of(const ThickenReport& thicken) {
+  return {{"thickness", thicken.thickness},
+          {"side", thicken_side_name(thicken.side)},
+          {"triangles", thicken.triangles},
+          {"sheets", thicken.sheets},
+          {"area", thicken.area},
+          {"folds", thicken.folds},
+          {"corners", thicken.corners},
+          {"wall_triangles", thicken.wall_triangles},
+          {"solid_volume", thicken.solid_volume}};
+}
+
 Json section_of(const BuildTreeReport& tree) {
   return {{"nodes", tree.nodes},         {"leaves", tree.leaves},
           {"depth", tree.depth},         {"spatial_cuts", tree.spatial_cuts},
@@ -302,7 +314,8 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("points", std::move(points));
   }
   const auto has = [&](std::string_view stage) {
-    return repair.kept_valid || repair.spared_cells || was_begun(repair, stage);
+    return repair.thicken.triangles > 0 || repair.kept_valid || repair.spared_cells ||
+           was_begun(repair, stage);
   };
   if (findings.scan_base) report.set_section("base", section_of(*findings.scan_base));
   if (findings.tree_read) report.set_section("read", section_of(*findings.tree_read));
@@ -314,6 +327,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (has("tree") || was_begun(repair, "arrange"))
     report.set_section("holes", section_of(repair.holes));
   if (was_begun(repair, "seal")) report.set_section("seal", section_of(repair.seal));
+  if (repair.thicken.triangles > 0) report.set_section("thicken", section_of(repair.thicken));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));
   if (repair.arrange.chambers > 0) report.set_section("arrange", section_of(repair.arrange));

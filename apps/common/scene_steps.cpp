@@ -98,6 +98,7 @@ class SceneRepair {
   Surface made_solid(const TriangleSoup& soup, MeshOutcome& outcome) {
     try {
       Surface surface = repair(soup, options_of(soup), outcome.findings.repair);
+      findings_.has_walls |= outcome.findings.repair.thicken.triangles > 0;
       measure_distance_stage(soup, surface, repair_options_.certify.precision, run_,
                              outcome.findings);
       look_at_file(surface, *format_.format, outcome.findings);
@@ -105,7 +106,8 @@ class SceneRepair {
       warn_of_findings(outcome.findings);
       return surface;
     } catch (const NoSolidError& error) {
-      outcome.trouble = error.what() + std::string("; left as it is");
+      outcome.trouble =
+          error.what() + advice_to_thicken(outcome.findings.repair) + "; left as it is";
       return as_given(soup);
     }
   }

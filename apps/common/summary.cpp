@@ -205,6 +205,20 @@ void describe_seals(const SealReport& seal, Lines& lines) {
                          number_of(seal.openings, "opening"), seal.size, seal.filled_volume)});
 }
 
+void describe_walls(const ThickenReport& thicken, Lines& lines) {
+  if (thicken.triangles == 0) return;
+  std::vector<std::string> texts = {fmt::format(
+      "{} of {}, area {:.6g}, to walls of {:.6g}{}", number_of(thicken.triangles, "triangle"),
+      number_of(thicken.sheets, "sheet"), thicken.area, thicken.thickness,
+      thicken.side == ThickenSide::middle
+          ? std::string()
+          : fmt::format(" {} of them", thicken_side_name(thicken.side)))};
+  if (thicken.solid_volume > 0) {
+    texts.push_back(fmt::format("besides what is solid, volume {:.6g}", thicken.solid_volume));
+  }
+  lines.add("thickened", texts);
+}
+
 // Loose points are the rule with floating predicates, not worth telling.
 void describe_predicates(const RepairReport& repair, Lines& lines) {
   if (repair.predicates == Predicates::exact) return;
@@ -349,6 +363,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   describe_sewing(findings.repair.sew, lines);
   describe_holes(findings.repair, lines);
   describe_seals(findings.repair.seal, lines);
+  describe_walls(findings.repair.thicken, lines);
   describe_predicates(findings.repair, lines);
   if (findings.repair.inside.solid_cells > 0 || findings.repair.spared_cells) {
     describe_decision(findings.repair, lines);

@@ -34,6 +34,7 @@
 #include "solid/find_solid.h"
 #include "surface/make_surface.h"
 #include "tangles/cut_tangles.h"
+#include "thicken/unite_walls.h"
 #include "valid/keep_valid.h"
 
 namespace meshrepair {
@@ -91,11 +92,61 @@ std::optional<Surface> around_tangles(Job& job) {
 
 std::optional<Surface> cells_everywhere(Job& job) {
   job.prepare();
-  return internal::surface_by_cells(std::move(job.clean), job.orientation, job.options, job.report,
-                                    job.meter);
+  // The sheets of a soup are looked for when it is known what is solid.
+  return internal::surface_by_cells(job.options.thicken.wanted() ? job.clean : std::move(job.clean),
+                                    job.orientation, job.options, job.report, job.meter);
 }
 
 constexpr std::array kWays = {as_given, mended, by_chambers, around_tangles, cells_everywhere};
+
+// By the first way that applies; the last one always does.
+std::optional<Surface> first_way(Job& job) {
+  std::optional<Surface> surface;
+  for (const auto& way : kWays) {
+    surface = way(job);
+    if (surface) break;
+  }
+  return surface;
+}
+
+// Whoever meant sheets by what encloses nothing can be told a thickness for them.
+Surface repair_solids(const TriangleSoup& soup, const RepairOptions& options,
+                      RepairReport& report) {
+  Job job{soup, options, report, StageMeter(report.stages, options.progress)};
+  try {
+    return *first_way(job);
+  } catch (const NoSolidError&) {
+    CleanReport again;
+    report.thicken.fitting =
+        internal::thickness_that_fits(clean_soup(soup, again, options.progress));
+    throw;
+  }
+}
+
+// What encloses nothing is known once the soup is repaired without it. Then its sheets are made
+// walls, and these are united with what is solid, by another repair.
+Surface repair_with_walls(const TriangleSoup& soup, const RepairOptions& options,
+                          RepairReport& report) {
+  const RepairOptions first_options = internal::options_for_sheets(options);
+  Job job{soup, first_options, report, StageMeter(report.stages, options.progress)};
+  std::optional<Surface> solids;
+  std::optional<NoSolidError> why_none;
+  try {
+    solids = first_way(job);
+  } catch (const NoSolidError& error) {
+    why_none = error;
+  }
+  job.meter.begin("thicken");
+  const internal::WalledSoup walled = internal::add_walls(job.clean, solids, options, report);
+  job.meter.end();
+  if (walled.empty() && !solids) throw NoSolidError(*why_none);
+  if (walled.empty()) return std::move(*solids);
+  RepairReport united;
+  Surface surface =
+      repair_solids(walled.soup, internal::options_for_walls(walled, options), united);
+  internal::finish_walls(job.clean, walled, std::move(united), surface, report);
+  return surface;
+}
 
 std::vector<char> solid_cells(const Tree& tree, const CellComplex& complex) {
   std::vector<char> solid;
@@ -120,15 +171,10 @@ void require_labels(const Tree& tree) {
 }  // namespace
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
-  Job job{soup, options, report, StageMeter(report.stages, options.progress)};
-  std::optional<Surface> surface;
-  for (const auto& way : kWays) {
-    surface = way(job);
-    if (surface) break;
-  }
-  // The last way always applies.
-  if (report.sew.distance > 0) internal::note_moved_corners(soup, *surface, report);
-  return std::move(*surface);
+  Surface surface = options.thicken.wanted() ? repair_with_walls(soup, options, report)
+                                             : repair_solids(soup, options, report);
+  if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
+  return surface;
 }
 
 RepairResult repair(const TriangleSoup& soup, const RepairOptions& options) {

@@ -26,6 +26,9 @@ struct PartFates {
   std::size_t bounding_triangles = 0;
   std::size_t inside_triangles = 0;
   std::size_t outside_triangles = 0;
+  // Of each triangle of the clean soup, where its pieces lie, as below; empty if that is not known,
+  // as where all bound the solid for sure.
+  std::vector<std::uint8_t> places;
 };
 
 // Where the pieces of a triangle lie: bits; none of them where it has no piece of its own.

@@ -14,6 +14,7 @@
 #include <repair/inside_rule.h>
 #include <repair/seal_openings.h>
 #include <repair/sew_soup.h>
+#include <repair/thicken_sheets.h>
 
 namespace meshrepair {
 
@@ -30,6 +31,9 @@ struct RepairOptions {
   SewOptions sew;
   HoleOptions holes;
   SealOptions seal;
+  // Open sheets, which enclose nothing: what of them is to become walls. What `holes` leaves open
+  // is a sheet then, unless it is to be extended.
+  ThickenOptions thicken;
   BuildTreeOptions tree;
   InsideOptions inside;
   ExtractOptions extract;

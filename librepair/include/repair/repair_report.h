@@ -22,6 +22,7 @@
 #include <repair/part_fates.h>
 #include <repair/seal_openings.h>
 #include <repair/sew_soup.h>
+#include <repair/thicken_sheets.h>
 #include <repair/thin_cells.h>
 
 namespace meshrepair {
@@ -38,6 +39,7 @@ struct RepairReport {
   SewReport sew;
   HoleReport holes;
   SealReport seal;
+  ThickenReport thicken;
   BuildTreeReport tree;
   Predicates predicates = Predicates::exact;  // and, if they are not exact, their epsilon
   double epsilon = 0;

@@ -34,8 +34,13 @@ void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
 // other numbers are as coordinates are, whatever the charts. Normals go on with those of the rim,
 // and of the patch, but over creases.
 //
+// Walls of sheets, ThickenOptions, stand off their sources. With `has_walls` a corner has the value
+// of the place below it in the plane of its source, and what is nearer to a right angle to that
+// than to be parallel has the normals of its own plane.
+//
 // `attributes` are of `input`, of which `surface` was made. Linear; on several threads.
 [[nodiscard]] Attributes transfer_attributes(const TriangleSoup& input,
-                                             const Attributes& attributes, const Surface& surface);
+                                             const Attributes& attributes, const Surface& surface,
+                                             bool has_walls = false);
 
 }  // namespace meshrepair

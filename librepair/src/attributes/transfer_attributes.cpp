@@ -51,8 +51,8 @@ std::optional<std::array<double, 3>> shares_of(const Vec3d& p, const Places& tri
 class ValueTransfer {
  public:
   ValueTransfer(const TriangleSoup& input, const CornerAttribute& given, const Surface& surface,
-                const std::vector<std::uint32_t>& sources)
-      : input_(input), given_(given), surface_(surface), sources_(sources) {}
+                const std::vector<std::uint32_t>& sources, bool has_walls)
+      : input_(input), given_(given), surface_(surface), sources_(sources), has_walls_(has_walls) {}
 
   CornerAttribute run() {
     const std::size_t corners = 3 * surface_.mesh.triangles.size();
@@ -88,9 +88,16 @@ class ValueTransfer {
     const std::uint32_t source = sources_[t];
     std::fill(of_corner.begin(), of_corner.end(), kNone);
     if (source == Surface::kNoSource) return;
-    const Places from = places_of(input_, source), to = places_of(surface_.mesh, t);
+    const Places from = places_of(input_, source);
+    Places to = places_of(surface_.mesh, t);
+    if (has_walls_) {
+      if (given_.kind == CornerAttribute::Kind::normal && is_steep(from, to)) {
+        return make_flat(to, of_corner, made);
+      }
+      for (Vec3d& p : to) p = on_plane(p, from);
+    }
     const std::uint32_t* const given = given_.of_corner.data() + 3 * std::size_t{source};
-    const bool turned = is_turned(from, to);
+    const bool turned = is_turned(from, places_of(surface_.mesh, t));
     const bool stays = given_.kind != CornerAttribute::Kind::normal || !turned;
     const bool is_constant = stays && given[0] == given[1] && given[1] == given[2];
     if (is_constant) return void(std::fill(of_corner.begin(), of_corner.end(), given[0]));
@@ -109,10 +116,33 @@ class ValueTransfer {
     }
   }
 
+  [[nodiscard]] static Vec3d normal_of(const Places& places) {
+    return (places[1] - places[0]).cross(places[2] - places[0]);
+  }
+
+  [[nodiscard]] static bool is_steep(const Places& from, const Places& to) {
+    const Vec3d before = normal_of(from).stableNormalized(), after = normal_of(to);
+    return std::abs(before.dot(after)) < 0.5 * std::sqrt(2.0) * after.stableNorm();
+  }
+
+  // A corner of the triangle itself stays, bit for bit.
+  [[nodiscard]] static Vec3d on_plane(const Vec3d& p, const Places& places) {
+    if (std::find(places.begin(), places.end(), p) != places.end()) return p;
+    const Vec3d normal = normal_of(places).stableNormalized();
+    return p - (p - places[0]).dot(normal) * normal;
+  }
+
+  static void make_flat(const Places& to, std::span<std::uint32_t> of_corner,
+                        std::vector<double>& made) {
+    const Vec3d normal = normal_of(to).stableNormalized();
+    for (std::uint32_t& value : of_corner) {
+      value = kMade;
+      made.insert(made.end(), {normal.x(), normal.y(), normal.z()});
+    }
+  }
+
   [[nodiscard]] static bool is_turned(const Places& from, const Places& to) {
-    const Vec3d before = (from[1] - from[0]).cross(from[2] - from[0]);
-    const Vec3d after = (to[1] - to[0]).cross(to[2] - to[0]);
-    return before.dot(after) < 0;
+    return normal_of(from).dot(normal_of(to)) < 0;
   }
 
   void append_mixed(const std::uint32_t* given, const std::array<double, 3>& shares, bool turned,
@@ -147,6 +177,7 @@ class ValueTransfer {
   const CornerAttribute& given_;
   const Surface& surface_;
   const std::vector<std::uint32_t>& sources_;
+  const bool has_walls_;
 };
 
 TriangleLabels transfer_labels(const TriangleLabels& given,
@@ -163,11 +194,11 @@ TriangleLabels transfer_labels(const TriangleLabels& given,
 }  // namespace
 
 Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attributes,
-                               const Surface& surface) {
+                               const Surface& surface, bool has_walls) {
   Attributes result;
   const std::vector<std::uint32_t> sources = internal::facing_sources(input, surface);
   for (const CornerAttribute& given : attributes.corners) {
-    result.corners.push_back(ValueTransfer(input, given, surface, sources).run());
+    result.corners.push_back(ValueTransfer(input, given, surface, sources, has_walls).run());
   }
   result.materials = transfer_labels(attributes.materials, sources);
   result.looks = attributes.looks;

@@ -71,4 +71,22 @@ bool is_flat_sheet(const CleanSoup& soup) {
   return std::all_of(open.begin(), open.end(), [](char x) { return x != 0; });
 }
 
+std::vector<char> triangles_of_flat_parts(const CleanSoup& soup) {
+  TopologyPlaces places;
+  const std::size_t parts =
+      examine_topology(index_triangles(soup), soup.points.size(), &places).parts;
+  std::vector<std::vector<Vec3d>> corners(parts);
+  for (std::size_t t = 0; t < places.parts.size(); ++t) {
+    for (const PointId p : soup.triangles[TriangleId(t)].corners) {
+      corners[places.parts[t]].push_back(original_place(soup, p));
+    }
+  }
+  const double rounding = rounding_of(soup);
+  std::vector<char> flat;
+  for (const std::vector<Vec3d>& part : corners) flat.push_back(is_flat(part, rounding) ? 1 : 0);
+  std::vector<char> of_triangles;
+  for (const std::uint32_t part : places.parts) of_triangles.push_back(flat[part]);
+  return of_triangles;
+}
+
 }  // namespace meshrepair::internal

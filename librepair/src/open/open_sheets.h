@@ -14,6 +14,10 @@ namespace meshrepair::internal {
 // one plane but for the rounding.
 [[nodiscard]] bool is_flat_sheet(const CleanSoup& soup);
 
+// Of each triangle, whether its part, connected through edges, lies in one plane but for the
+// rounding.
+[[nodiscard]] std::vector<char> triangles_of_flat_parts(const CleanSoup& soup);
+
 // Makes empty what only open parts surround, if all of their triangles around it lie in one plane
 // but for the rounding of their coordinates, or if what no triangle covers is about as large as
 // they are: under a sheet that is hardly bent, or a bump of one. `solid` has an entry for each

@@ -30,6 +30,7 @@ std::vector<std::uint8_t> places_of_triangles(const CellComplex& complex,
 
 PartFates find_part_fates(const CleanSoup& soup, const std::vector<std::uint8_t>& places) {
   PartFates fates;
+  fates.places = places;
   for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
     if (soup.triangles[t].source == Triangle::kNoSource) continue;
     const std::uint8_t place = places[t.index()];

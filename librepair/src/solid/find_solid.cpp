@@ -23,6 +23,11 @@ void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabel
   }
 }
 
+bool leaves_sheets_open(const RepairOptions& options) {
+  if (options.holes.mode == HoleMode::none) return true;
+  return options.thicken.wanted() && options.holes.mode != HoleMode::extend;
+}
+
 std::string why_nothing_is_solid(const RepairReport& report, HoleMode mode) {
   std::string why = "the triangles enclose nothing: ";
   if (mode == HoleMode::none && report.input.open_edges > 0) {
@@ -61,7 +66,7 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   InsideOptions inside_options = options.inside;
   inside_options.solve.progress = options.progress;
   CellLabels labels = label_cells(graph, orientation, inside_options, report.inside);
-  if (options.holes.mode == HoleMode::none) {
+  if (leaves_sheets_open(options)) {
     drop_unsealed(graph, options.progress, labels);
   }
   report.open_regions = empty_open_regions(covered, labels.solid);

@@ -1,0 +1,196 @@
+#include "corner_offsets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <base/disjoint_sets.h>
+#include <base/ids.h>
+#include <exact/double_predicates.h>
+#include <repair/thicken_sheets.h>
+
+namespace meshrepair::internal {
+namespace {
+
+// The planes of two triangles meet this much farther from their edge than they are from the
+// triangles: 1 / cos 15 degrees, at a fold of 30.
+constexpr double kSharpFold = 0.86602540378443865;  // the cosine of the angle of the normals
+
+// Of the sum of the weights: what keeps a vector near the mean normal in the directions that the
+// triangles say nothing about, and little enough not to be seen in those that they do.
+constexpr double kTowardsMean = 1e-4;
+
+// What is left then is as thin as what rounding does.
+constexpr std::size_t kMostHalvings = 20;
+
+class OffsetFinder {
+ public:
+  OffsetFinder(const SheetMesh& mesh, const WallReach& reach)
+      : mesh_(mesh), reach_(reach), group_(3 * mesh.triangles.size()) {}
+
+  CornerOffsets run() {
+    join_corners();
+    result_.of_corner.assign(3 * mesh_.triangles.size(), kNone);
+    set_common_vectors();
+    for (const SheetSide side : kSheetSides) shorten(side);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      result_.has_wall.push_back(
+          is_upright(t, places(t, SheetSide::below, 1), places(t, SheetSide::above, 1)) ? 1 : 0);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void join_corners() {
+    for (std::uint32_t side = 0; side < mesh_.joint.size(); ++side) {
+      if (mesh_.joint[side] != Joint::same) continue;
+      const std::uint32_t other = mesh_.partner[side];
+      if (other < side) continue;
+      if (mesh_.normal[side / 3].dot(mesh_.normal[other / 3]) < kSharpFold) continue;
+      group_.join(side, next_side(other));
+      group_.join(next_side(side), other);
+    }
+  }
+
+  void set_common_vectors() {
+    std::vector<std::uint32_t> corners(result_.of_corner.size());
+    std::iota(corners.begin(), corners.end(), std::uint32_t{0});
+    std::stable_sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return group_.root(a) < group_.root(b);
+    });
+    for (std::size_t i = 0; i < corners.size();) {
+      const std::size_t first = i;
+      while (i < corners.size() && group_.root(corners[i]) == group_.root(corners[first])) ++i;
+      const std::span<const std::uint32_t> group(corners.data() + first, i - first);
+      const Vec3d vector = common_vector(group);
+      const bool fits =
+          group.size() == 1 || std::all_of(group.begin(), group.end(), [&](std::uint32_t corner) {
+            return std::abs(vector.dot(mesh_.normal[corner / 3]) - 1) <= kMostBeside &&
+                   vector.norm() <= 1 + kMostBeside;
+          });
+      for (const std::uint32_t corner : group) {
+        if (fits) result_.of_corner[corner] = static_cast<std::uint32_t>(result_.vectors.size());
+        if (!fits) set_own_vector(corner);
+      }
+      if (fits) result_.vectors.push_back(vector);
+    }
+  }
+
+  // Least squares: all planes at distance 1, each weighted by the angle that its triangle has
+  // there.
+  [[nodiscard]] Vec3d common_vector(std::span<const std::uint32_t> group) const {
+    if (group.size() == 1) return mesh_.normal[group[0] / 3];
+    Vec3d sum = Vec3d::Zero();
+    double weights = 0;
+    Eigen::Matrix3d system = Eigen::Matrix3d::Zero();
+    for (const std::uint32_t corner : group) {
+      const double weight = angle_at(corner);
+      const Vec3d& normal = mesh_.normal[corner / 3];
+      system += weight * normal * normal.transpose();
+      sum += weight * normal;
+      weights += weight;
+    }
+    const Vec3d mean = sum.stableNormalized();
+    const double along = sum.dot(mean) / weights;
+    if (!(along > 0)) return mesh_.normal[group[0] / 3];
+    system += kTowardsMean * weights * Eigen::Matrix3d::Identity();
+    return system.inverse() * (sum + kTowardsMean * weights / along * mean);
+  }
+
+  [[nodiscard]] double angle_at(std::uint32_t corner) const {
+    const Vec3d& p = mesh_.at(corner);
+    const Vec3d u = mesh_.at(next_side(corner)) - p, v = mesh_.beyond(corner) - p;
+    return std::atan2(u.cross(v).norm(), u.dot(v));
+  }
+
+  void set_own_vector(std::uint32_t corner) {
+    result_.of_corner[corner] = static_cast<std::uint32_t>(result_.vectors.size());
+    result_.vectors.push_back(mesh_.normal[corner / 3]);
+  }
+
+  // Halves what vectors reach on one side until no triangle is turned over.
+  void shorten(SheetSide side) {
+    const auto number = static_cast<std::size_t>(side);
+    const double all = side == SheetSide::below ? reach_.below : reach_.above;
+    std::vector<double>& reach = result_.reach[number];
+    reach.assign(result_.vectors.size(), all);
+    result_.has_own[number].assign(mesh_.triangles.size(), 0);
+    if (all == 0) return;
+    for (std::size_t halvings = 0; halvings < kMostHalvings; ++halvings) {
+      const std::vector<double> before = reach;
+      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (is_upright_half(t, side)) continue;
+        for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
+          const std::uint32_t vector = result_.of_corner[c];
+          reach[vector] = std::min(reach[vector], before[vector] / 2);
+        }
+      }
+      if (reach == before) break;
+    }
+    for (std::uint32_t corner = 0; corner < result_.of_corner.size(); ++corner) {
+      if (reach[result_.of_corner[corner]] < all) result_.has_own[number][corner / 3] = 1;
+    }
+  }
+
+  using Places = std::array<Vec3d, 3>;
+
+  // Of the triangle's corners, by this share of the way from the sheet to the side.
+  [[nodiscard]] Places places(std::uint32_t t, SheetSide side, double share) const {
+    Places moved;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t corner = 3 * t + k;
+      const double along = share * result_.reach_at(corner, side);
+      moved[k] = mesh_.at(corner) + (side == SheetSide::below ? -along : along) *
+                                        result_.vectors[result_.of_corner[corner]];
+    }
+    return moved;
+  }
+
+  [[nodiscard]] bool is_upright_half(std::uint32_t t, SheetSide side) const {
+    const Places sheet = places(t, side, 0), moved = places(t, side, 1);
+    return side == SheetSide::below ? is_upright(t, moved, sheet) : is_upright(t, sheet, moved);
+  }
+
+  // The wall of a triangle is three tetrahedra, cut along the diagonals of its sides, each of which
+  // begins below the corner with the lower number. None of them may be turned over.
+  [[nodiscard]] bool is_upright(std::uint32_t t, Places low, Places high) const {
+    IndexTriangle triangle = mesh_.triangles[t];
+    const auto first = std::min_element(triangle.begin(), triangle.end()) - triangle.begin();
+    std::rotate(low.begin(), low.begin() + first, low.end());
+    std::rotate(high.begin(), high.begin() + first, high.end());
+    std::rotate(triangle.begin(), triangle.begin() + first, triangle.end());
+    if (orientation(low[0], high[1], high[2], high[0]) <= 0) return false;
+    if (triangle[1] < triangle[2]) {
+      return orientation(low[0], low[1], low[2], high[2]) > 0 &&
+             orientation(low[0], low[1], high[2], high[1]) > 0;
+    }
+    return orientation(low[0], low[1], low[2], high[1]) > 0 &&
+           orientation(low[0], high[1], low[2], high[2]) > 0;
+  }
+
+  const SheetMesh& mesh_;
+  const WallReach& reach_;
+  DisjointSets group_;
+  CornerOffsets result_;
+};
+
+}  // namespace
+
+bool CornerOffsets::goes_on(const SheetMesh& mesh, std::uint32_t side) const {
+  if (mesh.joint[side] != Joint::same) return false;
+  const std::uint32_t other = mesh.partner[side];
+  return has_wall[side / 3] != 0 && has_wall[other / 3] != 0 &&
+         of_corner[side] == of_corner[next_side(other)] &&
+         of_corner[next_side(side)] == of_corner[other];
+}
+
+CornerOffsets find_corner_offsets(const SheetMesh& mesh, const WallReach& reach) {
+  return OffsetFinder(mesh, reach).run();
+}
+
+}  // namespace meshrepair::internal
