@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -93,9 +94,9 @@ class GltfWriter {
     if (kept_ == nullptr) return;
     const auto images = builder_.root().find("images");
     if (images == builder_.root().end()) return;
-    const std::size_t count = std::min(images->size(), attributes_->images.size());
+    const std::size_t count = std::min(images->size(), kept_->images.size());
     for (std::size_t i = 0; i < count; ++i) {
-      const Image& image = attributes_->images[i];
+      const Image& image = kept_->images[i];
       if (image.path.empty()) continue;
       GltfJson& uri = (*images)[i]["uri"];
       const std::string moved = relative_name(image);
@@ -234,13 +235,9 @@ class GltfWriter {
     return texture;
   }
 
-  // The images of the file that was read come first, as they do there.
   std::size_t image_of(std::uint32_t number) {
-    if (kept_ != nullptr) {
-      const GltfJson* const images = gltf_member(kept_->root, "images");
-      if (images != nullptr && number < images->size()) return number;
-    }
     const Image& image = attributes_->images[number];
+    if (const auto known = kept_image(image)) return *known;
     GltfJson json = GltfJson::object();
     if (!image.name.empty()) json["name"] = image.name;
     if (image.bytes) {
@@ -251,6 +248,17 @@ class GltfWriter {
           image.path.empty() ? name_as_uri(image.name) : encode_percent(relative_name(image));
     }
     return builder_.append("images", std::move(json));
+  }
+
+  [[nodiscard]] std::optional<std::size_t> kept_image(const Image& image) const {
+    if (kept_ == nullptr) return std::nullopt;
+    const auto found =
+        std::find_if(kept_->images.begin(), kept_->images.end(), [&](const Image& kept) {
+          return image.bytes ? kept.bytes == image.bytes
+                             : !image.path.empty() && kept.path == image.path;
+        });
+    if (found == kept_->images.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - kept_->images.begin());
   }
 
   const TriangleSoup& soup_;

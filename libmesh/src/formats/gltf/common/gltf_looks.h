@@ -1,0 +1,27 @@
+// Materials of a glTF document, and what they need.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mesh/attributes.h>
+
+#include "gltf_json.h"
+
+namespace meshrepair {
+
+struct GltfLooks {
+  // A document that has materials, textures, samplers and images. Its buffer views have no buffer.
+  GltfJson root;
+  std::vector<std::shared_ptr<const std::string>> views;  // the bytes of root["bufferViews"]
+  std::vector<Image> images;                              // what root["images"] are
+};
+
+// Appends the materials of `other` with all textures, samplers, images and names of extensions,
+// each as it is but for the numbers of others in it. Of what is there already, with the same text
+// and the same bytes, there is no second one. Returns the numbers that the materials have now.
+[[nodiscard]] std::vector<std::size_t> append_looks(GltfLooks& all, const GltfLooks& other);
+
+}  // namespace meshrepair
