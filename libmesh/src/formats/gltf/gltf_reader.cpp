@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <base/error.h>
@@ -205,6 +206,7 @@ class GltfReader {
     oddities_.report(report);
     if (std::any_of(instances_.begin(), instances_.end(), [](const auto& i) { return i.has_skin; }))
       report.warnings.emplace_back("meshes with skins are read as without joints");
+    if (!is_by_mesh()) warn_of_other_scenes();
     report.trailing_bytes = document_.trailing_bytes();
     if (report.trailing_bytes > 0) {
       report.warnings.push_back(counted(report.trailing_bytes, "byte") +
@@ -220,6 +222,19 @@ class GltfReader {
     if (attributes.objects.names.empty()) attributes.objects = {};
     kept_->small_v = values.take_small_v();
     attributes.keepsake = std::move(kept_);
+  }
+
+  void warn_of_other_scenes() {
+    std::unordered_set<std::size_t> shown;
+    for (const GltfInstance& instance : instances_) shown.insert(instance.node);
+    std::size_t others = 0;
+    for (std::size_t n = 0; n < document_.count("nodes"); ++n) {
+      const bool has_mesh = gltf_member(document_.entry("nodes", n), "mesh") != nullptr;
+      if (has_mesh && !shown.contains(n)) ++others;
+    }
+    if (others == 0) return;
+    result_.report.warnings.push_back(counted(others, "node") +
+                                      " with meshes left out: not in the scene that is shown");
   }
 
   const MeshSource& source_;
