@@ -270,6 +270,7 @@ std::shared_ptr<const Keepsake> GltfKeepsake::appended_to(const Keepsake* first,
   if (before == nullptr) return nullptr;
   std::shared_ptr<GltfKeepsake> both = before->copy();
   const std::vector<std::size_t> numbers = append_looks(*both, *this);
+  both->variants.erase({0, kNone});  // triangles of this one may have no material, too
   for (std::size_t m = 0; m < materials.size() && m < numbers.size(); ++m) {
     if (numbers[m] >= both->materials.size()) {
       both->materials.push_back(names.free_name(materials[m]));

@@ -39,6 +39,7 @@ class PrimitiveReader {
     if (gltf_member(json_, "targets") != nullptr) ++oddities_.morphed;
     result_.material = document_.whole(json_, "material");
     if (result_.material) (void)document_.entry("materials", *result_.material);
+    result_.variants = gltf_extension(json_, kGltfVariants);
     const GltfJson* const draco = gltf_extension(json_, "KHR_draco_mesh_compression");
     if (draco != nullptr) {
       read_compressed(*draco);

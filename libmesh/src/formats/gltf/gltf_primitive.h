@@ -22,6 +22,7 @@ struct GltfPrimitive {
   // What else vertices have, by its name in the file: as many values as there are positions.
   std::vector<std::pair<std::string, GltfAccessor>> attributes;
   std::optional<std::size_t> material;
+  const GltfJson* variants = nullptr;  // which materials it has in which; of the document
 
   [[nodiscard]] std::size_t triangles() const { return corners.size() / 3; }
 };

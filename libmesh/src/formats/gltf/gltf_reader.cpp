@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -146,6 +147,28 @@ class GltfReader {
     if (!wants_attributes() && !is_by_mesh()) return;
     kept_ = make_gltf_keepsake(document_, buffers_, result_.attributes,
                                {is_by_mesh(), wants_attributes()});
+    if (wants_attributes()) keep_variants();
+  }
+
+  // Triangles of one material become one primitive.
+  void keep_variants() {
+    std::set<std::pair<std::size_t, std::size_t>> mixed;
+    std::map<std::pair<std::size_t, std::size_t>, const GltfJson*> first;
+    for (const auto& [number, primitives] : meshes_) {
+      for (const GltfPrimitive& primitive : primitives) {
+        const std::pair key(is_by_mesh() ? number : 0, primitive.material.value_or(kNone));
+        const GltfJson* const known = first.try_emplace(key, primitive.variants).first->second;
+        const GltfJson* const own = primitive.variants;
+        const bool is_same = known == own || (known != nullptr && own != nullptr && *known == *own);
+        if (!is_same) mixed.insert(key);
+      }
+    }
+    for (const auto& [key, variants] : first) {
+      if (variants != nullptr && !mixed.contains(key)) kept_->variants.emplace(key, *variants);
+    }
+    if (mixed.empty()) return;
+    result_.report.warnings.push_back("the variants of " + counted(mixed.size(), "material") +
+                                      " left out: primitives have different ones");
   }
 
   [[nodiscard]] std::string name_of(const GltfInstance& instance) const {

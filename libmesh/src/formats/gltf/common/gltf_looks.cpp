@@ -17,12 +17,19 @@ std::size_t size_of_list(const GltfJson& root, const char* name) {
   return list != nullptr && list->is_array() ? list->size() : 0;
 }
 
+bool has_variants(const GltfLooks& looks, std::size_t material) {
+  return std::any_of(looks.variants.begin(), looks.variants.end(),
+                     [&](const auto& one) { return one.first.second == material; });
+}
+
 // Lists of a document, and what is in them already.
 class KnownEntries {
  public:
   KnownEntries(const GltfLooks& looks, const char* list)
       : is_images_(std::string(list) == "images") {
+    const bool are_materials = std::string(list) == "materials";
     for (std::size_t i = 0; i < size_of_list(looks.root, list); ++i) {
+      if (are_materials && has_variants(looks, i)) continue;
       numbers_.try_emplace(key_of(looks.root[list][i], looks, i), i);
     }
   }
@@ -71,14 +78,16 @@ class LooksAppender {
     Numbers numbers;
     const std::size_t count = size_of_list(other_.root, name);
     if (count == 0) return numbers;
+    const bool is_materials = name == std::string("materials");
     KnownEntries known(all_, name);
     for (std::size_t i = 0; i < count; ++i) {
       GltfJson entry = other_.root[name][i];
       renumber(entry);
       const std::size_t fresh = size_of_list(all_.root, name);
       // Numbers of materials in it do not tell what it is.
-      const bool has_levels = gltf_extension(entry, "MSFT_lod") != nullptr;
-      numbers.push_back(has_levels ? fresh : known.number_of(entry, other_, i, fresh));
+      const bool is_own =
+          gltf_extension(entry, "MSFT_lod") != nullptr || (is_materials && has_variants(other_, i));
+      numbers.push_back(is_own ? fresh : known.number_of(entry, other_, i, fresh));
       if (numbers.back() != fresh) continue;
       collect_extensions(entry);
       if (name == std::string("images")) take_image(entry, i);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mesh/attributes.h>
@@ -17,11 +19,15 @@ struct GltfLooks {
   GltfJson root;
   std::vector<std::shared_ptr<const std::string>> views;  // the bytes of root["bufferViews"]
   std::vector<Image> images;                              // what root["images"] are
+  // Of the number of a mesh (of joined ones 0) and a material (kNone: none): what its primitives
+  // say of materials that they have in variants.
+  std::map<std::pair<std::size_t, std::size_t>, GltfJson> variants;
 };
 
 // Appends the materials of `other` with all textures, samplers, images and names of extensions,
 // each as it is but for the numbers of others in it. Of what is there already, with the same text
-// and the same bytes, there is no second one. Returns the numbers that the materials have now.
+// and the same bytes, there is no second one, unless it has variants: those of `other` go. Returns
+// the numbers that the materials have now.
 [[nodiscard]] std::vector<std::size_t> append_looks(GltfLooks& all, const GltfLooks& other);
 
 }  // namespace meshrepair

@@ -169,5 +169,19 @@ TEST(GltfLooks, NumbersOfNothingAreLeftOut) {
   EXPECT_EQ(written.root["textures"].size(), 3u);
 }
 
+TEST(GltfLooks, VariantsAreThoseOfTheFirstFileAlone) {
+  GltfMaker maker = painted("picture", 0);
+  maker.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "night"}}};
+  maker.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
+      {{"material", 0}, {"variants", {0}}}};
+  ReadResult all = read_file(maker);
+  append_read(all, read_file(maker));
+  append_read(all, read_file(painted("picture", 0)));
+  const TestJson primitives = Written(all).root["meshes"][0]["primitives"];
+  ASSERT_EQ(primitives.size(), 2u);
+  EXPECT_EQ(primitives[0]["extensions"], maker.root["meshes"][0]["primitives"][0]["extensions"]);
+  EXPECT_FALSE(primitives[1].contains("extensions"));
+}
+
 }  // namespace
 }  // namespace meshrepair
