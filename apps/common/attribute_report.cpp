@@ -7,6 +7,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <mesh/float32.h>
 #include <mesh/seams.h>
 
 #include "common/summary.h"
@@ -58,6 +59,41 @@ std::array<NamedLabels, 4> all_labels(const Attributes& attributes) {
            {"smoothing group", &attributes.smoothing}}};
 }
 
+// 3MF lays no coordinates without a picture that it can hold.
+bool has_unused_places(const Attributes& attributes) {
+  const CornerAttribute* const places = find_kind(attributes, Kind::texture);
+  if (places == nullptr) return false;
+  const auto has_picture = [&](std::size_t t) {
+    const auto& labels = attributes.materials;
+    const std::uint32_t material = labels.empty() ? kNone : labels.of_triangle[t];
+    if (material >= attributes.looks.size()) return false;
+    const std::uint32_t image = attributes.looks[material].image;
+    if (image >= attributes.images.size()) return false;
+    return attributes.images[image].bytes != nullptr || !attributes.images[image].path.empty();
+  };
+  for (std::size_t t = 0; 3 * t < places->of_corner.size(); ++t) {
+    if (places->of_corner[3 * t] != kNone && !has_picture(t)) return true;
+  }
+  return false;
+}
+
+bool is_beyond_float32(const CornerAttribute& attribute) {
+  return attribute.storage == CornerAttribute::Storage::integer &&
+         std::any_of(attribute.values.begin(), attribute.values.end(),
+                     [](double value) { return rounded_to_float32(value) != value; });
+}
+
+// Of attributes that the format does hold.
+void add_lost_values(const Attributes& held, SoupFormat format, std::vector<std::string>& lost) {
+  if (format == SoupFormat::threemf && has_unused_places(held)) {
+    lost.emplace_back("texture coordinates where there is no picture");
+  }
+  if (format != SoupFormat::glb && format != SoupFormat::gltf) return;
+  for (const CornerAttribute& attribute : held.corners) {
+    if (is_beyond_float32(attribute)) lost.push_back("last digits of " + kind_words(attribute));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> attribute_words(const TriangleSoup& soup, const Attributes& attributes) {
@@ -99,6 +135,10 @@ std::string lost_attributes(const TriangleSoup& soup, const Attributes& all, con
     if (!has_place_for(format, soup, attribute)) {
       lost.push_back(kind_words(attribute) + " where triangles of one point have different ones");
     }
+  }
+  add_lost_values(held, format, lost);
+  if (all.keepsake) {
+    for (std::string& words : all.keepsake->lost_in(format)) lost.push_back(std::move(words));
   }
   return fmt::format("{}", fmt::join(lost, ", "));
 }

@@ -11,6 +11,7 @@ namespace {
 bool same_look(const Attributes& all, const Material& a, const Material& b) {
   if (a.colour != b.colour || (a.image == kNone) != (b.image == kNone)) return false;
   if (a.image == kNone) return true;
+  if (a.texture_set != b.texture_set || a.transform != b.transform) return false;
   const Image &first = all.images[a.image], &second = all.images[b.image];
   if (first.bytes && second.bytes) return *first.bytes == *second.bytes;
   return !first.bytes && !second.bytes && first.path == second.path;
@@ -51,9 +52,18 @@ void make_components_same(CornerAttribute& a, CornerAttribute& b) {
   without.components = 4;
 }
 
-void append_all_corners(Attributes& all, std::size_t triangles, Attributes& other,
-                        std::size_t triangles_of_other) {
+std::uint32_t texture_sets_before(const Attributes& all, std::size_t set) {
+  return static_cast<std::uint32_t>(std::count_if(
+      all.corners.begin(), all.corners.begin() + static_cast<std::ptrdiff_t>(set),
+      [](const CornerAttribute& one) { return one.kind == CornerAttribute::Kind::texture; }));
+}
+
+// Returns the numbers that the other's sets of texture coordinates have now; the looks of its
+// materials get them.
+std::vector<std::uint32_t> append_all_corners(Attributes& all, std::size_t triangles,
+                                              Attributes& other, std::size_t triangles_of_other) {
   std::vector<char> is_taken(all.corners.size(), 0);
+  std::vector<std::uint32_t> new_number;  // of the sets of texture coordinates
   for (CornerAttribute& from : other.corners) {
     std::size_t to = 0;
     while (to < all.corners.size() &&
@@ -69,7 +79,13 @@ void append_all_corners(Attributes& all, std::size_t triangles, Attributes& othe
     }
     is_taken[to] = 1;
     make_components_same(all.corners[to], from);
+    if (from.kind == CornerAttribute::Kind::texture) {
+      new_number.push_back(texture_sets_before(all, to));
+    }
     append_corners(all.corners[to], std::move(from));
+  }
+  for (Material& look : other.looks) {
+    if (look.texture_set < new_number.size()) look.texture_set = new_number[look.texture_set];
   }
   for (CornerAttribute& attribute : all.corners) {
     attribute.of_corner.resize(3 * (triangles + triangles_of_other), kNone);
@@ -77,6 +93,7 @@ void append_all_corners(Attributes& all, std::size_t triangles, Attributes& othe
   std::stable_sort(
       all.corners.begin(), all.corners.end(),
       [](const CornerAttribute& a, const CornerAttribute& b) { return a.kind < b.kind; });
+  return new_number;
 }
 
 // `number_of` has what the other's names become.
@@ -184,8 +201,9 @@ void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
     if (look.image != kNone) look.image += images;
   }
   std::move(other.images.begin(), other.images.end(), std::back_inserter(all.images));
-  append_all_corners(all, triangles, other, triangles_of_other);
+  auto texture_sets = append_all_corners(all, triangles, other, triangles_of_other);
   AppendedMaterials materials(all, other);
+  materials.texture_sets = std::move(texture_sets);
   append_keepsake(all, other, materials);
   const auto number_of = add_materials(all, other, names_of_other(materials));
   append_labels(all.materials, triangles, other.materials, triangles_of_other, number_of);

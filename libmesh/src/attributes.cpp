@@ -33,6 +33,8 @@ std::vector<std::uint32_t> first_values(const CornerAttribute& attribute) {
 
 }  // namespace
 
+std::vector<std::string> Keepsake::lost_in(SoupFormat /*format*/) const { return {}; }
+
 std::shared_ptr<const Keepsake> Keepsake::joined(const Keepsake& /*other*/) const {
   return nullptr;
 }

@@ -7,6 +7,7 @@
 #include <base/error.h>
 #include <base/parallel.h>
 #include <base/shared_progress.h>
+#include <mesh/placed_pictures.h>
 #include <picture/draw_mesh.h>
 
 #include "raster/visible_triangles.h"
@@ -122,7 +123,9 @@ Pixels draw_mesh(const TriangleSoup& soup, const Attributes& attributes, const C
     throw UsageError("a pixel has 1 to " + std::to_string(kMostSamples) + " samples on a side");
   }
   const VisibleTriangles visible(soup, camera, options.samples);
-  const Shader shader(soup, attributes, textures.of(attributes), camera, options.samples);
+  const std::optional<Attributes> placed = with_placed_pictures(attributes);
+  const Attributes& drawn = placed ? *placed : attributes;
+  const Shader shader(soup, drawn, textures.of(drawn), camera, options.samples);
   Pixels pixels = filled(camera.size(), options.background);
   const Drawing drawing(visible, shader, options, pixels);
   SharedProgress progress(options.progress, visible.bands());

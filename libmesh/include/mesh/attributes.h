@@ -17,6 +17,8 @@
 
 namespace meshrepair {
 
+enum class SoupFormat;
+
 // One value for each corner of each triangle. Corners share values by number, so that seams show:
 // there two triangles have different numbers at one point.
 struct CornerAttribute {
@@ -63,10 +65,21 @@ struct Image {
   std::shared_ptr<const std::string> bytes;  // if it is none
 };
 
+// Scales coordinates in a texture, turns them by an angle in radians, and moves them, in this
+// order; with v downwards, as KHR_texture_transform of glTF has it.
+struct TextureTransform {
+  std::array<double, 2> offset = {0, 0}, scale = {1, 1};
+  double rotation = 0;
+
+  bool operator==(const TextureTransform&) const = default;
+};
+
 // What all formats that have materials can say of one.
 struct Material {
   std::array<double, 4> colour = {1, 1, 1, 1};  // red, green, blue, opacity
   std::uint32_t image = kNone;                  // of Attributes::images: times the colour
+  std::uint32_t texture_set = 0;    // of the attributes with texture coordinates: that of the image
+  TextureTransform transform = {};  // of these coordinates
 };
 
 struct AppendedMaterials;
@@ -78,6 +91,9 @@ struct Keepsake {
   Keepsake(const Keepsake&) = delete;
   Keepsake& operator=(const Keepsake&) = delete;
   virtual ~Keepsake() = default;
+
+  // Words on what no file of another format can hold of it.
+  [[nodiscard]] virtual std::vector<std::string> lost_in(SoupFormat format) const;
 
   // What two files held, for one; null: this alone, as nothing of the other can be kept.
   [[nodiscard]] virtual std::shared_ptr<const Keepsake> joined(const Keepsake& other) const;
@@ -115,8 +131,9 @@ struct AppendedMaterials {
   // The name itself, or with a number that no material has if `all` has it already.
   [[nodiscard]] std::string free_name(const std::string& name);
 
-  const Attributes& all;    // it has the images of both, and its own materials
-  const Attributes& other;  // the images of its looks are those of `all`
+  const Attributes& all;                    // it has the images of both, and its own materials
+  const Attributes& other;                  // the images of its looks are those of `all`
+  std::vector<std::uint32_t> texture_sets;  // numbers in `all` of the sets of `other`
   std::unordered_map<std::string, std::string> new_names;  // of materials of `other`
 
  private:

@@ -7,6 +7,7 @@
 #include <base/error.h>
 #include <mesh/float32.h>
 #include <mesh/mesh_source.h>
+#include <mesh/placed_pictures.h>
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 
@@ -59,10 +60,15 @@ void write_together(const std::vector<SideFile>& files, ProgressObserver* progre
 class PlainExtras {
  public:
   PlainExtras(SoupFormat format, const SoupExtras& extras) : extras_(extras) {
-    const bool has_lines = format == SoupFormat::obj || holds_sources(format);
-    if (has_lines && extras.attributes != nullptr) {
-      plain_ = with_plain_names(*extras.attributes, format == SoupFormat::obj);
+    if (extras.attributes == nullptr) return;
+    if (format == SoupFormat::obj) {
+      placed_ = with_placed_pictures(*extras.attributes, library_materials(*extras.attributes));
+    } else if (format != SoupFormat::glb && format != SoupFormat::gltf) {
+      placed_ = with_placed_pictures(*extras.attributes);
     }
+    if (placed_) extras_.attributes = &*placed_;
+    const bool has_lines = format == SoupFormat::obj || holds_sources(format);
+    if (has_lines) plain_ = with_plain_names(*extras_.attributes, format == SoupFormat::obj);
     if (plain_) extras_.attributes = &*plain_;
   }
   PlainExtras(const PlainExtras&) = delete;
@@ -71,7 +77,7 @@ class PlainExtras {
   [[nodiscard]] const SoupExtras& get() const { return extras_; }
 
  private:
-  std::optional<Attributes> plain_;
+  std::optional<Attributes> placed_, plain_;
   SoupExtras extras_;
 };
 

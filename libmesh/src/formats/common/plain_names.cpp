@@ -15,15 +15,20 @@ class PlainNames {
   explicit PlainNames(bool for_obj) : for_obj_(for_obj) {}
 
   [[nodiscard]] bool is_plain_name(std::string_view name) const {
-    return std::none_of(name.begin(), name.end(), [&](char c) { return is_odd(c); }) &&
-           !name.ends_with('\\') && !(for_obj_ && (name.starts_with(' ') || name.ends_with(' ')));
+    return plain_name(std::string(name)) == name;
   }
 
   [[nodiscard]] std::string plain_name(std::string name) const {
     std::replace_if(
-        name.begin(), name.end(), [&](char c) { return is_odd(c); }, '_');
-    if (name.ends_with('\\') || (for_obj_ && name.ends_with(' '))) name.back() = '_';
-    if (for_obj_ && name.starts_with(' ')) name.front() = '_';
+        name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '_');
+    if (name.ends_with('\\')) name.back() = '_';
+    if (!for_obj_ || name.empty()) return name;
+    if (name.ends_with(' ')) name.back() = '_';
+    if (name.starts_with(' ')) name.front() = '_';
+    // A word that begins so, and all behind it, is a comment.
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      if (name[i] == '#' && (i == 0 || name[i - 1] == ' ')) name[i] = '_';
+    }
     return name;
   }
 
@@ -31,11 +36,6 @@ class PlainNames {
   [[nodiscard]] bool are_plain(const TriangleLabels& labels) const;
 
  private:
-  // A comment of OBJ begins with '#'.
-  [[nodiscard]] bool is_odd(char c) const {
-    return (c >= 0 && c < ' ') || c == 0x7F || (for_obj_ && c == '#');
-  }
-
   bool for_obj_;
 };
 
@@ -88,5 +88,7 @@ std::optional<Attributes> with_plain_names(const Attributes& attributes, bool fo
   }
   return plain;
 }
+
+std::string plain_obj_name(const std::string& name) { return PlainNames(true).plain_name(name); }
 
 }  // namespace meshrepair

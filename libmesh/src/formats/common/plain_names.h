@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <mesh/attributes.h>
 
@@ -12,5 +13,8 @@ namespace meshrepair {
 // list become one. Nothing where all fit already.
 [[nodiscard]] std::optional<Attributes> with_plain_names(const Attributes& attributes,
                                                          bool for_obj);
+
+// Of a file that a line of OBJ names.
+[[nodiscard]] std::string plain_obj_name(const std::string& name);
 
 }  // namespace meshrepair

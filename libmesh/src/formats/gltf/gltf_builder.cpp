@@ -68,6 +68,12 @@ std::size_t GltfBuilder::append_view(std::string_view bytes, Target target, std:
   return append("bufferViews", std::move(view));
 }
 
+void GltfBuilder::use_extension(const std::string& name) {
+  GltfJson& used = root_["extensionsUsed"];
+  if (!used.is_array()) used = GltfJson::array();
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
 // At a multiple of four, as any number may come next.
 std::size_t GltfBuilder::place(std::string_view bytes) {
   pad(buffer_, '\0');

@@ -28,6 +28,9 @@ class GltfBuilder {
   std::size_t append(const char* list, GltfJson entry);
   std::size_t append_view(std::string_view bytes, Target target, std::size_t stride = 0);
 
+  // Names an extension that is used.
+  void use_extension(const std::string& name);
+
   // The bytes of the file. Throws OutputError if a .glb cannot be as long.
   [[nodiscard]] std::string finish(bool binary);
 

@@ -28,6 +28,21 @@ void erase_if_empty(GltfJson& object, const char* key) {
   if (found != object.end() && found->empty()) object.erase(found);
 }
 
+// Than colour, opacity and picture, which all formats with materials have.
+bool says_more_than_looks(const GltfJson& material) {
+  if (!material.is_object()) return false;
+  for (const auto& [key, value] : material.items()) {
+    if (key == "pbrMetallicRoughness" && value.is_object()) {
+      for (const auto& [inner, ignored] : value.items()) {
+        if (inner != "baseColorFactor" && inner != "baseColorTexture") return true;
+      }
+    } else if (key != "name" && key != "alphaMode" && key != "doubleSided") {
+      return true;
+    }
+  }
+  return false;
+}
+
 class KeepsakeMaker {
  public:
   KeepsakeMaker(const GltfDocument& document, GltfBuffers& buffers, const Attributes& attributes,
@@ -269,7 +284,9 @@ std::shared_ptr<const Keepsake> GltfKeepsake::appended_to(const Keepsake* first,
   const auto* const before = dynamic_cast<const GltfKeepsake*>(first);
   if (before == nullptr) return nullptr;
   std::shared_ptr<GltfKeepsake> both = before->copy();
-  const std::vector<std::size_t> numbers = append_looks(*both, *this);
+  GltfLooks own = *this;
+  renumber_texture_sets(own, names.texture_sets);
+  const std::vector<std::size_t> numbers = append_looks(*both, own);
   both->variants.erase({0, kNone});  // triangles of this one may have no material, too
   for (std::size_t m = 0; m < materials.size() && m < numbers.size(); ++m) {
     if (numbers[m] >= both->materials.size()) {
@@ -283,6 +300,7 @@ std::shared_ptr<const Keepsake> GltfKeepsake::appended_to(const Keepsake* first,
 
 std::shared_ptr<const Keepsake> GltfKeepsake::renamed(AppendedMaterials& names) const {
   std::shared_ptr<GltfKeepsake> result = copy();
+  renumber_texture_sets(*result, names.texture_sets);
   for (std::string& name : result->materials) {
     const std::string& given = names.new_names[name] = names.free_name(name);
     name = given;
@@ -303,6 +321,21 @@ std::shared_ptr<GltfKeepsake> GltfKeepsake::copy() const {
 std::shared_ptr<GltfKeepsake> make_gltf_keepsake(const GltfDocument& document, GltfBuffers& buffers,
                                                  const Attributes& attributes, GltfKept kept) {
   return KeepsakeMaker(document, buffers, attributes, kept).run();
+}
+
+std::vector<std::string> GltfKeepsake::lost_in(SoupFormat format) const {
+  std::vector<std::string> lost;
+  if (format == SoupFormat::glb || format == SoupFormat::gltf) return lost;
+  const auto materials_of_root = root.find("materials");
+  const bool has_more =
+      materials_of_root != root.end() &&
+      std::any_of(materials_of_root->begin(), materials_of_root->end(), says_more_than_looks);
+  if (has_more) lost.emplace_back("what else materials say");
+  for (const char* key : {"cameras", "animations"}) {
+    if (root.contains(key)) lost.emplace_back(key);
+  }
+  if (gltf_extension(root, "KHR_lights_punctual") != nullptr) lost.emplace_back("lights");
+  return lost;
 }
 
 }  // namespace meshrepair

@@ -51,6 +51,7 @@ struct GltfKeepsake final : Keepsake, GltfLooks {
   std::vector<std::string> materials;  // labels of root["materials"]
   GltfSmallV small_v;
 
+  [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
   // What the first has, and the materials of this one.
   [[nodiscard]] std::shared_ptr<const Keepsake> appended_to(
       const Keepsake* first, AppendedMaterials& names) const override;

@@ -13,6 +13,18 @@
 namespace meshrepair {
 namespace {
 
+// Of a texture of a material: its extension may say another than it does.
+std::size_t texture_set_of(const GltfJson& texture) {
+  const GltfJson* const transform = gltf_extension(texture, "KHR_texture_transform");
+  const GltfJson* set = gltf_member(texture, "texCoord");
+  if (transform != nullptr && gltf_member(*transform, "texCoord") != nullptr) {
+    set = gltf_member(*transform, "texCoord");
+  }
+  constexpr std::size_t kMost = 8;  // no more than any program has
+  const bool is_number = set != nullptr && set->is_number_unsigned();
+  return is_number ? std::min(set->get<std::size_t>(), kMost - 1) : 0;
+}
+
 // Those that have none, or that of one before, get one.
 std::vector<std::string> unique_names(const GltfDocument& document) {
   std::vector<std::string> names;
@@ -38,6 +50,28 @@ std::optional<std::size_t> image_of_texture(const GltfDocument& document, const 
   return std::nullopt;
 }
 
+// The member, if it is a list of numbers as long as `values`.
+void take_numbers(const GltfJson& object, const char* key, std::array<double, 2>& values) {
+  const GltfJson* const list = gltf_member(object, key);
+  if (list == nullptr || !list->is_array() || list->size() != values.size()) return;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if ((*list)[i].is_number()) values[i] = (*list)[i].get<double>();
+  }
+}
+
+// Which set of coordinates a texture takes, and how it moves them.
+void place_texture(const GltfJson& texture, Material& look) {
+  look.texture_set = static_cast<std::uint32_t>(texture_set_of(texture));
+  const GltfJson* const transform = gltf_extension(texture, "KHR_texture_transform");
+  if (transform == nullptr) return;
+  take_numbers(*transform, "offset", look.transform.offset);
+  take_numbers(*transform, "scale", look.transform.scale);
+  const GltfJson* const rotation = gltf_member(*transform, "rotation");
+  if (rotation != nullptr && rotation->is_number()) {
+    look.transform.rotation = rotation->get<double>();
+  }
+}
+
 Material look_of(const GltfDocument& document, const GltfJson& material) {
   Material look;
   const GltfJson* const shading = gltf_member(material, "pbrMetallicRoughness");
@@ -53,6 +87,7 @@ Material look_of(const GltfDocument& document, const GltfJson& material) {
   if (!number) return look;
   const auto image = image_of_texture(document, document.entry("textures", *number));
   if (image && *image < document.count("images")) look.image = static_cast<std::uint32_t>(*image);
+  place_texture(*texture, look);
   return look;
 }
 
@@ -93,7 +128,7 @@ std::string media_type_of(const Image& image) {
 }
 
 // All kinds of textures, also those of extensions, are objects with an index, below a name that
-// ends so; an extension may say another set.
+// ends so.
 std::size_t needed_textures(const GltfJson& material) {
   std::size_t needed = 0;
   if (!material.is_structured()) return needed;
@@ -101,14 +136,7 @@ std::size_t needed_textures(const GltfJson& material) {
     if (key == "extras") continue;
     needed = std::max(needed, needed_textures(value));
     if (!key.ends_with("Texture") || gltf_member(value, "index") == nullptr) continue;
-    const GltfJson* const transform = gltf_extension(value, "KHR_texture_transform");
-    const GltfJson* set = gltf_member(value, "texCoord");
-    if (transform != nullptr && gltf_member(*transform, "texCoord") != nullptr) {
-      set = gltf_member(*transform, "texCoord");
-    }
-    constexpr std::size_t kMost = 8;  // no more than any program has
-    const bool is_number = set != nullptr && set->is_number_unsigned();
-    needed = std::max(needed, is_number ? std::min(set->get<std::size_t>(), kMost - 1) + 1 : 1);
+    needed = std::max(needed, texture_set_of(value) + 1);
   }
   return needed;
 }

@@ -244,10 +244,21 @@ class GltfWriter {
     GltfJson shading = {{"metallicFactor", 0.0}};
     if (colour != Material().colour) shading["baseColorFactor"] = colour;
     if (look.image < attributes_->images.size()) {
-      shading["baseColorTexture"] = {{"index", texture_of(look.image)}};
+      shading["baseColorTexture"] = placed_texture(look);
     }
     material["pbrMetallicRoughness"] = std::move(shading);
     if (colour[3] < 1) material["alphaMode"] = "BLEND";
+  }
+
+  GltfJson placed_texture(const Material& look) {
+    GltfJson texture = {{"index", texture_of(look.image)}};
+    if (look.texture_set != 0) texture["texCoord"] = look.texture_set;
+    if (look.transform == TextureTransform()) return texture;
+    const auto& [offset, scale, rotation] = look.transform;
+    texture["extensions"]["KHR_texture_transform"] = {
+        {"offset", offset}, {"scale", scale}, {"rotation", rotation}};
+    builder_.use_extension("KHR_texture_transform");
+    return texture;
   }
 
   std::size_t texture_of(std::uint32_t image) {

@@ -32,12 +32,14 @@ struct MaterialLibraries final : Keepsake {
   };
   std::vector<Library> libraries;
 
+  // Keys of lines.
+  [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
   [[nodiscard]] std::shared_ptr<const Keepsake> joined(const Keepsake& other) const override;
 };
 
-// Reads the libraries with these names, as far as they lie in the source's folder or below it: the
-// looks of the attributes' materials, their images, and the keepsake. Warns of others.
-void read_material_libraries(const MeshSource& source, const std::vector<std::string>& names,
+// Reads the libraries that these lines name, as far as they lie in the source's folder or below it:
+// the looks of the attributes' materials, their images, and the keepsake. Warns of others.
+void read_material_libraries(const MeshSource& source, const std::vector<std::string>& lines,
                              Attributes& attributes, ReadReport& report);
 
 // What a mesh at `path` that is written as OBJ needs beside it: one library for all materials, in

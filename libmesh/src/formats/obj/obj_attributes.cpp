@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
+constexpr std::int64_t kNoValue = std::numeric_limits<std::int64_t>::min();
+
 // The number at the start of `text`, which goes on behind it and the slash that follows.
 std::optional<std::int64_t> next_index(std::string_view& text) {
   std::int64_t number = 0;
@@ -30,8 +32,9 @@ std::optional<std::int64_t> next_index(std::string_view& text) {
 }
 
 std::int64_t position_of(std::optional<std::int64_t> index, std::size_t count) {
-  if (!index || *index == 0) return -1;
-  return *index > 0 ? *index - 1 : static_cast<std::int64_t>(count) + *index;
+  if (!index || *index == 0) return kNoValue;
+  if (*index > 0) return *index - 1;
+  return std::max<std::int64_t>(static_cast<std::int64_t>(count) + *index, -1);
 }
 
 void append_values(std::string& text, std::string_view word, const CornerAttribute* attribute) {
@@ -165,8 +168,9 @@ CornerAttribute ObjAttributes::Corners::take(CornerAttribute::Kind kind,
   for (const FaceList::Origin& origin : origins) {
     for (const std::uint64_t corner : origin.corners) {
       const std::int64_t value = of_corner[corner];
-      taken.of_corner.push_back(value >= 0 && value < count ? static_cast<std::uint32_t>(value)
-                                                            : kNone);
+      const bool is_there = value >= 0 && value < count;
+      if (!is_there && value != kNoValue) ++bad;
+      taken.of_corner.push_back(is_there ? static_cast<std::uint32_t>(value) : kNone);
     }
   }
   return taken;

@@ -32,6 +32,9 @@ class ObjAttributes {
   // Of files that say what the materials are, as the lines name them.
   [[nodiscard]] const std::vector<std::string>& libraries() const { return libraries_; }
 
+  // Corners that name texture coordinates or normals that are not there; of take().
+  [[nodiscard]] std::size_t bad_corners() const { return texture_.bad + normals_.bad; }
+
   // For triangles with these origins, and corners at these points.
   [[nodiscard]] Attributes take(const std::vector<FaceList::Origin>& origins,
                                 const std::vector<std::array<std::uint32_t, 3>>& triangles);
@@ -51,7 +54,8 @@ class ObjAttributes {
   struct Corners {
     std::vector<double> values;
     std::size_t components = 0;
-    std::vector<std::int64_t> of_corner;  // 0-based; below 0: none
+    std::vector<std::int64_t> of_corner;  // 0-based, maybe of none that is there
+    std::size_t bad = 0;                  // corners that name none of the values
 
     void add(TextScanner& text, std::size_t most);
     [[nodiscard]] CornerAttribute take(CornerAttribute::Kind kind,

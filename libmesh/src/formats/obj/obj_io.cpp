@@ -43,6 +43,7 @@ class ObjReader {
       std::vector<FaceList::Origin> origins;
       faces_.append_to(result_, source_.options.progress, &origins);
       result_.attributes = attributes_.take(origins, result_.soup.triangles);
+      warn_of_bad_corners();
       read_material_libraries(source_, attributes_.libraries(), result_.attributes, result_.report);
     } else {
       faces_.append_to(result_, source_.options.progress);
@@ -52,6 +53,14 @@ class ObjReader {
 
  private:
   [[nodiscard]] bool wants_attributes() const { return source_.options.attributes; }
+
+  void warn_of_bad_corners() {
+    const std::size_t bad = attributes_.bad_corners();
+    if (bad == 0) return;
+    result_.report.warnings.push_back(
+        std::to_string(bad) + (bad == 1 ? " corner names" : " corners name") +
+        " texture coordinates or normals that are not there: left without");
+  }
 
   void read_point() {
     Vec3d point = Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include <mesh/mesh_source.h>
@@ -29,6 +30,9 @@ namespace meshrepair {
 // the mesh.
 [[nodiscard]] std::vector<SideFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
                                               const std::filesystem::path& path);
+
+// Names of the materials that libraries say all of, for an OBJ file.
+[[nodiscard]] std::unordered_set<std::string> library_materials(const Attributes& attributes);
 
 // The points alone: `v` gives a point, and its colour where six numbers or more follow, from 0 to
 // 1; `vn` a normal. Normals belong to the points in order, and are none of theirs where there are

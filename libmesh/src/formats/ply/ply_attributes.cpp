@@ -45,8 +45,7 @@ const std::vector<KnownGroup>& known_groups() {
 
 // Properties that are no attributes.
 bool is_known_otherwise(std::string_view name) {
-  constexpr std::array<std::string_view, 6> kNames = {"x",        "y",          "z",
-                                                      kPlySource, kPlyMaterial, kPlyTexture};
+  constexpr std::array<std::string_view, 4> kNames = {"x", "y", "z", kPlySource};
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
@@ -99,8 +98,6 @@ Names components_from(const PlyElement& element, std::size_t first) {
 }  // namespace
 
 PlyAttributes::PlyAttributes(const MeshSource& source, const PlyHeader& header) : source_(source) {
-  find_element("vertex", header, points_);
-  find_element("face", header, faces_);
   for (const std::string& comment : header.comments) {
     if (const auto name = behind(comment, kPlyMaterialComment); !name.empty()) {
       materials_.emplace_back(name);
@@ -109,6 +106,8 @@ PlyAttributes::PlyAttributes(const MeshSource& source, const PlyHeader& header) 
       textures_.emplace_back(name);
     }
   }
+  find_element("vertex", header, points_);
+  find_element("face", header, faces_);
 }
 
 // Where there are several, each has properties of its own: they do not make one list.
@@ -131,8 +130,11 @@ void PlyAttributes::find_groups(const PlyElement& element, Element& found) const
     if (property.is_list && is_face && property.name.starts_with(kPlyTextureList)) {
       add_list(element, i, found);
     }
-    if (!property.is_list && property.name == kPlyMaterial) found.material = i;
-    if (!property.is_list && property.name == kPlyTexture) found.texture = i;
+    // Numbers of what has no names are any numbers.
+    const bool is_material = property.name == kPlyMaterial && !materials_.empty();
+    const bool is_texture = property.name == kPlyTexture && !textures_.empty();
+    if (is_face && !property.is_list && is_material) found.material = i;
+    if (is_face && !property.is_list && is_texture) found.texture = i;
   }
   add_others(element, found);
 }
@@ -173,7 +175,9 @@ void PlyAttributes::add_list(const PlyElement& element, std::size_t property,
 void PlyAttributes::add_others(const PlyElement& element, Element& found) const {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    if (property.is_list || found.group_of[i] != kNoColumn || is_known_otherwise(property.name)) {
+    const bool is_label = i == found.material || i == found.texture;
+    if (property.is_list || found.group_of[i] != kNoColumn || is_label ||
+        is_known_otherwise(property.name)) {
       continue;
     }
     const Names vector = components_from(element, i);

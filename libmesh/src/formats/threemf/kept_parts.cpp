@@ -235,4 +235,12 @@ void keep_parts(const MeshSource& source, ZipReader& archive, const ContentTypes
   PartKeeper(source, archive, types, kept).run(model, taken, report);
 }
 
+std::vector<std::string> KeptPackage::lost_in(SoupFormat format) const {
+  std::vector<std::string> lost;
+  if (format == SoupFormat::threemf) return lost;
+  if (!metadata.empty()) lost.emplace_back("metadata");
+  if (!parts.empty()) lost.emplace_back("other parts of the package");
+  return lost;
+}
+
 }  // namespace meshrepair

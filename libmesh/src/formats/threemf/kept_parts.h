@@ -38,6 +38,7 @@ struct KeptPackage final : Keepsake {
   std::vector<PackageRelationship> of_package, of_model;  // to these parts
   std::vector<Tiling> tilings;
 
+  [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
   // The first package, with the pictures of this one, and its parts that something refers to: what
   // is known by its name alone there can be only one of, and of thumbnails, too.
   [[nodiscard]] std::shared_ptr<const Keepsake> appended_to(

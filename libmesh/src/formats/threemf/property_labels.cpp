@@ -104,7 +104,7 @@ class PropertyTables {
         for (std::size_t i = 0; i < group.names.size(); ++i) {
           table.emplace_back();
           if (group.names[i] == kNoMaterialName) continue;
-          table.back().base = add_material(group.names[i], {group.colours[i], kNone});
+          table.back().base = add_material(group.names[i], {.colour = group.colours[i]});
         }
         break;
       case PropertyGroup::Kind::colour:

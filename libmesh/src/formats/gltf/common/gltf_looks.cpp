@@ -203,7 +203,39 @@ class LooksAppender {
   std::set<std::string> extensions_;
 };
 
+using TextureSets = std::vector<std::uint32_t>;
+
+void renumber_set(GltfJson& use, const TextureSets& numbers) {
+  const GltfJson* const given = gltf_member(use, "texCoord");
+  const std::size_t set =
+      given != nullptr && given->is_number_unsigned() ? given->get<std::size_t>() : 0;
+  if (set < numbers.size() && numbers[set] != set) use["texCoord"] = numbers[set];
+}
+
+// See needed_textures().
+void renumber_sets(GltfJson& material, const TextureSets& numbers) {
+  if (!material.is_structured()) return;
+  for (auto item = material.begin(); item != material.end(); ++item) {
+    const std::string key = material.is_object() ? item.key() : std::string();
+    if (key == "extras") continue;
+    renumber_sets(*item, numbers);
+    if (!key.ends_with("Texture") || gltf_member(*item, "index") == nullptr) continue;
+    renumber_set(*item, numbers);
+    const GltfJson* const transform = gltf_extension(*item, "KHR_texture_transform");
+    if (transform != nullptr && gltf_member(*transform, "texCoord") != nullptr) {
+      renumber_set((*item)["extensions"]["KHR_texture_transform"], numbers);
+    }
+  }
+}
+
 }  // namespace
+
+void renumber_texture_sets(GltfLooks& looks, const TextureSets& numbers) {
+  bool are_same = true;
+  for (std::size_t i = 0; i < numbers.size(); ++i) are_same = are_same && numbers[i] == i;
+  if (are_same || size_of_list(looks.root, "materials") == 0) return;
+  for (GltfJson& material : looks.root["materials"]) renumber_sets(material, numbers);
+}
 
 std::vector<std::size_t> append_looks(GltfLooks& all, const GltfLooks& other) {
   return LooksAppender(all, other).run();

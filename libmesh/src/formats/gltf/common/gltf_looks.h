@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,5 +30,9 @@ struct GltfLooks {
 // and the same bytes, there is no second one, unless it has variants: those of `other` go. Returns
 // the numbers that the materials have now.
 [[nodiscard]] std::vector<std::size_t> append_looks(GltfLooks& all, const GltfLooks& other);
+
+// Textures of all materials take the set of coordinates that has the number numbers[i] instead of
+// i.
+void renumber_texture_sets(GltfLooks& looks, const std::vector<std::uint32_t>& numbers);
 
 }  // namespace meshrepair

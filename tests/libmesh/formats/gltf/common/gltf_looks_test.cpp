@@ -157,6 +157,22 @@ TEST(GltfLooks, MaterialsBehindThoseOfAnotherFormatStayTheirs) {
   EXPECT_EQ(written.material_of(1), Written(read_file(painted("picture", 0))).material_of(0));
 }
 
+TEST(GltfLooks, TexturesTakeTheSetsOfCoordinatesThatTheyTook) {
+  ReadResult all;
+  all.soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  all.soup.triangles = {{0, 1, 2}};
+  CornerAttribute& set = all.attributes.corners.emplace_back();
+  set.values = {0.5, 0.5};
+  set.of_corner = {0, 0, 0};
+  append_read(all, read_file(painted("picture", 0)));
+  const Written written(all);
+  const TestJson material = written.material_of(0);
+  EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 1);
+  EXPECT_EQ(material["extensions"]["KHR_materials_clearcoat"]["clearcoatTexture"]["texCoord"], 1);
+  const ReadResult again = read_soup(std::string_view(written.glb), "b.glb", {.attributes = true});
+  EXPECT_EQ(again.attributes.looks[1].texture_set, 1u);
+}
+
 TEST(GltfLooks, NumbersOfNothingAreLeftOut) {
   GltfMaker broken = painted("picture", 0);
   broken.root["materials"][1]["normalTexture"] = {{"index", 7}};
