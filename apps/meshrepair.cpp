@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
+  add_staging_option(app, options.staging);
   add_attributes_options(app, options.assets);
   add_units_option(app, options.assets);
   add_certify_options(app, options.repair.certify, options.strict);

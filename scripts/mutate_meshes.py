@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs meshrepair on damaged copies of meshes and looks whether it ends as it should.
 
-Each copy is cut, has bits flipped, or is spliced with itself or another mesh. It has to end with a
+Each copy is cut, has bits flipped, or is spliced with itself or another mesh; of 3MF packages also one of the
+parts in them. It has to end with a
 documented exit code and one line, within the time, leave an output if and only if it says so, and what it
 calls certified has to be a valid solid to meshcheck. Build it with the sanitizers to see more:
 
@@ -12,19 +13,26 @@ calls certified has to be a valid solid to meshcheck. Build it with the sanitize
 import argparse
 import collections
 import concurrent.futures
+import io
 import os
 import random
 import subprocess
 import sys
 import tempfile
 import time
+import zipfile
+import zlib
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
-EXTENSIONS = (".stl", ".obj", ".off", ".ply")
+PACKAGE = ".3mf"
+SCENES = (".glb", ".gltf", PACKAGE)
+EXTENSIONS = (".stl", ".obj", ".off", ".ply", *SCENES)
 CERTIFIED, WRITTEN, SANITIZER = 0, (0, 1), 99
 DOCUMENTED = (0, 1, 3, 4, 5, 6)
 OPTIONS = ([], [], [], ["--inside", "solidity"], ["--inside", "winding"], ["--inside", "parity"],
-           ["--holes", "extend"], ["--holes", "none"], ["--touching", "join"], ["--cavities", "fill"])
+           ["--holes", "extend"], ["--holes", "none"], ["--touching", "join"], ["--cavities", "fill"],
+           ["--attributes", "drop"], ["--units", "mm"])
+EACH_MESH = ["--scene", "each"]  # only where the output says what stands where
 # What a sanitizer ends with is to differ from all exit codes of ours.
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS=f"exitcode={SANITIZER}:detect_leaks=1",
                    UBSAN_OPTIONS=f"exitcode={SANITIZER}:print_stacktrace=1:halt_on_error=1")
@@ -80,6 +88,35 @@ def splice(data, other, chance):
     return data[:at] + other[start:start + length] + data[at + gone:]
 
 
+def parts_of(package):
+    """Names and bytes; none if it is no archive."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(package)) as archive:
+            return {name: archive.read(name) for name in archive.namelist()}
+    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, zlib.error):
+        return {}
+
+
+def inside(kind):
+    """The same damage in a part of a package: checksums and sizes are right."""
+    def damage(data, other, chance):
+        parts = parts_of(data)
+        names = sorted(name for name, text in parts.items() if text)
+        if not names:
+            return kind(data, other, chance)
+        models = [name for name in names if name.endswith(".model")]
+        name = chance.choice(models if models and chance.random() < 0.7 else names)
+        texts = [text for text in parts_of(other).values() if text] or [parts[name]]
+        parts[name] = kind(parts[name], chance.choice(texts), chance)
+        package = io.BytesIO()
+        with zipfile.ZipFile(package, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, text in parts.items():
+                archive.writestr(name, text)
+        return package.getvalue()
+    damage.__name__ = "inside"
+    return damage
+
+
 class Copy:
     def __init__(self, number, meshes, seed):
         chance = random.Random(f"{seed}:{number}")
@@ -92,13 +129,25 @@ class Copy:
         if chance.random() < 0.5:
             with open(chance.choice(meshes), "rb") as file:
                 other = file.read()
-        self.data = self.kind(data, other, chance)
         self.extension = os.path.splitext(self.mesh)[1].lower()
+        if self.extension == PACKAGE and chance.random() < 0.8:
+            self.kind = inside(self.kind)
+        self.data = self.kind(data, other, chance)
         self.output = "out" + chance.choice(EXTENSIONS)
         self.options = chance.choice(OPTIONS)
+        if self.output.endswith(SCENES) and chance.random() < 0.3:
+            self.options = [*self.options, *EACH_MESH]
 
 
-def trouble_of(code, errors, output, arguments):
+def files_too_many(output, code):
+    """What lies beside the input and what is written; a library and pictures beside an OBJ file are right."""
+    folder, name = os.path.split(output)
+    others = [other for other in os.listdir(folder) if other != name and not other.startswith("in.")]
+    is_library = code in WRITTEN and name.endswith(".obj")
+    return [other for other in others if not (is_library and other.startswith("out"))]
+
+
+def trouble_of(code, errors, output, options, arguments):
     if code == SANITIZER or b"Sanitizer" in errors or b"runtime error" in errors:
         return "sanitizer: " + errors.decode("utf-8", "replace")[:3000]
     if code not in DOCUMENTED:
@@ -108,11 +157,12 @@ def trouble_of(code, errors, output, arguments):
     lines = [line for line in errors.splitlines() if line.startswith(b"meshrepair: ") and b": warning: " not in line]
     if len(lines) != (0 if code == CERTIFIED else 1):
         return f"exit code {code} with {len(lines)} lines"
-    if len(os.listdir(os.path.dirname(output))) != 1 + (code in WRITTEN):
-        return f"exit code {code}, and other files: {os.listdir(os.path.dirname(output))}"
+    if files_too_many(output, code):
+        return f"exit code {code}, and other files: {files_too_many(output, code)}"
     if code != CERTIFIED:
         return ""
-    check = subprocess.run([arguments.meshcheck, output, "--time-limit", str(arguments.timeout)],
+    each = EACH_MESH if "each" in options else []
+    check = subprocess.run([arguments.meshcheck, output, *each, "--time-limit", str(arguments.timeout)],
                            capture_output=True, check=False)
     return "" if check.returncode == 0 else "certified, but: " + check.stdout.decode()[-300:]
 
@@ -131,7 +181,7 @@ def run(number, meshes, arguments):
                  "--time-limit", str(arguments.time_limit), *copy.options],
                 capture_output=True, check=False, timeout=arguments.timeout, env=ENVIRONMENT)
             code = result.returncode
-            trouble = trouble_of(code, result.stderr, output, arguments)
+            trouble = trouble_of(code, result.stderr, output, copy.options, arguments)
         except subprocess.TimeoutExpired:
             code, trouble = "timeout", f"ran for more than {arguments.timeout:g} s"
         seconds = time.monotonic() - start

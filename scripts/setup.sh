@@ -13,7 +13,8 @@ Usage: scripts/setup.sh [build|all|bench]
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
 
-Asks for nothing, and does nothing if all is there. Needs Debian 12 or a relative of it, and root or sudo
+Asks for nothing, and does nothing if all is there. Without npm's registry the validator is left out, with a
+warning; tests that need it are skipped. Needs Debian 12 or a relative of it, and root or sudo
 if something is missing.
 TEXT
 }
@@ -100,15 +101,25 @@ install_packages() {
   apt install --yes --no-install-recommends "$@"
 }
 
-# What the lock file of tests/node names, unless just that is there.
+# What the lock file of tests/node names, unless just that is there. Only tests of glTF need it, and are skipped without:
+# a registry that cannot be reached is no failure, all else is.
 install_node_packages() {
-  local folder installed
+  local folder installed said
   folder=$(dirname "${BASH_SOURCE[0]}")/../tests/node
   installed=$folder/node_modules/.installed-lock.json
   if cmp --silent "$folder/package-lock.json" "$installed"; then return; fi
   echo "setup: installing the packages of tests/node"
-  npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --loglevel=error
-  cp "$folder/package-lock.json" "$installed"
+  if said=$(npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --loglevel=error \
+    --fetch-retries=1 --fetch-timeout=60000 2>&1); then
+    cp "$folder/package-lock.json" "$installed"
+  elif [[ $said =~ (ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ETIMEDOUT|ERR_SOCKET_TIMEOUT|ENETUNREACH|EHOSTUNREACH|E[45][0-9][0-9]) ]]; then
+    echo "setup.sh: warning: the registry of npm cannot be reached (${BASH_REMATCH[0]}); tests with the validator of" \
+      "glTF will be skipped, all else is installed" >&2
+  else
+    echo "$said" >&2
+    echo "setup.sh: npm cannot install the packages of tests/node" >&2
+    exit 1
+  fi
 }
 
 missing=()

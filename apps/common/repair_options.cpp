@@ -247,6 +247,15 @@ void add_sources_option(CLI::App& app, bool& sources) {
       ->group("Output");
 }
 
+void add_staging_option(CLI::App& app, std::string& folder) {
+  app.add_option(
+         "--staging", folder,
+         "Write OUT and the files beside it into this folder, from where they can be moved\n"
+         "to their place: names of pictures are right there")
+      ->type_name("FOLDER")
+      ->group("Output");
+}
+
 void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
   add_choice(
       app, "--precision", kPrecisions, [&certify](Precision value) { certify.precision = value; },

@@ -45,6 +45,8 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format);
 // --sources: write of each triangle which one of the input it lies in.
 void add_sources_option(CLI::App& app, bool& sources);
 
+void add_staging_option(CLI::App& app, std::string& folder);
+
 // --precision and --strict: what is to be certified, and what happens when it cannot be.
 void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict);
 

@@ -261,6 +261,7 @@ WriteOptions mesh_format(const StepOptions& options) {
                      " cannot hold them, only PLY can");
   }
   check_format(*format.format, options.assets);
+  format.staging = options.staging;
   return format;
 }
 
@@ -270,11 +271,22 @@ RepairOptions certified_for(SoupFormat format, RepairOptions options) {
   return options;
 }
 
+// Where OUT is written first.
+std::string staged(const StepOptions& options) {
+  return (fs::path(options.staging) / fs::path(options.output).filename()).string();
+}
+
+void check_staging(const StepOptions& options) {
+  if (options.staging.empty()) return;
+  if (options.output == "-") throw UsageError("--staging: standard output is no file");
+}
+
 int run_steps(Program& program, int argc, const char* const* argv, StepOptions& options,
               const StepBody& body) {
   return program.run(argc, argv, [&](Run& run) {
     if (options.output.empty()) throw UsageError("the name of the output is empty");
-    check_files(options.input, options.output, run);
+    check_staging(options);
+    check_files(options.input, options.staging.empty() ? options.output : staged(options), run);
     check_picture(options.picture, {options.input, options.output}, run);
     options.repair.progress = &run.progress;
     return run_body(options, run, body);

@@ -74,6 +74,7 @@ struct StepOptions {
   bool sources = false;  // write of each triangle which one of the input it lies in
   AssetOptions assets;
   bool strict = false;
+  std::string staging;  // folder that OUT is written into first; empty: none
   PictureRequest picture;
   RepairOptions repair;
 };

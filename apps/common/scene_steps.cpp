@@ -21,9 +21,10 @@ constexpr std::size_t kMostLines = 20;
 struct MeshOutcome {
   explicit MeshOutcome(Findings facts) : findings(std::move(facts)) {}
 
-  std::string name;     // for people
-  Findings findings;    // as if it were alone
-  std::string trouble;  // why it is no solid; empty: it is one
+  std::string name;            // for people
+  Findings findings;           // as if it were alone
+  std::string trouble;         // why it is no solid; empty: it is one
+  bool left_as_it_is = false;  // it encloses nothing
   std::size_t triangles_in = 0, triangles = 0;
 };
 
@@ -108,6 +109,7 @@ class SceneRepair {
     } catch (const NoSolidError& error) {
       outcome.trouble =
           error.what() + advice_to_thicken(outcome.findings.repair) + "; left as it is";
+      outcome.left_as_it_is = true;
       return as_given(soup);
     }
   }
@@ -208,6 +210,7 @@ class SceneRepair {
   }
 
   static std::string fate_of(const MeshOutcome& one) {
+    if (one.left_as_it_is) return "encloses nothing, left as it is";  // why is in the report
     if (!one.trouble.empty()) return one.trouble;
     return one.findings.repair.kept_valid ? "a solid as it was" : "a solid now";
   }

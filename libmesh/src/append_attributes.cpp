@@ -27,9 +27,29 @@ void append_corners(CornerAttribute& to, CornerAttribute from) {
   if (to.place != from.place) to.place = CornerAttribute::Place::corner;
 }
 
-// Attributes that may be one: the k-th of a kind, a name and a number of components.
+bool is_colour(const CornerAttribute& attribute) {
+  return attribute.kind == CornerAttribute::Kind::colour &&
+         (attribute.components == 3 || attribute.components == 4);
+}
+
+// Attributes that may be one: the k-th of a kind, a name and a number of components. Colours
+// without opacity are opaque.
 bool same_set(const CornerAttribute& a, const CornerAttribute& b) {
-  return a.kind == b.kind && a.name == b.name && a.components == b.components;
+  return a.kind == b.kind && a.name == b.name &&
+         (a.components == b.components || (is_colour(a) && is_colour(b)));
+}
+
+void make_components_same(CornerAttribute& a, CornerAttribute& b) {
+  if (a.components == b.components) return;
+  CornerAttribute& without = a.components < b.components ? a : b;
+  std::vector<double> values;
+  values.reserve(without.values.size() / 3 * 4);
+  for (std::size_t i = 0; i < without.values.size(); i += 3) {
+    values.insert(values.end(),
+                  {without.values[i], without.values[i + 1], without.values[i + 2], 1});
+  }
+  without.values = std::move(values);
+  without.components = 4;
 }
 
 std::uint32_t texture_sets_before(const Attributes& all, std::size_t set) {
@@ -38,9 +58,10 @@ std::uint32_t texture_sets_before(const Attributes& all, std::size_t set) {
       [](const CornerAttribute& one) { return one.kind == CornerAttribute::Kind::texture; }));
 }
 
-// Materials of the other say by number which set of texture coordinates they use.
-void append_all_corners(Attributes& all, std::size_t triangles, Attributes& other,
-                        std::size_t triangles_of_other) {
+// Returns the numbers that the other's sets of texture coordinates have now; the looks of its
+// materials get them.
+std::vector<std::uint32_t> append_all_corners(Attributes& all, std::size_t triangles,
+                                              Attributes& other, std::size_t triangles_of_other) {
   std::vector<char> is_taken(all.corners.size(), 0);
   std::vector<std::uint32_t> new_number;  // of the sets of texture coordinates
   for (CornerAttribute& from : other.corners) {
@@ -57,6 +78,7 @@ void append_all_corners(Attributes& all, std::size_t triangles, Attributes& othe
       is_taken.resize(all.corners.size(), 0);
     }
     is_taken[to] = 1;
+    make_components_same(all.corners[to], from);
     if (from.kind == CornerAttribute::Kind::texture) {
       new_number.push_back(texture_sets_before(all, to));
     }
@@ -71,6 +93,7 @@ void append_all_corners(Attributes& all, std::size_t triangles, Attributes& othe
   std::stable_sort(
       all.corners.begin(), all.corners.end(),
       [](const CornerAttribute& a, const CornerAttribute& b) { return a.kind < b.kind; });
+  return new_number;
 }
 
 // `number_of` has what the other's names become.
@@ -86,8 +109,10 @@ void append_labels(TriangleLabels& all, std::size_t triangles, const TriangleLab
 
 std::vector<std::uint32_t> add_names(TriangleLabels& all, const TriangleLabels& other) {
   std::unordered_map<std::string, std::uint32_t> known;
+  std::uint32_t number = 0;
   for (const std::string& name : all.names) {
-    known.try_emplace(name, static_cast<std::uint32_t>(known.size()));
+    known.try_emplace(name, number);
+    ++number;
   }
   std::vector<std::uint32_t> number_of;
   for (const std::string& name : other.names) {
@@ -99,36 +124,75 @@ std::vector<std::uint32_t> add_names(TriangleLabels& all, const TriangleLabels& 
   return number_of;
 }
 
-std::string unused_name(const std::vector<std::string>& names, const std::string& name) {
-  for (int i = 2;; ++i) {
-    std::string next = name + "_" + std::to_string(i);
-    if (std::find(names.begin(), names.end(), next) == names.end()) return next;
+Material look_of(const Attributes& attributes, std::size_t material) {
+  return material < attributes.looks.size() ? attributes.looks[material] : Material();
+}
+
+// What materials of the other one are called from now on.
+std::vector<std::string> names_of_other(AppendedMaterials& materials) {
+  const auto& [names, of_triangle] = materials.all.materials;
+  const bool has_looks = !materials.all.looks.empty() || !materials.other.looks.empty();
+  std::vector<std::string> result;
+  for (std::size_t m = 0; m < materials.other.materials.names.size(); ++m) {
+    const std::string& name = materials.other.materials.names[m];
+    const auto renamed = materials.new_names.find(name);
+    const auto known = std::find(names.begin(), names.end(), name);
+    const auto number = static_cast<std::size_t>(known - names.begin());
+    const bool is_other =
+        known != names.end() && has_looks &&
+        !same_look(materials.all, look_of(materials.all, number), look_of(materials.other, m));
+    if (renamed != materials.new_names.end()) {
+      result.push_back(renamed->second);
+    } else {
+      result.push_back(is_other ? materials.free_name(name) : name);
+    }
+  }
+  return result;
+}
+
+// What becomes of both keepsakes.
+void append_keepsake(Attributes& all, const Attributes& other, AppendedMaterials& materials) {
+  if (!other.keepsake) return;
+  if (auto both = other.keepsake->appended_to(all.keepsake.get(), materials)) {
+    all.keepsake = std::move(both);
+  } else if (!all.keepsake) {
+    all.keepsake = other.keepsake;
   }
 }
 
-// Looks of the other have images of `all` by now.
-std::vector<std::uint32_t> add_materials(Attributes& all, const Attributes& other) {
-  std::vector<std::string>& names = all.materials.names;
-  if (!all.looks.empty() || !other.looks.empty()) all.looks.resize(names.size());
-  std::vector<std::uint32_t> number_of;
-  for (std::size_t m = 0; m < other.materials.names.size(); ++m) {
-    const Material look = m < other.looks.size() ? other.looks[m] : Material();
-    std::string name = other.materials.names[m];
-    auto known = std::find(names.begin(), names.end(), name);
-    if (known != names.end() && !all.looks.empty() &&
-        !same_look(all, all.looks[static_cast<std::size_t>(known - names.begin())], look)) {
-      name = unused_name(names, name);
-      known = names.end();
-    }
-    number_of.push_back(static_cast<std::uint32_t>(known - names.begin()));
-    if (known != names.end()) continue;
-    names.push_back(std::move(name));
-    if (!all.looks.empty() || !other.looks.empty()) all.looks.push_back(look);
+std::vector<std::uint32_t> add_materials(Attributes& all, const Attributes& other,
+                                         const std::vector<std::string>& new_names) {
+  const bool has_looks = !all.looks.empty() || !other.looks.empty();
+  TriangleLabels renamed;
+  renamed.names = new_names;
+  if (has_looks) all.looks.resize(all.materials.names.size());
+  const std::vector<std::uint32_t> number_of = add_names(all.materials, renamed);
+  if (!has_looks) return number_of;
+  const std::size_t before = all.looks.size();
+  all.looks.resize(all.materials.names.size());
+  for (std::size_t m = 0; m < number_of.size(); ++m) {
+    if (number_of[m] >= before) all.looks[number_of[m]] = look_of(other, m);
   }
   return number_of;
 }
 
 }  // namespace
+
+AppendedMaterials::AppendedMaterials(const Attributes& all_before, const Attributes& appended)
+    : all(all_before),
+      other(appended),
+      own_(all.materials.names.begin(), all.materials.names.end()),
+      taken_(own_) {
+  taken_.insert(other.materials.names.begin(), other.materials.names.end());
+}
+
+std::string AppendedMaterials::free_name(const std::string& name) {
+  if (!own_.contains(name)) return name;
+  for (int i = 2;; ++i) {
+    std::string next = name + "_" + std::to_string(i);
+    if (taken_.insert(next).second) return next;
+  }
+}
 
 void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
                        std::size_t triangles_of_other) {
@@ -137,17 +201,15 @@ void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
     if (look.image != kNone) look.image += images;
   }
   std::move(other.images.begin(), other.images.end(), std::back_inserter(all.images));
-  append_all_corners(all, triangles, other, triangles_of_other);
-  const auto number_of = add_materials(all, other);
+  auto texture_sets = append_all_corners(all, triangles, other, triangles_of_other);
+  AppendedMaterials materials(all, other);
+  materials.texture_sets = std::move(texture_sets);
+  append_keepsake(all, other, materials);
+  const auto number_of = add_materials(all, other, names_of_other(materials));
   append_labels(all.materials, triangles, other.materials, triangles_of_other, number_of);
   for (const auto labels : {&Attributes::groups, &Attributes::objects, &Attributes::smoothing}) {
     const auto names = add_names(all.*labels, other.*labels);
     append_labels(all.*labels, triangles, other.*labels, triangles_of_other, names);
-  }
-  if (all.keepsake && other.keepsake) {
-    if (auto joined = all.keepsake->joined(*other.keepsake)) all.keepsake = std::move(joined);
-  } else if (other.keepsake) {
-    all.keepsake = std::move(other.keepsake);
   }
 }
 

@@ -39,6 +39,11 @@ std::shared_ptr<const Keepsake> Keepsake::joined(const Keepsake& /*other*/) cons
   return nullptr;
 }
 
+std::shared_ptr<const Keepsake> Keepsake::appended_to(const Keepsake* first,
+                                                      AppendedMaterials& /*materials*/) const {
+  return first == nullptr ? nullptr : first->joined(*this);
+}
+
 const CornerAttribute* find_kind(const Attributes& attributes, CornerAttribute::Kind kind) {
   const auto found =
       std::find_if(attributes.corners.begin(), attributes.corners.end(),

@@ -5,6 +5,7 @@ limit is due.
 """
 
 import collections
+import errno
 import os
 import selectors
 import shutil
@@ -16,7 +17,7 @@ import time
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
                      print_to, say, text, value_of)
 from .inputs import Job, find_meshes, name_outputs
-from .out_folder import Journal
+from .out_folder import Journal, key_of
 from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
@@ -77,6 +78,7 @@ class FolderRun:
         jobs = [Job(name, mesh, outputs[name], self.options) for name, mesh in meshes.items()]
         if not self.options.restart:
             self.out.refuse_foreign_files(jobs)
+        self.keys_of_jobs = {key_of(job.name) for job in jobs}
         self.journal = Journal(self.out.journal_path, self.settings, self.options.restart)
         self.queue = collections.deque(self.without_finished(jobs))
         self.tell_start(jobs, left_out)
@@ -181,19 +183,39 @@ class FolderRun:
         job = worker.job
         try:
             size = os.path.getsize(worker.mesh)
+            self.take_files_beside(worker)
             self.out.take(worker.mesh, job.target)
         except OSError as error:
             return job.row(OUTPUT, f"{text(job.output)}: cannot be written: {error.strerror}")
         return {**row, "output": text(job.output), "bytes_out": size,
                 "triangles_out": value_of(report, "result", "triangles")}
 
+    def take_files_beside(self, worker):
+        """First, so that what the mesh names is there. Files of one name are of one output alone, unless they
+        are the same."""
+        job = worker.job
+        for made in worker.files_beside():
+            target = os.path.join(os.path.dirname(job.target), os.path.basename(made))
+            name = os.path.relpath(target, self.out.path)
+            if not self.out.holds_same(made, target):
+                if self.is_of_another(name, target, job):
+                    raise OSError(errno.EEXIST, f"{text(name)}, which it needs beside it, is of another")
+                self.out.take(made, target)
+            job.beside[name] = os.path.getsize(target)
+
+    def is_of_another(self, name, target, job):
+        """Of an output of this run, or not from this script."""
+        if self.journal.others_with(name, job) & self.keys_of_jobs:
+            return True
+        is_known = key_of(name) in self.journal.owners
+        return self.out.is_new and not self.options.restart and not is_known and os.path.lexists(target)
+
     def settle(self, job, row, final):
         """The row is the last word on the job in this run."""
-        if row["output"] is None:
-            try:
-                self.out.remove(job.target)
-            except OSError as error:
-                row["error"] += f"; its old output cannot be removed: {error.strerror}"
+        try:
+            self.remove_old(job, is_written=row["output"] is not None)
+        except OSError as error:
+            row["error"] = f"{row['error'] or ''}; its old output cannot be removed: {error.strerror}".lstrip("; ")
         try:
             self.journal.add(job, row, final)
         except OSError as error:
@@ -201,6 +223,16 @@ class FolderRun:
             raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None
         self.rows[job.name] = row
         self.progress.finished(row)
+
+    def remove_old(self, job, is_written):
+        """What an earlier run has made and this one has not."""
+        old = self.journal.files_beside(job)
+        old = old - job.beside.keys() if is_written else old | job.beside.keys()
+        for name in old:
+            if not self.journal.others_with(name, job):
+                self.out.remove(os.path.join(self.out.path, name))
+        if not is_written:
+            self.out.remove(job.target)
 
     def end_workers(self):
         """Those that are left when the run ends early."""

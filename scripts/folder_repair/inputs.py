@@ -149,6 +149,7 @@ class Job:
         self.packing = split_name(output)[2]  # the program packs what has such a name
         self.size = self.mtime_ns = None
         self.trials = 0
+        self.beside = {}  # what its output needs beside it, relative to OUT_DIR: name -> size
 
     def look(self):
         """Notes what the file is like now; OSError if it cannot be opened. Never waits."""

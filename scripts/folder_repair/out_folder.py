@@ -1,7 +1,9 @@
 """OUT_DIR: its lock, its journal, and how files get into it."""
 
+import collections
 import errno
 import fcntl
+import filecmp
 import json
 import os
 import shutil
@@ -78,6 +80,10 @@ class OutFolder:
         os.rename(made, target)
         sync_folder(os.path.dirname(target))
 
+    @staticmethod
+    def holds_same(made, target):
+        return os.path.isfile(target) and not os.path.islink(target) and filecmp.cmp(made, target, shallow=False)
+
     def remove(self, target):
         """What an earlier run made of an input that now fails."""
         if self.holds(target) and (os.path.isfile(target) or os.path.islink(target)):
@@ -98,18 +104,25 @@ def key_of(name):
     return name.decode("utf-8", "surrogateescape")
 
 
+def bytes_of(key):
+    return key.encode("utf-8", "surrogateescape")
+
+
 class Journal:
     """OUT_DIR/.repair_folder/journal.jsonl: what is finished, one JSON object in each line.
 
-    Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `size` and `mtime_ns` of the input;
-    `settings`: version of the program, first digits of its SHA-256, --format, options after --; `final`: not
-    to be tried again; `row`: as in the summary. The last line of a path counts. A line that is not whole counts
-    for nothing; at the end of the file it is cut off before the next one is written.
+    Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `beside`: names of the files that the output
+    needs beside it, and their sizes, if there are any; `size` and `mtime_ns` of the input; `settings`: version of
+    the program, first digits of its SHA-256, --format, options after --; `final`: not to be tried again; `row`:
+    as in the summary. The last line of a path counts. A line that is not whole counts for nothing; at the end
+    of the file it is cut off before the next one is written.
     """
 
     def __init__(self, path, settings, anew):
+        self.folder = os.path.dirname(os.path.dirname(path))
         self.settings = settings
         self.entries = {}
+        self.owners = collections.defaultdict(set)  # of the files beside outputs: the inputs
         flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC | (os.O_TRUNC if anew else 0)
         self.descriptor = os.open(path, flags, 0o666)
         with open(path, "rb") as file:
@@ -123,9 +136,19 @@ class Journal:
         try:
             entry = json.loads(line)
             if set(entry["row"]) == set(SAME_IN_EACH_RUN + MEASURED):
-                self.entries[entry["path"]] = entry
-        except (ValueError, TypeError, KeyError, RecursionError):
+                folder = os.path.dirname(entry["output"])
+                beside = entry.get("beside", {}).items()
+                entry["beside"] = {name: size for name, size in beside if os.path.dirname(name) == folder}
+                self.keep(entry)
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             pass
+
+    def keep(self, entry):
+        for name in self.entries.get(entry["path"], {}).get("beside", {}):
+            self.owners[name].discard(entry["path"])
+        self.entries[entry["path"]] = entry
+        for name in entry.get("beside", {}):
+            self.owners[name].add(entry["path"])
 
     def finished_row(self, job):
         """The row of a job that need not be done again, or None. job.look() was called."""
@@ -135,7 +158,10 @@ class Journal:
            (entry.get("size"), entry.get("mtime_ns")) != (job.size, job.mtime_ns):
             return None
         promised = entry["row"]["bytes_out"]
-        return entry["row"] if promised is None or self.is_there(job.target, promised) else None
+        is_whole = promised is None or self.is_there(job.target, promised) and all(
+            self.is_there(os.path.join(self.folder, bytes_of(name)), size)
+            for name, size in entry.get("beside", {}).items())
+        return entry["row"] if is_whole else None
 
     @staticmethod
     def is_there(target, size):
@@ -145,17 +171,29 @@ class Journal:
             return False
         return stat.S_ISREG(status.st_mode) and status.st_size == size
 
+    def files_beside(self, job):
+        """Names of what lies beside the output of the last run."""
+        entry = self.entries.get(key_of(job.name), {})
+        return {bytes_of(name) for name in entry.get("beside", {})}
+
+    def others_with(self, name, job):
+        """The inputs, as keys, whose outputs have this file beside them, but for the job's own."""
+        return self.owners.get(key_of(name), set()) - {key_of(job.name)}
+
     def outputs(self):
         """Names of what earlier runs have written, as far as the journal knows."""
-        return {entry["output"].encode("utf-8", "surrogateescape") for entry in self.entries.values()
+        return {bytes_of(entry["output"]) for entry in self.entries.values()
                 if entry["row"]["bytes_out"] is not None}
 
     def add(self, job, row, final):
         """On the disk when this returns; OSError if it cannot be."""
         entry = {"path": key_of(job.name), "output": key_of(job.output), "size": job.size,
                  "mtime_ns": job.mtime_ns, "settings": self.settings, "final": final, "row": row}
+        if row["output"] and job.beside:
+            entry["beside"] = {key_of(name): size for name, size in job.beside.items()}
         data = json.dumps(entry).encode() + b"\n"
         written = os.write(self.descriptor, data)
         while written < len(data):  # the disk is full, and the next call says so
             written += os.write(self.descriptor, data[written:])
         os.fsync(self.descriptor)
+        self.keep(entry)

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from .basics import (DONE, EXTENSION_OF_FORMAT, GUARANTEES, INTERNAL, LIMIT, WRITTEN, text, value_of)
+from .basics import DONE, GUARANTEES, INTERNAL, LIMIT, WRITTEN, text, value_of
 from .program import last_line
 
 UNKILLABLE_SECONDS = 10  # from SIGKILL until a worker that a dead disk holds is given up
@@ -38,7 +38,7 @@ class Worker:
     def __init__(self, job, command, folder, lock):
         self.job = job
         self.folder = folder
-        self.mesh = os.path.join(folder, b"mesh" + EXTENSION_OF_FORMAT[job.format] + job.packing)
+        self.mesh = os.path.join(folder, os.path.basename(job.target))
         self.report_path = os.path.join(folder, b"report.json")
         self.started = time.monotonic()
         self.told_to_end = self.killed = None  # when
@@ -47,7 +47,8 @@ class Worker:
         self.code = self.peak_memory = None
         parent = os.getpid()
         self.process = subprocess.Popen(
-            [*command, "--format", job.format, "--report", self.report_path, job.source, self.mesh],
+            [*command, "--format", job.format, "--report", self.report_path, "--staging", folder,
+             job.source, job.target],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
             start_new_session=True, pass_fds=(lock,), preexec_fn=lambda: bind_to_parent(parent))
         self.stderr = self.process.stderr.fileno()
@@ -134,6 +135,11 @@ class Worker:
                 return "ended with exit code 0, but wrote no mesh"
         return None
 
+    def files_beside(self):
+        """What else was written, sorted: the library of an OBJ file, and pictures of an archive."""
+        return sorted(path for path in (entry.path for entry in os.scandir(self.folder))
+                      if path not in (self.mesh, self.report_path))
+
     def judge(self):
         """The exit code and the error line that count, and the report."""
         report = self.report()
@@ -151,7 +157,8 @@ class Worker:
     def error_line(self, report):
         """Without the names of files, which stand beside it."""
         line = str(value_of(report, "error") or last_line(self.said))
-        for path in (self.job.source, self.mesh):
+        for path in (self.job.source, self.mesh, self.job.target):
             line = line.removeprefix(path.decode("utf-8", "replace") + ": ")
-        line = line.replace(self.mesh.decode("utf-8", "replace"), text(self.job.output))
+        for path in (self.mesh, self.job.target):
+            line = line.replace(path.decode("utf-8", "replace"), text(self.job.output))
         return line or f"ended with exit code {self.code} and said nothing"

@@ -4,8 +4,10 @@
 Usage: make_cli_inputs.py BSPBUILD MESH FOLDER   (trees are made of MESH by the program BSPBUILD)
 """
 
+import base64
 import gzip
 import io
+import json
 import math
 import pathlib
 import random
@@ -93,6 +95,23 @@ def textured_boxes():
                 corners = b""
             text += line + b"\n"
     return text
+
+
+def painted_tetrahedron(place, roughness):
+    """glTF text: a material that only glTF can hold."""
+    corners = [place, 0, 0, place + 1, 0, 0, place, 1, 0, place, 0, 1]
+    indices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]
+    data = struct.pack("<12f12H", *corners, *indices)
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "materials": [{"name": "paint", "pbrMetallicRoughness": {"roughnessFactor": roughness}}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+        "buffers": [{"byteLength": len(data),
+                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+    }).encode()
 
 
 def row_of_tetrahedra(count):
@@ -215,6 +234,8 @@ def main():
         "nan.obj": tetrahedron(extra="v nan nan nan", f1="f 1 3 2\nf 1 2 5"),
         "not_finite.obj": tetrahedron(a="v nan 0 0", b="v inf 0 0", c="v 0 nan 0"),
         "single_triangle.obj": SINGLE_TRIANGLE,
+        "painted.gltf": painted_tetrahedron(0, 0.25),
+        "painted_too.gltf": painted_tetrahedron(0.25, 0.5),
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
         "coloured_sides.stl": coloured_stl(),

@@ -54,6 +54,7 @@ if "--bogus" in arguments:
     print("meshrepair: --bogus is unknown", file=sys.stderr)
     sys.exit(2)
 source, target = arguments[-2:]
+target = os.path.join(arguments[arguments.index("--staging") + 1], os.path.basename(target))
 if "--report" not in arguments:
     sys.exit(3)
 with open(os.environ["FAKE_LOG"], "a") as log:
@@ -509,6 +510,76 @@ class Names(FolderTest):
         self.assertEqual({path: row["output"] for path, row in self.rows().items()}, {
             "a.obj.gz": "a.stl", "B.OBJ.GZ": "B.stl", "c.zip": "c.stl", "e.zip": "e.zip.stl",
             "e.obj": "e.obj.stl", "e.zip.obj": "e.zip.obj.stl"})
+
+
+def painted(library):
+    """An OBJ file with a material of this library."""
+    faces = b"usemtl wood\nf 1/1 3/3 2/2\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\nf 1/1 4/2 3/3\n"
+    return b"mtllib " + library + b"\n" + TETRAHEDRON.split(b"f ")[0] + b"vt 0 0\nvt 1 0\nvt 0 1\n" + faces
+
+
+class FilesBeside(FolderTest):
+    """Meshes that need others beside them."""
+
+    def text_of(self, name):
+        return (self.out / name).read_text()
+
+    def test_libraries_come_along_and_name_pictures_from_their_place(self):
+        write_files(self.source, {
+            "sub/a.obj": painted(b"wood.mtl"), "sub/wood.mtl": b"newmtl wood\nmap_Kd pictures/grain.png\n",
+            "sub/pictures/grain.png": b"picture"})
+        self.run_script(program=MESHREPAIR)
+        self.assertEqual(names_in(self.out), {"sub/a.obj", "sub/a.mtl"})
+        self.assertIn("mtllib a.mtl\n", self.text_of("sub/a.obj"))
+        self.assertEqual(self.text_of("sub/a.mtl"), "newmtl wood\nmap_Kd ../../in/sub/pictures/grain.png\n")
+        self.run_script("--format", "gltf", program=MESHREPAIR)
+        image = json.loads(self.text_of("sub/a.gltf"))["images"][0]
+        self.assertEqual(image["uri"], "../../in/sub/pictures/grain.png")
+
+    def test_pictures_of_archives_come_along(self):
+        data = io.BytesIO()
+        with zipfile.ZipFile(data, "w") as file:
+            file.writestr("a.obj", painted(b"a.mtl"))
+            file.writestr("a.mtl", "newmtl wood\nmap_Kd grain.png\n")
+            file.writestr("grain.png", "picture")
+        write_files(self.source, {"a.zip": data.getvalue()})
+        self.run_script(program=MESHREPAIR)
+        self.assertEqual(names_in(self.out), {"a.obj", "a.mtl", "a_0.png"})
+        self.assertEqual(self.text_of("a.mtl"), "newmtl wood\nmap_Kd a_0.png\n")
+
+    def test_what_is_gone_or_torn_is_made_again_and_what_is_old_goes(self):
+        write_files(self.source, {"a.obj": painted(b"a.mtl"), "a.mtl": b"newmtl wood\nKd 1 0 0\n"})
+        self.run_script(program=MESHREPAIR)
+        made = self.text_of("a.mtl")
+        for damage in (lambda path: path.unlink(), lambda path: path.write_text("torn")):
+            damage(self.out / "a.mtl")
+            self.run_script(program=MESHREPAIR)
+            self.assertEqual(self.text_of("a.mtl"), made)
+        write_files(self.source, {"a.obj": TETRAHEDRON})
+        self.run_script(program=MESHREPAIR)
+        self.assertEqual(names_in(self.out), {"a.obj"})
+        write_files(self.source, {"a.obj": painted(b"a.mtl")})
+        self.run_script(program=MESHREPAIR)
+        write_files(self.source, {"a.obj": FLAT})
+        self.run_script(program=MESHREPAIR, code=1)
+        self.assertEqual(names_in(self.out), set())
+
+    def test_a_library_is_of_one_output(self):
+        for packed, codes in ((b"newmtl wood\nKd 0 1 0\n", [0, 6]), (b"newmtl wood\nKd 1 0 0\n", [0, 0])):
+            write_files(self.source, {
+                "a.obj": painted(b"a.mtl"), "a.mtl": b"newmtl wood\nKd 1 0 0\n",
+                "a.obj.gz": gzip.compress(painted(b"b.mtl")), "b.mtl": packed})
+            self.run_script("--restart", "--jobs", "1", program=MESHREPAIR, code=int(6 in codes))
+            self.assertEqual(sorted(self.codes().values()), codes)
+            self.assertEqual(self.text_of("a.mtl"), "newmtl wood\nKd 1 0 0\n")
+        self.assertEqual(names_in(self.out), {"a.obj", "a.obj.gz", "a.mtl"})
+
+    def test_libraries_of_others_are_not_replaced(self):
+        write_files(self.source, {"a.obj": painted(b"a.mtl"), "a.mtl": b"newmtl wood\nKd 1 0 0\n"})
+        write_files(self.out, {"a.mtl": b"mine"})
+        self.run_script(program=MESHREPAIR, code=1)
+        self.assertEqual(self.text_of("a.mtl"), "mine")
+        self.assertIn("a.mtl, which it needs beside it, is of another", self.rows()["a.obj"]["error"])
 
 
 class Folders(FolderTest):

@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include <base/ids.h>
@@ -80,6 +82,8 @@ struct Material {
   TextureTransform transform = {};  // of these coordinates
 };
 
+struct AppendedMaterials;
+
 // What else a file held and another of its format can hold again. Its reader and writer alone know
 // what it is.
 struct Keepsake {
@@ -93,6 +97,12 @@ struct Keepsake {
 
   // What two files held, for one; null: this alone, as nothing of the other can be kept.
   [[nodiscard]] virtual std::shared_ptr<const Keepsake> joined(const Keepsake& other) const;
+
+  // The same where attributes with this one are appended to those with `first` (may be null). It
+  // says what materials are to be called where it knows more of them than how they look. Null:
+  // `first` alone; or this one, unchanged, if there is no first.
+  [[nodiscard]] virtual std::shared_ptr<const Keepsake> appended_to(
+      const Keepsake* first, AppendedMaterials& materials) const;
 };
 
 // Of a soup, not owned: all lists have an entry for each of its triangles or corners, or are empty.
@@ -114,13 +124,29 @@ struct Attributes {
   [[nodiscard]] bool empty() const { return is_bare() && !keepsake; }
 };
 
+// While attributes are appended to others: how their materials are named.
+struct AppendedMaterials {
+  AppendedMaterials(const Attributes& all, const Attributes& other);
+
+  // The name itself, or with a number that no material has if `all` has it already.
+  [[nodiscard]] std::string free_name(const std::string& name);
+
+  const Attributes& all;                    // it has the images of both, and its own materials
+  const Attributes& other;                  // the images of its looks are those of `all`
+  std::vector<std::uint32_t> texture_sets;  // numbers in `all` of the sets of `other`
+  std::unordered_map<std::string, std::string> new_names;  // of materials of `other`
+
+ private:
+  std::unordered_set<std::string> own_, taken_;
+};
+
 // The first of a kind, or null.
 [[nodiscard]] const CornerAttribute* find_kind(const Attributes& attributes,
                                                CornerAttribute::Kind kind);
 
 // Appends those of another soup, whose triangles come behind the so many that are there. Materials
-// of one name that look different get different names; of kinds that one of both lacks, corners
-// have no value there.
+// of one name that look different, or of which files say different things, get different names; of
+// kinds that one of both lacks, corners have no value there.
 void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
                        std::size_t triangles_of_other);
 

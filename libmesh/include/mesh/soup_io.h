@@ -43,6 +43,9 @@ struct WriteOptions {
   std::optional<SoupFormat> format = std::nullopt;
   SoupExtras extras = {};                // the folder is that of the file
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
+  // Where the file and those beside it are written instead, as they are to be once they are moved.
+  // Empty: where they belong.
+  std::filesystem::path staging = {};
 };
 
 // What of the attributes the format can hold.

@@ -39,6 +39,16 @@ void pack_as_named(SideFile& mesh, const std::filesystem::path& path, ProgressOb
   mesh.path = path;
 }
 
+// What lies beside the mesh is not looked for names that are free there.
+void stage(const std::filesystem::path& folder, std::vector<SideFile>& files) {
+  for (SideFile& file : files) {
+    file.path = folder / file.path.filename();
+    if (&file != &files.back() && std::filesystem::exists(file.path)) {
+      throw OutputError(file.path.string() + ": is there already, and is not written over");
+    }
+  }
+}
+
 // In this order, so that what the last names is there. Files that are new go again if one cannot be
 // written.
 void write_together(const std::vector<SideFile>& files, ProgressObserver* progress) {
@@ -107,6 +117,7 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
     files.push_back({path, format_soup(soup, *format, extras)});
   }
   pack_as_named(files.back(), path, options.progress);
+  if (!options.staging.empty() && path != "-") stage(options.staging, files);
   write_together(files, options.progress);
 }
 

@@ -176,6 +176,33 @@ TEST(WriteSoup, UnknownExtensionIsAUsageError) {
   EXPECT_THROW(write_soup(tetrahedron(), "-"), UsageError);
 }
 
+TEST(WriteSoup, CoordinatesThatDoNotFitAreNamedInFewDigits) {
+  TriangleSoup soup = tetrahedron();
+  soup.points[2] = {0, -1e300 / 9, 0};
+  for (const auto& [format, name] :
+       {std::pair(SoupFormat::stl_binary, "binary STL"), std::pair(SoupFormat::glb, "glTF")}) {
+    try {
+      (void)format_soup(soup, format);
+      ADD_FAILURE();
+    } catch (const OutputError& error) {
+      EXPECT_EQ(error.what(), "a coordinate of -1.11111e+299 does not fit into " +
+                                  std::string(name) + "; write another format");
+    }
+  }
+}
+
+TEST(ReadSoup, LongWordsAreShortenedInMessages) {
+  const std::string word(300, '1');
+  const std::string json = R"({"asset":{"version":")" + word + "\"}}";
+  try {
+    (void)read_soup(std::string_view(json), "a.gltf");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(),
+              "a.gltf: is glTF of version " + word.substr(0, 40) + "...; 2.0 can be read");
+  }
+}
+
 TEST(WriteSoup, ExtensionTellsTheFormat) {
   const TemporaryFolder folder;
   for (const char* name : {"a.stl", "a.obj", "a.off", "a.ply", "a.3mf"}) {

@@ -46,7 +46,7 @@ std::string printable(std::string_view word) {
   for (char& c : text) {
     if (c < ' ' || c > '~') c = '?';
   }
-  return text;
+  return word.size() > kLongest ? text + "..." : text;
 }
 
 }  // namespace meshrepair

@@ -58,22 +58,6 @@ bool is_known_extension(std::string_view name) {
 
 }  // namespace
 
-const GltfJson* gltf_member(const GltfJson& object, const char* key) {
-  if (!object.is_object()) return nullptr;
-  const auto found = object.find(key);
-  return found == object.end() ? nullptr : &*found;
-}
-
-const GltfJson* gltf_extension(const GltfJson& object, const char* name) {
-  const GltfJson* const extensions = gltf_member(object, "extensions");
-  return extensions == nullptr ? nullptr : gltf_member(*extensions, name);
-}
-
-std::string gltf_text(const GltfJson& object, const char* key) {
-  const GltfJson* const value = gltf_member(object, key);
-  return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
-}
-
 GltfDocument::GltfDocument(const MeshSource& source) : source_(source) {
   is_binary_ = source.bytes.starts_with("glTF");
   parse(is_binary_ ? take_chunks() : source.bytes);

@@ -15,19 +15,11 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include <mesh/mesh_source.h>
 
+#include "common/gltf_json.h"
+
 namespace meshrepair {
-
-using GltfJson = nlohmann::json;
-
-// The member of an object, or null if it has none or is no object.
-[[nodiscard]] const GltfJson* gltf_member(const GltfJson& object, const char* key);
-[[nodiscard]] const GltfJson* gltf_extension(const GltfJson& object, const char* name);
-// The text that a member is, or nothing.
-[[nodiscard]] std::string gltf_text(const GltfJson& object, const char* key);
 
 // Is of the source, which has to live as long. Whatever is not as it has to be throws InputError.
 class GltfDocument {

@@ -59,7 +59,10 @@ class KeepsakeMaker {
     copy_root();
     keep_nodes();
     if (what_.scene) keep_scene();
-    if (what_.looks) keep_images();
+    if (what_.looks) {
+      kept_->images = attributes_.images;
+      keep_images();
+    }
     keep_animations();
     keep_extensions();
     if (!accessors_.empty()) root()["accessors"] = std::move(accessors_);
@@ -273,6 +276,46 @@ void GltfSmallV::add(std::size_t set, double u, double flipped, float v) {
 float GltfSmallV::original(std::size_t set, double u, double flipped) const {
   const auto found = small_.empty() ? small_.end() : small_.find(key_of(set, u, flipped));
   return found == small_.end() ? static_cast<float>(1 - flipped) : found->second;
+}
+
+std::shared_ptr<const Keepsake> GltfKeepsake::appended_to(const Keepsake* first,
+                                                          AppendedMaterials& names) const {
+  if (first == nullptr) return renamed(names);
+  const auto* const before = dynamic_cast<const GltfKeepsake*>(first);
+  if (before == nullptr) return nullptr;
+  std::shared_ptr<GltfKeepsake> both = before->copy();
+  GltfLooks own = *this;
+  renumber_texture_sets(own, names.texture_sets);
+  const std::vector<std::size_t> numbers = append_looks(*both, own);
+  both->variants.erase({0, kNone});  // triangles of this one may have no material, too
+  for (std::size_t m = 0; m < materials.size() && m < numbers.size(); ++m) {
+    if (numbers[m] >= both->materials.size()) {
+      both->materials.push_back(names.free_name(materials[m]));
+    }
+    names.new_names[materials[m]] = both->materials[numbers[m]];
+  }
+  both->small_v.append(small_v);
+  return both;
+}
+
+std::shared_ptr<const Keepsake> GltfKeepsake::renamed(AppendedMaterials& names) const {
+  std::shared_ptr<GltfKeepsake> result = copy();
+  renumber_texture_sets(*result, names.texture_sets);
+  for (std::string& name : result->materials) {
+    const std::string& given = names.new_names[name] = names.free_name(name);
+    name = given;
+  }
+  return result;
+}
+
+std::shared_ptr<GltfKeepsake> GltfKeepsake::copy() const {
+  auto result = std::make_shared<GltfKeepsake>();
+  static_cast<GltfLooks&>(*result) = *this;
+  result->has_scene = has_scene;
+  result->meshes = meshes;
+  result->materials = materials;
+  result->small_v = small_v;
+  return result;
 }
 
 std::shared_ptr<GltfKeepsake> make_gltf_keepsake(const GltfDocument& document, GltfBuffers& buffers,

@@ -12,6 +12,7 @@
 
 #include <mesh/attributes.h>
 
+#include "common/gltf_looks.h"
 #include "gltf_buffers.h"
 #include "gltf_document.h"
 
@@ -25,6 +26,8 @@ class GltfSmallV {
   void add(std::size_t set, double u, double flipped, float v);
   // As the file had it.
   [[nodiscard]] float original(std::size_t set, double u, double flipped) const;
+  // Those of another one that are none here.
+  void append(const GltfSmallV& other) { small_.insert(other.small_.begin(), other.small_.end()); }
 
  private:
   using Key = std::array<std::uint64_t, 3>;
@@ -39,18 +42,23 @@ struct GltfKept {
   bool looks = true;   // materials, and what they need
 };
 
-struct GltfKeepsake final : Keepsake {
-  // The document without meshes, skins and buffers. Its nodes have no meshes unless has_scene; then
-  // they have them by their numbers in the file. Its buffer views have no buffer yet, and are only
-  // those that images, animations and instances need.
-  GltfJson root;
+// The document without meshes, skins and buffers. Its nodes have no meshes unless has_scene; then
+// they have them by their numbers in the file. Its buffer views are only those that images,
+// animations and instances need.
+struct GltfKeepsake final : Keepsake, GltfLooks {
   bool has_scene = false;
-  std::vector<GltfJson> meshes;                           // if so: what they have besides triangles
-  std::vector<std::shared_ptr<const std::string>> views;  // the bytes of root["bufferViews"]
-  std::vector<std::string> materials;                     // labels of root["materials"]
+  std::vector<GltfJson> meshes;        // if so: what they have besides triangles
+  std::vector<std::string> materials;  // labels of root["materials"]
   GltfSmallV small_v;
 
   [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
+  // What the first has, and the materials of this one.
+  [[nodiscard]] std::shared_ptr<const Keepsake> appended_to(
+      const Keepsake* first, AppendedMaterials& names) const override;
+
+ private:
+  [[nodiscard]] std::shared_ptr<GltfKeepsake> copy() const;
+  [[nodiscard]] std::shared_ptr<const Keepsake> renamed(AppendedMaterials& names) const;
 };
 
 // `attributes` has the images and the names of the materials, if there are to be looks. Animations

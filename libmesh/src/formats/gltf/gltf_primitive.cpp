@@ -39,6 +39,7 @@ class PrimitiveReader {
     if (gltf_member(json_, "targets") != nullptr) ++oddities_.morphed;
     result_.material = document_.whole(json_, "material");
     if (result_.material) (void)document_.entry("materials", *result_.material);
+    result_.variants = gltf_extension(json_, kGltfVariants);
     const GltfJson* const draco = gltf_extension(json_, "KHR_draco_mesh_compression");
     if (draco != nullptr) {
       read_compressed(*draco);
@@ -47,6 +48,7 @@ class PrimitiveReader {
     }
     read_attributes();
     if (result_.positions.components() != 3) source_.fail("positions have not three coordinates");
+    require_same_counts();
     make_triangles(static_cast<TriangleMode>(mode));
     return std::move(result_);
   }
@@ -113,6 +115,15 @@ class PrimitiveReader {
     if (name == "POSITION") return has_positions_;
     return std::any_of(result_.attributes.begin(), result_.attributes.end(),
                        [&](const auto& attribute) { return attribute.first == name; });
+  }
+
+  void require_same_counts() const {
+    const std::size_t points = result_.positions.count();
+    for (const auto& [name, accessor] : result_.attributes) {
+      if (accessor.count() == points) continue;
+      source_.fail("a primitive has " + counted(accessor.count(), "value") + " of " +
+                   printable(name) + " for " + counted(points, "point"));
+    }
   }
 
   [[nodiscard]] std::size_t corner_count() const {

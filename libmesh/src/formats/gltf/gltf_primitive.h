@@ -19,9 +19,10 @@ struct GltfPrimitive {
   // Of the accessors, those in use, in the order in which triangles name them.
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> corners;  // positions in `vertices`, three for each triangle
-  // What else vertices have, by its name in the file.
+  // What else vertices have, by its name in the file: as many values as there are positions.
   std::vector<std::pair<std::string, GltfAccessor>> attributes;
   std::optional<std::size_t> material;
+  const GltfJson* variants = nullptr;  // which materials it has in which; of the document
 
   [[nodiscard]] std::size_t triangles() const { return corners.size() / 3; }
 };

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <base/error.h>
@@ -145,6 +147,28 @@ class GltfReader {
     if (!wants_attributes() && !is_by_mesh()) return;
     kept_ = make_gltf_keepsake(document_, buffers_, result_.attributes,
                                {is_by_mesh(), wants_attributes()});
+    if (wants_attributes()) keep_variants();
+  }
+
+  // Triangles of one material become one primitive.
+  void keep_variants() {
+    std::set<std::pair<std::size_t, std::size_t>> mixed;
+    std::map<std::pair<std::size_t, std::size_t>, const GltfJson*> first;
+    for (const auto& [number, primitives] : meshes_) {
+      for (const GltfPrimitive& primitive : primitives) {
+        const std::pair key(is_by_mesh() ? number : 0, primitive.material.value_or(kNone));
+        const GltfJson* const known = first.try_emplace(key, primitive.variants).first->second;
+        const GltfJson* const own = primitive.variants;
+        const bool is_same = known == own || (known != nullptr && own != nullptr && *known == *own);
+        if (!is_same) mixed.insert(key);
+      }
+    }
+    for (const auto& [key, variants] : first) {
+      if (variants != nullptr && !mixed.contains(key)) kept_->variants.emplace(key, *variants);
+    }
+    if (mixed.empty()) return;
+    result_.report.warnings.push_back("the variants of " + counted(mixed.size(), "material") +
+                                      " left out: primitives have different ones");
   }
 
   [[nodiscard]] std::string name_of(const GltfInstance& instance) const {
@@ -205,6 +229,7 @@ class GltfReader {
     oddities_.report(report);
     if (std::any_of(instances_.begin(), instances_.end(), [](const auto& i) { return i.has_skin; }))
       report.warnings.emplace_back("meshes with skins are read as without joints");
+    if (!is_by_mesh()) warn_of_other_scenes();
     report.trailing_bytes = document_.trailing_bytes();
     if (report.trailing_bytes > 0) {
       report.warnings.push_back(counted(report.trailing_bytes, "byte") +
@@ -220,6 +245,19 @@ class GltfReader {
     if (attributes.objects.names.empty()) attributes.objects = {};
     kept_->small_v = values.take_small_v();
     attributes.keepsake = std::move(kept_);
+  }
+
+  void warn_of_other_scenes() {
+    std::unordered_set<std::size_t> shown;
+    for (const GltfInstance& instance : instances_) shown.insert(instance.node);
+    std::size_t others = 0;
+    for (std::size_t n = 0; n < document_.count("nodes"); ++n) {
+      const bool has_mesh = gltf_member(document_.entry("nodes", n), "mesh") != nullptr;
+      if (has_mesh && !shown.contains(n)) ++others;
+    }
+    if (others == 0) return;
+    result_.report.warnings.push_back(counted(others, "node") +
+                                      " with meshes left out: not in the scene that is shown");
   }
 
   const MeshSource& source_;

@@ -115,8 +115,6 @@ void GltfValues::append(const GltfPrimitive& primitive, const Placement& placeme
       continue;
     }
     for (std::size_t v = 0; v < number_of.size(); ++v) {
-      number_of[v] = kNone;
-      if (primitive.vertices[v] >= own->second.count()) continue;
       fill(own->second, primitive.vertices[v], placement, s);
       number_of[v] = number_of_value(set);
     }

@@ -14,16 +14,10 @@
 #include <base/error.h>
 #include <base/hash_index.h>
 
+#include "formats/common/written_float.h"
+
 namespace meshrepair {
 namespace {
-
-float coordinate_to_float(double coordinate) {
-  if (std::abs(coordinate) > std::numeric_limits<float>::max() && !std::isinf(coordinate)) {
-    throw OutputError("a coordinate of " + std::to_string(coordinate) +
-                      " does not fit into glTF; write another format");
-  }
-  return static_cast<float>(coordinate) + 0.0f;  // no -0: as it will be read back
-}
 
 // glTF has no values that are not finite.
 float value_to_float(double value) {
@@ -190,7 +184,7 @@ class VertexMaker {
       std::memcpy(at, &value, sizeof value);
       at += sizeof value;
     };
-    for (const double coordinate : point) put(coordinate_to_float(coordinate));
+    for (const double coordinate : point) put(written_float(coordinate, "glTF"));
     for (std::size_t s = 0; s < sources_.size(); ++s) {
       const GltfColumn& column = vertices_.columns[s + 1];
       fill_value(sources_[s], t, k);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -46,7 +47,7 @@ class GltfWriter {
     if (extras_.scene != nullptr) {
       add_scene(*extras_.scene);
     } else if (!soup_.triangles.empty()) {
-      const std::size_t mesh = add_mesh(0, soup_.triangles.size(), GltfJson::object());
+      const std::size_t mesh = add_mesh(0, 0, soup_.triangles.size(), GltfJson::object());
       GltfJson node = {{"mesh", mesh}, {"name", name_of_object()}};
       if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
       add_gltf_node(builder_, std::move(node));
@@ -78,7 +79,7 @@ class GltfWriter {
       if (!is_kept && !mesh.name.empty()) json["name"] = mesh.name;
       numbers.push_back(mesh.triangles == 0
                             ? kNoGltfMesh
-                            : add_mesh(first, first + mesh.triangles, std::move(json)));
+                            : add_mesh(m, first, first + mesh.triangles, std::move(json)));
       first += mesh.triangles;
     }
     if (is_kept) {
@@ -93,9 +94,9 @@ class GltfWriter {
     if (kept_ == nullptr) return;
     const auto images = builder_.root().find("images");
     if (images == builder_.root().end()) return;
-    const std::size_t count = std::min(images->size(), attributes_->images.size());
+    const std::size_t count = std::min(images->size(), kept_->images.size());
     for (std::size_t i = 0; i < count; ++i) {
-      const Image& image = attributes_->images[i];
+      const Image& image = kept_->images[i];
       if (image.path.empty()) continue;
       GltfJson& uri = (*images)[i]["uri"];
       const std::string moved = relative_name(image);
@@ -115,21 +116,44 @@ class GltfWriter {
     return name_seen_from(extras_.folder, image.path);
   }
 
-  // Of the triangles from `first` to `end`; `mesh` is what else it has.
-  std::size_t add_mesh(std::size_t first, std::size_t end, GltfJson mesh) {
+  // Of the triangles from `first` to `end`; `mesh` is what else it has, `number` that of the scene.
+  std::size_t add_mesh(std::size_t number, std::size_t first, std::size_t end, GltfJson mesh) {
     GltfJson primitives = GltfJson::array();
     for (const auto& [label, triangles] : triangles_by_label(first, end)) {
-      if (label == kNone) {
-        primitives.push_back(make_primitive(triangles, 0));
-        continue;
-      }
-      const std::size_t material = material_of(label);
-      const std::size_t textures = needed_textures(builder_.root()["materials"][material]);
+      const std::size_t material = label == kNone ? kNone : material_of(label);
+      const GltfJson* const variants = variants_of(number, material);
+      std::size_t textures = textures_of(material);
+      if (variants != nullptr) textures = std::max(textures, textures_of_variants(*variants));
       primitives.push_back(make_primitive(triangles, textures));
-      primitives.back()["material"] = material;
+      if (material != kNone) primitives.back()["material"] = material;
+      if (variants != nullptr) primitives.back()["extensions"][kGltfVariants] = *variants;
     }
     mesh["primitives"] = std::move(primitives);
     return builder_.append("meshes", std::move(mesh));
+  }
+
+  [[nodiscard]] std::size_t textures_of(std::size_t material) {
+    const GltfJson* const materials = gltf_member(builder_.root(), "materials");
+    const bool is_there = materials != nullptr && material < materials->size();
+    return is_there ? needed_textures((*materials)[material]) : 0;
+  }
+
+  [[nodiscard]] std::size_t textures_of_variants(const GltfJson& variants) {
+    std::size_t textures = 0;
+    const GltfJson* const mappings = gltf_member(variants, "mappings");
+    if (mappings == nullptr) return textures;
+    for (const GltfJson& mapping : *mappings) {
+      const GltfJson* const material = gltf_member(mapping, "material");
+      if (material == nullptr || !material->is_number_unsigned()) continue;
+      textures = std::max(textures, textures_of(material->get<std::size_t>()));
+    }
+    return textures;
+  }
+
+  [[nodiscard]] const GltfJson* variants_of(std::size_t mesh, std::size_t material) const {
+    if (kept_ == nullptr) return nullptr;
+    const auto found = kept_->variants.find({mesh, material});
+    return found == kept_->variants.end() ? nullptr : &found->second;
   }
 
   // In the order of the labels, those without at the end.
@@ -245,13 +269,9 @@ class GltfWriter {
     return texture;
   }
 
-  // The images of the file that was read come first, as they do there.
   std::size_t image_of(std::uint32_t number) {
-    if (kept_ != nullptr) {
-      const GltfJson* const images = gltf_member(kept_->root, "images");
-      if (images != nullptr && number < images->size()) return number;
-    }
     const Image& image = attributes_->images[number];
+    if (const auto known = kept_image(image)) return *known;
     GltfJson json = GltfJson::object();
     if (!image.name.empty()) json["name"] = image.name;
     if (image.bytes) {
@@ -262,6 +282,17 @@ class GltfWriter {
           image.path.empty() ? name_as_uri(image.name) : encode_percent(relative_name(image));
     }
     return builder_.append("images", std::move(json));
+  }
+
+  [[nodiscard]] std::optional<std::size_t> kept_image(const Image& image) const {
+    if (kept_ == nullptr) return std::nullopt;
+    const auto found =
+        std::find_if(kept_->images.begin(), kept_->images.end(), [&](const Image& kept) {
+          return image.bytes ? kept.bytes == image.bytes
+                             : !image.path.empty() && kept.path == image.path;
+        });
+    if (found == kept_->images.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - kept_->images.begin());
   }
 
   const TriangleSoup& soup_;

@@ -10,14 +10,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include <Eigen/Geometry>
 
-#include <base/error.h>
 #include <mesh/read_guard.h>
 #include <mesh/weld_points.h>
 
+#include "formats/common/written_float.h"
 #include "stl_colours.h"
 #include "stl_io.h"
 
@@ -50,13 +49,7 @@ void report_sizes(const MeshSource& source, std::size_t found, ReadReport& repor
   }
 }
 
-float to_float(double coordinate) {
-  if (std::abs(coordinate) > std::numeric_limits<float>::max() && !std::isinf(coordinate)) {
-    throw OutputError("a coordinate of " + std::to_string(coordinate) +
-                      " does not fit into binary STL; write another format");
-  }
-  return static_cast<float>(coordinate) + 0.0f;  // no -0: as it will be read back
-}
+float to_float(double coordinate) { return written_float(coordinate, "binary STL"); }
 
 void append_floats(std::string& out, const Vec3d& vector) {
   const std::array<float, 3> floats = {to_float(vector.x()), to_float(vector.y()),

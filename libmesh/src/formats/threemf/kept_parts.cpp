@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 #include <utility>
 
 #include <base/error.h>
@@ -104,7 +105,129 @@ class PartKeeper {
   Names old_, unreadable_;
 };
 
+// Of parts of one package that come into another one.
+class PartAppender {
+ public:
+  PartAppender(KeptPackage& all, const KeptPackage& other) : all_(all), other_(other) {
+    for (const KeptPackage::Part& part : all_.parts) parts_.emplace(part_key(part.name), &part);
+    for (const KeptPackage::Part& part : other_.parts) {
+      others_.emplace(part_key(part.name), &part);
+    }
+  }
+
+  void run() {
+    append(other_.of_package, all_.of_package);
+    append(other_.of_model, all_.of_model);
+    all_.parts.insert(all_.parts.end(), fresh_.begin(), fresh_.end());
+  }
+
+ private:
+  void append(const std::vector<PackageRelationship>& from, std::vector<PackageRelationship>& to) {
+    for (PackageRelationship one : from) {
+      const bool is_thumbnail = one.type.ends_with("/thumbnail");
+      const bool has_one = std::any_of(to.begin(), to.end(), [&](const auto& known) {
+        return is_thumbnail && known.type == one.type;
+      });
+      if (has_one) continue;
+      one.target = name_in_all(part_key(one.target), one.target);
+      const bool is_known = std::any_of(to.begin(), to.end(), [&](const auto& known) {
+        return known.type == one.type && known.target == one.target;
+      });
+      if (!is_known) to.push_back(std::move(one));
+    }
+  }
+
+  std::string name_in_all(const std::string& key, const std::string& target) {
+    const auto [found, is_new] = names_.try_emplace(key, target);
+    if (!is_new) return found->second;
+    const auto part = others_.find(key);
+    if (part == others_.end()) return target;
+    found->second = part->second->name;
+    for (int i = 2;; ++i) {
+      const auto [same, is_free] = parts_.try_emplace(part_key(found->second), part->second);
+      if (is_free) break;
+      if (*same->second->bytes == *part->second->bytes) return found->second;
+      found->second = numbered(part->second->name, i);
+    }
+    fresh_.push_back(*part->second);
+    fresh_.back().name = found->second;
+    return found->second;
+  }
+
+  // "a.png" as "a_2.png".
+  static std::string numbered(const std::string& name, int number) {
+    const std::size_t slash = name.rfind('/'), dot = name.rfind('.');
+    const bool has_end =
+        dot != std::string::npos && (slash == std::string::npos || dot > slash + 1);
+    std::string result = has_end ? name.substr(0, dot) : name;
+    result += '_';
+    result += std::to_string(number);
+    if (has_end) result += name.substr(dot);
+    return result;
+  }
+
+  using Parts = std::unordered_map<std::string, const KeptPackage::Part*>;
+
+  KeptPackage& all_;
+  const KeptPackage& other_;
+  Parts parts_, others_;                                // by part_key()
+  std::unordered_map<std::string, std::string> names_;  // of parts of the other, by part_key()
+  std::vector<KeptPackage::Part> fresh_;
+};
+
+const KeptPackage::Tiling* tiling_of(const KeptPackage& package, const Attributes& attributes,
+                                     const Material& look) {
+  if (look.image >= attributes.images.size()) return nullptr;
+  const auto found = std::find_if(
+      package.tilings.begin(), package.tilings.end(),
+      [&](const auto& one) { return one.picture == attributes.images[look.image].bytes; });
+  return found == package.tilings.end() ? nullptr : &*found;
+}
+
 }  // namespace
+
+std::shared_ptr<const Keepsake> KeptPackage::appended_to(const Keepsake* first,
+                                                         AppendedMaterials& materials) const {
+  const auto* const before = dynamic_cast<const KeptPackage*>(first);
+  if (before == nullptr) return nullptr;
+  tell_tilings_apart(*before, materials);
+  std::shared_ptr<KeptPackage> both = before->copy();
+  PartAppender(*both, *this).run();
+  both->tilings.insert(both->tilings.end(), tilings.begin(), tilings.end());
+  return both;
+}
+
+// Those of one name that look the same but for how a picture is laid over triangles.
+void KeptPackage::tell_tilings_apart(const KeptPackage& first, AppendedMaterials& materials) const {
+  const Attributes &all = materials.all, &other = materials.other;
+  std::unordered_map<std::string_view, std::size_t> numbers;
+  for (std::size_t m = 0; m < all.looks.size() && m < all.materials.names.size(); ++m) {
+    numbers.emplace(all.materials.names[m], m);
+  }
+  for (std::size_t m = 0; m < other.looks.size() && m < other.materials.names.size(); ++m) {
+    const auto same = numbers.find(other.materials.names[m]);
+    if (same == numbers.end()) continue;
+    const Tiling* const here = tiling_of(*this, all, other.looks[m]);
+    const Tiling* const there = tiling_of(first, all, all.looks[same->second]);
+    if (here == nullptr || there == nullptr) continue;
+    if (here->u == there->u && here->v == there->v && here->filter == there->filter) continue;
+    const std::string& name = other.materials.names[m];
+    materials.new_names[name] = materials.free_name(name);
+  }
+}
+
+std::shared_ptr<KeptPackage> KeptPackage::copy() const {
+  auto result = std::make_shared<KeptPackage>();
+  result->unit = unit;
+  result->graph = graph;
+  result->namespaces = namespaces;
+  result->metadata = metadata;
+  result->parts = parts;
+  result->of_package = of_package;
+  result->of_model = of_model;
+  result->tilings = tilings;
+  return result;
+}
 
 void keep_parts(const MeshSource& source, ZipReader& archive, const ContentTypes& types,
                 const std::string& model, const std::unordered_set<std::string>& taken,

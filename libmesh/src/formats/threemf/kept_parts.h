@@ -39,6 +39,14 @@ struct KeptPackage final : Keepsake {
   std::vector<Tiling> tilings;
 
   [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
+  // The first package, with the pictures of this one, and its parts that something refers to: what
+  // is known by its name alone there can be only one of, and of thumbnails, too.
+  [[nodiscard]] std::shared_ptr<const Keepsake> appended_to(
+      const Keepsake* first, AppendedMaterials& materials) const override;
+
+ private:
+  [[nodiscard]] std::shared_ptr<KeptPackage> copy() const;
+  void tell_tilings_apart(const KeptPackage& first, AppendedMaterials& materials) const;
 };
 
 // Reads all parts but those that are written anew: models, relationships, types of content and the

@@ -87,7 +87,7 @@ class InstancePlacer {
     }
     std::vector<ObjectReference> items;
     for (std::uint32_t i = 0; i < part.objects.size(); ++i) {
-      if (is_component[i] == 0) items.push_back({0, part.objects[i].id, {}});
+      if (is_component[i] == 0) items.push_back({0, part.objects[i].id, {}, nullptr});
     }
     return items;
   }
@@ -170,6 +170,7 @@ class InstancePlacer {
     std::vector<std::vector<std::uint32_t>> kept;
     for (const ModelPart& part : parts_) kept.emplace_back(part.objects.size(), kNone);
     for (const ObjectReference& item : items) keep_reference(0, item, kept, result_.graph.items);
+    result_.graph.build_uuid = parts_.front().build_uuid;
   }
 
   void keep_reference(std::uint32_t part, const ObjectReference& reference,
@@ -179,13 +180,13 @@ class InstancePlacer {
     if (!number || known_[reference.part][*number].total.triangles == 0) return;
     std::uint32_t& object = kept[reference.part][*number];
     if (object == kNone) object = keep_object(reference.part, *number, kept);
-    to.push_back({object, placement_in(part, reference)});
+    to.push_back({object, placement_in(part, reference), reference.marks});
   }
 
   std::uint32_t keep_object(std::uint32_t part, std::uint32_t number,
                             std::vector<std::vector<std::uint32_t>>& kept) {
     const ModelObject& object = parts_[part].objects[number];
-    KeptObject fresh{object.name, result_.mesh_of_object[part][number], {}};
+    KeptObject fresh{object.name, result_.mesh_of_object[part][number], {}, object.marks};
     for (const ObjectReference& component : object.components) {
       keep_reference(part, component, kept, fresh.components);
     }

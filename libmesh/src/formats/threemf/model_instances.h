@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,18 +29,21 @@ struct MeshInstance {
 struct KeptReference {
   std::uint32_t object = 0;  // of KeptGraph::objects
   Placement placement;
+  std::shared_ptr<const ModelMarks> marks;  // null: none
 };
 
 struct KeptObject {
   std::string name;
   std::uint32_t mesh = kNone;  // of the scene, if it has one
   std::vector<KeptReference> components;
+  std::shared_ptr<const ModelMarks> marks;  // null: none
 };
 
 // What a build is made of. An object stands behind its components.
 struct KeptGraph {
   std::vector<KeptObject> objects;
   std::vector<KeptReference> items;
+  std::string build_uuid;
 };
 
 struct InstanceResult {

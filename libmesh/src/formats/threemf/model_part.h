@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -22,18 +23,28 @@ struct PropertyUse {
   std::array<std::uint32_t, 3> index = {kNone, kNone, kNone};
 };
 
+// By which programs tell objects and copies of them apart; all may be empty.
+struct ModelMarks {
+  std::string part_number;
+  std::string uuid;       // as the production extension has them
+  std::string type;       // of objects: "model", ...
+  std::string thumbnail;  // of objects: a part, as part_name() makes it
+};
+
 // An object of a part, by the number of the part and its own id.
 struct ObjectReference {
   std::uint32_t part = 0;
   std::uint32_t object = kNone;
   Placement placement;
+  std::shared_ptr<const ModelMarks> marks;  // null: none
 };
 
 struct ModelObject {
   std::uint32_t id = kNone;
   bool is_left_out = false;  // of the types that are not built, or no part of the solid
   std::string name;
-  PropertyUse property;  // of triangles that say nothing
+  std::shared_ptr<const ModelMarks> marks;  // null: none
+  PropertyUse property;                     // of triangles that say nothing
   TriangleSoup mesh;
   std::vector<PropertyUse> properties;  // of the triangles, if asked for
   std::vector<ObjectReference> components;
@@ -81,6 +92,7 @@ struct ModelPart {
   std::vector<PropertyGroup> groups;
   std::vector<ModelTexture> textures;
   std::vector<ObjectReference> items;  // of the build
+  std::string build_uuid;
 };
 
 // Of all parts of a package: what could not be taken.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include <mesh/edge_table.h>
 
+#include "formats/common/part_names.h"
 #include "model_values.h"
 
 namespace meshrepair {
@@ -51,6 +53,9 @@ constexpr std::string_view kProductionPrefix =
 constexpr std::string_view kPathAttribute =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
 
+constexpr std::string_view kUuidAttribute =
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|UUID";
+
 // Beyond these, layers of properties are passed over: there is one of each kind at most.
 constexpr std::size_t kMostLayers = 8;
 
@@ -94,6 +99,31 @@ bool is_known_space(std::string_view space) {
 std::uint32_t index_in(const XmlAttributes& attributes, std::string_view name) {
   const auto value = attributes.find(name);
   return value ? read_model_index(*value) : kNone;
+}
+
+// Empty if there is none, or what stands there is none.
+std::string uuid_in(const XmlAttributes& attributes) {
+  constexpr std::string_view kForm = "00000000-0000-0000-0000-000000000000";
+  const std::string text = attributes.text(kUuidAttribute);
+  const bool is_one =
+      std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(), [](char c, char form) {
+        return form == '-'
+                   ? c == '-'
+                   : std::string_view("0123456789abcdefABCDEF").find(c) != std::string_view::npos;
+      });
+  return is_one ? text : std::string();
+}
+
+bool is_object_type(std::string_view type) {
+  constexpr std::array<std::string_view, 5> kTypes = {"model", "solidsupport", "support", "surface",
+                                                      "other"};
+  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
+
+std::shared_ptr<const ModelMarks> shared(ModelMarks marks) {
+  const bool has_one = !marks.part_number.empty() || !marks.uuid.empty() || !marks.type.empty() ||
+                       !marks.thumbnail.empty();
+  return has_one ? std::make_shared<const ModelMarks>(std::move(marks)) : nullptr;
 }
 
 }  // namespace
@@ -148,6 +178,9 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
       return read_object(attributes);
     case Element::component:
       return read_reference(attributes, object().components);
+    case Element::build:
+      part_.build_uuid = uuid_in(attributes);
+      return;
     case Element::item:
       return read_reference(attributes, part_.items);
     case Element::metadata:
@@ -230,6 +263,11 @@ void ModelReader::read_object(const XmlAttributes& attributes) {
   fresh.name = attributes.text("name");
   const std::string type = attributes.text("type");
   fresh.is_left_out = type == "other" || type == "support";
+  ModelMarks marks{attributes.text("partnumber"), uuid_in(attributes), {}, {}};
+  if (is_object_type(type)) marks.type = type;
+  if (const auto path = attributes.find("thumbnail"))
+    marks.thumbnail = part_name(*path, part_.name);
+  fresh.marks = shared(std::move(marks));
   fresh.property.group = index_in(attributes, "pid");
   fresh.property.index.fill(index_in(attributes, "pindex"));
   const auto number = static_cast<std::uint32_t>(part_.objects.size() - 1);
@@ -296,7 +334,8 @@ void ModelReader::read_reference(const XmlAttributes& attributes,
     if (!placement) stream_->fail("a transform that is not twelve numbers");
     reference.placement = *placement;
   }
-  references.push_back(reference);
+  reference.marks = shared({attributes.text("partnumber"), uuid_in(attributes), {}, {}});
+  references.push_back(std::move(reference));
 }
 
 void ModelReader::add_group(PropertyGroup::Kind kind, const XmlAttributes& attributes) {

@@ -23,6 +23,8 @@ namespace {
 constexpr std::string_view kCoreSpace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 constexpr std::string_view kMaterialSpace =
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
+constexpr std::string_view kProductionSpace =
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 constexpr std::string_view kXmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 constexpr std::string_view kDescription = "Description";
 
@@ -43,7 +45,8 @@ class ModelWriter {
  public:
   ModelWriter(const TriangleSoup& soup, const SoupExtras& extras, const KeptPackage* kept)
       : soup_(soup), extras_(extras), attributes_(extras.attributes), kept_(kept) {
-    material_ = free_prefix();
+    material_ = free_prefix("m", kMaterialSpace);
+    production_ = free_prefix("p", kProductionSpace);
     if (attributes_ != nullptr) properties_ = write_properties(soup, *attributes_, kept, material_);
   }
 
@@ -53,7 +56,9 @@ class ModelWriter {
     write_metadata();
     xml_ += "<resources>\n" + properties_.resources;
     const std::vector<KeptReference> items = write_objects();
-    xml_ += "</resources>\n<build>\n";
+    xml_ += "</resources>\n<build";
+    if (const KeptGraph* const graph = kept_graph()) append_uuid(graph->build_uuid);
+    xml_ += ">\n";
     for (const KeptReference& item : items) write_reference("item", item);
     xml_ += "</build>\n</model>\n";
     return std::move(xml_);
@@ -62,17 +67,16 @@ class ModelWriter {
   [[nodiscard]] const std::vector<WrittenPicture>& pictures() const { return properties_.pictures; }
 
  private:
-  // "m", unless other metadata have it.
-  [[nodiscard]] std::string free_prefix() const {
-    std::string prefix = "m";
+  // This letter, or several, unless other metadata have it.
+  [[nodiscard]] std::string free_prefix(const std::string& letter, std::string_view space) const {
+    std::string prefix = letter;
     const auto is_taken = [&] {
       return kept_ != nullptr && std::any_of(kept_->namespaces.begin(), kept_->namespaces.end(),
                                              [&](const ModelNamespace& one) {
-                                               return one.prefix == prefix &&
-                                                      one.space != kMaterialSpace;
+                                               return one.prefix == prefix && one.space != space;
                                              });
     };
-    while (is_taken()) prefix += 'm';
+    while (is_taken()) prefix += letter;
     return prefix;
   }
 
@@ -87,6 +91,10 @@ class ModelWriter {
       append_xml_attribute(xml_, "xmlns:" + material_, kMaterialSpace);
       declared_.insert(material_);
     }
+    if (has_uuids()) {
+      append_xml_attribute(xml_, "xmlns:" + production_, kProductionSpace);
+      declared_.insert(production_);
+    }
     if (kept_ != nullptr) {
       for (const ModelNamespace& one : kept_->namespaces) {
         if (one.prefix.empty() || one.space.empty() || !is_in_use(one.prefix)) continue;
@@ -95,6 +103,30 @@ class ModelWriter {
       }
     }
     xml_ += ">\n";
+  }
+
+  // Of the scene that is written; null: none was kept.
+  [[nodiscard]] const KeptGraph* kept_graph() const {
+    const bool has_one = extras_.scene != nullptr && kept_ != nullptr && kept_->graph;
+    return has_one ? &*kept_->graph : nullptr;
+  }
+
+  [[nodiscard]] bool has_uuids() const {
+    const KeptGraph* const graph = kept_graph();
+    if (graph == nullptr) return false;
+    const auto has_one = [](const auto& entry) {
+      return entry.marks && !entry.marks->uuid.empty();
+    };
+    return !graph->build_uuid.empty() ||
+           std::any_of(graph->items.begin(), graph->items.end(), has_one) ||
+           std::any_of(graph->objects.begin(), graph->objects.end(), [&](const KeptObject& object) {
+             return has_one(object) ||
+                    std::any_of(object.components.begin(), object.components.end(), has_one);
+           });
+  }
+
+  void append_uuid(const std::string& uuid) {
+    if (!uuid.empty()) append_xml_attribute(xml_, production_ + ":UUID", uuid);
   }
 
   [[nodiscard]] bool is_in_use(const std::string& prefix) const {
@@ -154,25 +186,36 @@ class ModelWriter {
   std::vector<KeptReference> write_objects() {
     if (extras_.scene == nullptr) {
       const MeshRange all{0, soup_.points.size(), 0, soup_.triangles.size()};
-      return {{write_mesh(all, name_of_object()), {}}};
+      return {{write_mesh(all, name_of_object(), nullptr), {}, nullptr}};
     }
     const Scene& scene = *extras_.scene;
-    const bool has_graph = kept_ != nullptr && kept_->graph;
+    const KeptGraph* const graph = kept_graph();
+    std::vector<const KeptObject*> objects(scene.meshes.size());
+    if (graph != nullptr) {
+      for (const KeptObject& object : graph->objects) {
+        if (object.mesh < objects.size() && object.components.empty()) objects[object.mesh] = &object;
+      }
+    }
     std::vector<std::uint32_t> ids;  // of meshes
     MeshRange range;
-    for (const SceneMesh& mesh : scene.meshes) {
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+      const SceneMesh& mesh = scene.meshes[m];
+      const KeptObject* const object = objects[m];
       range = {range.point_end, range.point_end + mesh.points, range.end,
                range.end + mesh.triangles};
-      ids.push_back(mesh.triangles == 0 ? kNone : write_mesh(range, mesh.name));
+      ids.push_back(mesh.triangles == 0 ? kNone
+                    : object == nullptr ? write_mesh(range, mesh.name, nullptr)
+                                        : write_mesh(range, object->name, object->marks.get()));
     }
-    return has_graph ? write_graph(*kept_->graph, ids) : items_of(scene, ids);
+    return graph != nullptr ? write_graph(*graph, ids) : items_of(scene, ids);
   }
 
   static std::vector<KeptReference> items_of(const Scene& scene,
                                              const std::vector<std::uint32_t>& ids) {
     std::vector<KeptReference> items;
     for (const SceneInstance& instance : scene.instances) {
-      if (ids[instance.mesh] != kNone) items.push_back({ids[instance.mesh], instance.placement});
+      if (ids[instance.mesh] != kNone)
+        items.push_back({ids[instance.mesh], instance.placement, nullptr});
     }
     return items;
   }
@@ -184,7 +227,8 @@ class ModelWriter {
     const auto numbered = [&](const std::vector<KeptReference>& references) {
       std::vector<KeptReference> list;
       for (const KeptReference& one : references) {
-        if (id_of[one.object] != kNone) list.push_back({id_of[one.object], one.placement});
+        if (id_of[one.object] != kNone)
+          list.push_back({id_of[one.object], one.placement, one.marks});
       }
       return list;
     };
@@ -196,8 +240,8 @@ class ModelWriter {
         continue;
       }
       // The format has no objects with both.
-      if (mesh != kNone) components.push_back({mesh, {}});
-      id_of.push_back(open_object(object.name));
+      if (mesh != kNone) components.push_back({mesh, {}, nullptr});
+      id_of.push_back(open_object(object.name, object.marks.get()));
       xml_ += ">\n<components>\n";
       for (const KeptReference& component : components) write_reference("component", component);
       xml_ += "</components>\n</object>\n";
@@ -220,17 +264,39 @@ class ModelWriter {
       }
       append_xml_attribute(xml_, "transform", numbers);
     }
+    if (reference.marks) append_marks(*reference.marks, element == "item");
     xml_ += "/>\n";
   }
 
   // All but the end of its first tag. Returns its id.
-  std::uint32_t open_object(const std::string& name) {
+  std::uint32_t open_object(const std::string& name, const ModelMarks* marks) {
     const std::uint32_t id = properties_.next_id++;
     xml_ += "<object";
     append_xml_attribute(xml_, "id", std::to_string(id));
-    append_xml_attribute(xml_, "type", "model");
+    const bool has_type = marks != nullptr && !marks->type.empty();
+    append_xml_attribute(xml_, "type", has_type ? marks->type : "model");
     if (!name.empty()) append_xml_attribute(xml_, "name", name);
+    if (marks == nullptr) return id;
+    if (is_kept_part(marks->thumbnail)) {
+      append_xml_attribute(xml_, "thumbnail", "/" + percent_encoded(marks->thumbnail));
+    }
+    append_marks(*marks, true);
     return id;
+  }
+
+  // Components have no part numbers.
+  void append_marks(const ModelMarks& marks, bool with_part_number) {
+    if (with_part_number && !marks.part_number.empty()) {
+      append_xml_attribute(xml_, "partnumber", marks.part_number);
+    }
+    append_uuid(marks.uuid);
+  }
+
+  [[nodiscard]] bool is_kept_part(const std::string& name) const {
+    return !name.empty() && std::any_of(kept_->of_model.begin(), kept_->of_model.end(),
+                                        [&](const PackageRelationship& one) {
+                                          return part_key(one.target) == part_key(name);
+                                        });
   }
 
   // Of the soup.
@@ -239,8 +305,9 @@ class ModelWriter {
     std::size_t first = 0, end = 0;  // triangles
   };
 
-  std::uint32_t write_mesh(const MeshRange& range, const std::string& name) {
-    const std::uint32_t id = open_object(name);
+  std::uint32_t write_mesh(const MeshRange& range, const std::string& name,
+                           const ModelMarks* marks) {
+    const std::uint32_t id = open_object(name, marks);
     const auto& property = properties_.of_object;
     if (property.group != kNone) {
       append_xml_attribute(xml_, "pid", std::to_string(property.group));
@@ -290,7 +357,7 @@ class ModelWriter {
   const SoupExtras& extras_;
   const Attributes* attributes_;
   const KeptPackage* kept_;
-  std::string material_;
+  std::string material_, production_;  // prefixes
   WrittenProperties properties_;
   std::unordered_set<std::string> declared_;
   std::string xml_;

@@ -306,6 +306,25 @@ TEST(GltfOddFile, LooksThatAreBrokenRefuseOnlyThoseWhoWantThem) {
   EXPECT_THROW((void)read_soup(std::string_view(bytes), "a", options), InputError);
 }
 
+TEST(GltfOddFile, EachPointHasOneValueOfAnAttribute) {
+  for (const std::string name : {"TEXCOORD_0", "COLOR_0", "NORMAL", "_OTHER"}) {
+    for (const std::size_t count : {2, 4}) {
+      const std::string bytes = changed([&](GltfMaker& maker) {
+        maker.root["meshes"][0]["primitives"][0]["attributes"][name] =
+            maker.add_accessor<float>(std::vector<float>(3 * count, 0.5f), "VEC3");
+      });
+      EXPECT_EQ(read_text(bytes, "a").soup.triangles.size(), 1u);
+      try {
+        (void)read_soup(std::string_view(bytes), "a", {.attributes = true});
+        ADD_FAILURE() << name << " " << count;
+      } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()), "a: a primitive has " + std::to_string(count) +
+                                                 " values of " + name + " for 3 points");
+      }
+    }
+  }
+}
+
 TEST(GltfOddFile, BrokenAnimationsAreLeftOut) {
   const std::string bytes =
       with("/animations",

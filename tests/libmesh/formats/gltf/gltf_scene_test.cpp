@@ -117,6 +117,25 @@ TEST(GltfScene, MeshesAreInTheirOwnFramesAndNodesStay) {
   EXPECT_EQ(read_joined(again).triangles, read_joined(glb).triangles);
 }
 
+TEST(GltfScene, MeshesOfOtherScenesAreLeftOutWithAWarning) {
+  GltfMaker maker = furnished();
+  const std::size_t chosen = maker.add("scenes", {{"nodes", {maker.add("nodes", {{"mesh", 3}})}}});
+  maker.root["scene"] = chosen;
+  const ReadResult joined = read_soup(std::string_view(maker.glb()), "a.glb", {.attributes = true});
+  EXPECT_EQ(joined.soup.points[2], Vec3d(5, 0, 0));
+  EXPECT_EQ(joined.soup.triangles.size(), 4u);
+  EXPECT_THAT(joined.report.warnings,
+              ::testing::Contains("4 nodes with meshes left out: not in the scene that is shown"));
+  const TestJson root =
+      root_of(format_soup(joined.soup, SoupFormat::glb, {.attributes = &joined.attributes}));
+  EXPECT_EQ(root["scene"], chosen);
+  EXPECT_EQ(root["scenes"][0], maker.root["scenes"][0]);
+  EXPECT_EQ(root["meshes"].size(), 1u);
+  const ReadResult each = read_by_mesh(maker.glb());
+  EXPECT_THAT(each.report.warnings, Not(::testing::Contains(HasSubstr("not in the scene"))));
+  EXPECT_EQ(root_of(write_scene(each, SoupFormat::glb))["nodes"][0]["mesh"], 0);
+}
+
 TEST(GltfScene, GpuInstancesStay) {
   GltfMaker maker;
   const std::size_t mesh = add_tetrahedron(maker, 1, "tree");

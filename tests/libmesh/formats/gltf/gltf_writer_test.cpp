@@ -318,5 +318,65 @@ TEST(GltfWriter, TextureCoordinatesComeBackToTheLastBit) {
   }
 }
 
+// Triangles side by side, each a primitive: of these materials, which are others in variants.
+GltfMaker with_variants(const std::vector<std::pair<int, int>>& materials) {
+  GltfMaker maker;
+  maker.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "night"}}};
+  maker.root["extensionsUsed"] = {"KHR_materials_variants"};
+  for (const char* const name : {"a", "b", "c"}) maker.add("materials", {{"name", name}});
+  TestJson primitives = TestJson::array();
+  for (const auto& [material, other] : materials) {
+    const auto x = static_cast<float>(primitives.size());
+    TestJson primitive = {
+        {"attributes",
+         {{"POSITION", maker.add_accessor<float>({x, 0, 0, x + 1, 0, 0, x, 1, 0}, "VEC3")}}},
+        {"material", material}};
+    if (other >= 0) {
+      primitive["extensions"]["KHR_materials_variants"]["mappings"] = {
+          {{"material", other}, {"variants", {0}}}};
+    }
+    primitives.push_back(std::move(primitive));
+  }
+  maker.add("meshes", {{"primitives", std::move(primitives)}});
+  maker.add_root({{"mesh", 0}});
+  return maker;
+}
+
+TEST(GltfWriter, VariantsStayWhereTheyAreThoseOfAMaterial) {
+  const GltfMaker maker = with_variants({{0, 1}, {1, 2}, {0, 1}, {2, -1}});
+  for (const bool by_mesh : {false, true}) {
+    ReadOptions options;
+    options.attributes = true;
+    options.by_mesh = by_mesh;
+    const ReadResult read = read_soup(std::string_view(maker.glb()), "a", options);
+    EXPECT_TRUE(read.report.warnings.empty());
+    SoupExtras extras{.attributes = &read.attributes};
+    if (by_mesh) extras.scene = &read.scene;
+    const TestJson root = json_of(format_soup(read.soup, SoupFormat::glb, extras));
+    EXPECT_EQ(root["extensions"], maker.root["extensions"]);
+    const TestJson& before = maker.root["meshes"][0]["primitives"];
+    const TestJson& after = root["meshes"][0]["primitives"];
+    ASSERT_EQ(after.size(), 3u);
+    EXPECT_EQ(after[0]["extensions"], before[0]["extensions"]);
+    EXPECT_EQ(after[1]["extensions"], before[1]["extensions"]);
+    EXPECT_FALSE(after[2].contains("extensions"));
+  }
+}
+
+TEST(GltfWriter, VariantsThatPrimitivesOfOneMaterialDoNotShareGoWithAWarning) {
+  for (const int other : {-1, 2}) {
+    const GltfMaker maker = with_variants({{0, 1}, {1, 2}, {0, other}});
+    const ReadResult read = read_with_attributes(maker.glb(), "a");
+    EXPECT_EQ(read.report.warnings,
+              (std::vector<std::string>{
+                  "the variants of 1 material left out: primitives have different ones"}));
+    const TestJson root =
+        json_of(format_soup(read.soup, SoupFormat::glb, {.attributes = &read.attributes}));
+    const TestJson& after = root["meshes"][0]["primitives"];
+    EXPECT_FALSE(after[0].contains("extensions"));
+    EXPECT_TRUE(after[1].contains("extensions"));
+  }
+}
+
 }  // namespace
 }  // namespace meshrepair

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""Tests of scripts/setup.sh: what it makes of an npm that fails. Nothing is installed: all programs are false ones."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FALSE_PROGRAMS = {
+    "dpkg-query": "echo -n installed",
+    "apt-get": "exit 1",
+    "node": "exit 1",
+    "npm": 'echo "$NPM_SAYS" >&2; [ -z "$NPM_SAYS" ] && mkdir -p "$3/node_modules"',
+}
+
+
+class NodePackages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="setup_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        for name in ("scripts/setup.sh", "tests/node/package-lock.json"):
+            (self.folder / name).parent.mkdir(parents=True)
+            shutil.copy(ROOT / name, self.folder / name)
+        (self.folder / "bin").mkdir()
+        for name, text in FALSE_PROGRAMS.items():
+            (self.folder / "bin" / name).write_text(f"#!/bin/sh\n{text}\n")
+            (self.folder / "bin" / name).chmod(0o755)
+
+    def run_setup(self, npm_says):
+        environment = {"PATH": f"{self.folder}/bin:{os.environ['PATH']}", "NPM_SAYS": npm_says}
+        return subprocess.run([self.folder / "scripts/setup.sh", "all"], env=environment, check=False,
+                              capture_output=True, text=True, timeout=60)
+
+    def is_noted(self):
+        return (self.folder / "tests/node/node_modules/.installed-lock.json").exists()
+
+    def test_a_registry_out_of_reach_is_one_line_and_no_failure(self):
+        for code in ("ENOTFOUND", "ECONNREFUSED", "E503"):
+            result = self.run_setup(f"npm ERR! code {code}\nnpm ERR! more lines")
+            self.assertEqual(result.returncode, 0)
+            self.assertRegex(result.stderr, rf"^setup.sh: warning: the registry of npm [^\n]*\({code}\)[^\n]*\n$")
+            self.assertFalse(self.is_noted())
+
+    def test_what_else_goes_wrong_is_a_failure(self):
+        result = self.run_setup("npm ERR! code EINTEGRITY")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("EINTEGRITY", result.stderr)
+        self.assertFalse(self.is_noted())
+
+    def test_what_is_installed_is_not_installed_again(self):
+        self.assertEqual(self.run_setup("").returncode, 0)
+        self.assertTrue(self.is_noted())
+        self.assertEqual(self.run_setup("npm ERR! code EINTEGRITY").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
