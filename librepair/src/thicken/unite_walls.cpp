@@ -28,6 +28,9 @@ constexpr double kMostDiagonals = 1000;
 // filled or dropped, and walls have more than two sides.
 constexpr double kFewestSteps = 16;
 
+// Lengths whose cubes are numbers, as normals and angles are found in doubles.
+constexpr double kSmallestMesh = 1e-90, kLargestCoordinate = 1e90;
+
 std::string in_words(double x) {
   std::array<char, 32> text{};
   (void)std::snprintf(text.data(), text.size(), "%.3g", x);
@@ -38,10 +41,13 @@ double thickness_of(const CleanSoup& soup, const RepairOptions& options) {
   const double diagonal = diagonal_of(soup);
   const ThickenOptions& thicken = options.thicken;
   const double thickness = thicken.is_share ? thicken.thickness * diagonal : thicken.thickness;
+  double most = 0;
+  for (const Vec3d& p : soup.points) most = std::max(most, p.cwiseAbs().maxCoeff());
+  if (diagonal < kSmallestMesh || most > kLargestCoordinate) {
+    throw UsageError("walls can be made of meshes of 1e-90 to 1e90 in size, not of this one");
+  }
   double step = soup.grid.unit;
   if (options.certify.precision == Precision::float32) {
-    double most = 0;
-    for (const Vec3d& p : soup.points) most = std::max(most, p.cwiseAbs().maxCoeff());
     step = std::max(step, number_spacing(most, Precision::float32));
   }
   const std::string walls = "walls of " + in_words(thickness) + " are ";

@@ -213,6 +213,14 @@ TEST(ThickenSheets, AWallThatNumbersDoNotTellIsRefused) {
   RepairOptions options = walls_of(1e-6);
   options.certify.precision = Precision::float32;
   EXPECT_THROW((void)repair(unit_sheet(), options), UsageError);
+  for (const double scale : {1e-150, 1e-60, 1e60, 1e150}) {
+    const TriangleSoup sheet = scaled(unit_sheet(), scale);
+    if (scale == 1e-60 || scale == 1e60) {
+      EXPECT_EQ(expect_solid(sheet, walls_of(0.1 * scale)).surface.mesh.triangles.size(), 12u);
+    } else {
+      EXPECT_THROW((void)repair(sheet, walls_of(0.1 * scale)), UsageError) << scale;
+    }
+  }
 }
 
 TEST(ThickenSheets, WhereNothingIsSolidAThicknessIsNamed) {
