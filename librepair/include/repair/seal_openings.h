@@ -16,7 +16,7 @@ struct SealOptions {
 };
 
 struct SealReport {
-  double size = 0;  // in the soup's unit
+  double size = 0;            // in the soup's unit
   double step = 0;            // of the grid that space was looked at with, in the soup's unit
   std::size_t openings = 0;   // that were closed
   std::size_t triangles = 0;  // of patches over them

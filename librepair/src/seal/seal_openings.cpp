@@ -99,8 +99,7 @@ void seal_openings(CleanSoup& soup, const SealOptions& options, SealReport& repo
   if (options.size <= 0 || soup.triangles.empty()) return;
   const TriangleSoup triangles = on_grid(soup);
   const double diagonal = extent_of(triangles).norm();
-  const double asked =
-      options.is_share ? options.size * diagonal : options.size / soup.grid.unit;
+  const double asked = options.is_share ? options.size * diagonal : options.size / soup.grid.unit;
   report.size = asked * soup.grid.unit;
   // A ball that is larger rolls around the whole hardly otherwise.
   const double size = std::min(asked, diagonal);
