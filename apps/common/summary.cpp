@@ -193,18 +193,6 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
   lines.add("closed", texts);
 }
 
-void describe_seals(const SealReport& seal, Lines& lines) {
-  if (seal.size <= 0) return;
-  if (seal.openings == 0) {
-    lines.add("sealed",
-              {fmt::format("nothing: no opening below {:.6g} leads into a space", seal.size)});
-    return;
-  }
-  lines.add("sealed",
-            {fmt::format("{} below {:.6g}, volume {:.6g} behind",
-                         number_of(seal.openings, "opening"), seal.size, seal.filled_volume)});
-}
-
 void describe_walls(const ThickenReport& thicken, Lines& lines) {
   if (thicken.triangles == 0) return;
   std::vector<std::string> texts = {fmt::format(
@@ -362,7 +350,6 @@ std::string summary_of(const Findings& findings, double seconds) {
   describe_input(findings, lines);
   describe_sewing(findings.repair.sew, lines);
   describe_holes(findings.repair, lines);
-  describe_seals(findings.repair.seal, lines);
   describe_walls(findings.repair.thicken, lines);
   describe_predicates(findings.repair, lines);
   if (findings.repair.inside.solid_cells > 0 || findings.repair.spared_cells) {

@@ -55,24 +55,15 @@ struct Job {
     if (std::exchange(prepared, true)) return;
     clean = internal::close_soup(soup, options, report, meter);
     orientation = internal::orient_soup(clean, options, report, meter);
-    internal::seal_soup(clean, orientation, options, report, meter);
-  }
-
-  // Spaces behind seals are told from cells or chambers.
-  [[nodiscard]] bool is_sealed() {
-    if (options.seal.size > 0) prepare();
-    return report.seal.triangles > 0;
   }
 };
 
 std::optional<Surface> as_given(Job& job) {
-  if (job.is_sealed()) return std::nullopt;
   return internal::keep_as_given(job.soup, job.options, job.report, job.meter, job.invalid);
 }
 
 std::optional<Surface> mended(Job& job) {
   job.prepare();
-  if (job.is_sealed()) return std::nullopt;
   return internal::keep_mended(job.clean, job.orientation, job.invalid, job.options, job.report,
                                job.meter);
 }
@@ -86,7 +77,6 @@ std::optional<Surface> by_chambers(Job& job) {
 
 std::optional<Surface> around_tangles(Job& job) {
   job.prepare();
-  if (job.is_sealed()) return std::nullopt;
   return internal::cut_tangles(job.clean, job.orientation, job.options, job.report, job.meter);
 }
 

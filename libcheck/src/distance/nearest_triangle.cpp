@@ -1,4 +1,4 @@
-#include <check/nearest_triangle.h>
+#include "nearest_triangle.h"
 
 #include <algorithm>
 

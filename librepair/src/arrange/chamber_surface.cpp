@@ -13,7 +13,6 @@
 #include <repair/chamber_graph.h>
 #include <repair/inside_rule.h>
 
-#include "seal/fill_sealed.h"
 #include "sheets/fill_slits.h"
 
 namespace meshrepair::internal {
@@ -104,7 +103,6 @@ class ChamberSurface {
     inside.solve.progress = options_.progress;
     CellLabels labels = label_cells(graph, orientation_, inside, report_.inside);
     if (!report_.inside.exact) return std::nullopt;
-    fill_sealed(graph, soup_, options_, report_, labels.solid);
     return std::move(labels.solid);
   }
 

@@ -6,7 +6,6 @@
 #include <base/error.h>
 #include <mesh/topology.h>
 #include <repair/hole_patches.h>
-#include <repair/seal_openings.h>
 
 #include "open/open_sheets.h"
 
@@ -90,21 +89,6 @@ Orientation orient_soup(const CleanSoup& soup, const RepairOptions& options, Rep
   require_space(soup);
   meter.begin("orient");
   return find_parts(soup, options, report);
-}
-
-void seal_soup(CleanSoup& soup, Orientation& orientation, const RepairOptions& options,
-               RepairReport& report, StageMeter& meter) {
-  report.seal = {};
-  if (options.seal.size <= 0) return;
-  meter.begin("seal");
-  seal_openings(soup, options.seal, report.seal, options.progress);
-  // Seals face no way, and are a part by themselves.
-  const auto part = static_cast<std::uint32_t>(orientation.parts.size());
-  if (report.seal.triangles > 0) orientation.parts.emplace_back();
-  for (std::size_t i = 0; i < report.seal.triangles; ++i) {
-    orientation.winding.push_back(0);
-    orientation.part_of.push_back(part);
-  }
 }
 
 }  // namespace meshrepair::internal

@@ -20,8 +20,4 @@ namespace meshrepair::internal {
 [[nodiscard]] Orientation orient_soup(const CleanSoup& soup, const RepairOptions& options,
                                       RepairReport& report, StageMeter& meter);
 
-// Closes openings as the options say. The triangles for that are one part more.
-void seal_soup(CleanSoup& soup, Orientation& orientation, const RepairOptions& options,
-               RepairReport& report, StageMeter& meter);
-
 }  // namespace meshrepair::internal

@@ -9,7 +9,6 @@
 #include <repair/flood.h>
 
 #include "open/open_sheets.h"
-#include "seal/fill_sealed.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -70,7 +69,6 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
     drop_unsealed(graph, options.progress, labels);
   }
   report.open_regions = empty_open_regions(covered, labels.solid);
-  fill_sealed(graph, covered.complex.soup(), options, report, labels.solid);
   report.inside.solid_cells =
       static_cast<std::size_t>(std::count(labels.solid.begin(), labels.solid.end(), 1));
   if (report.inside.solid_cells == 0) {

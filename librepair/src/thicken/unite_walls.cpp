@@ -119,7 +119,6 @@ WalledSoup add_walls(const CleanSoup& soup, const std::optional<Surface>& solids
 RepairOptions options_for_walls(const WalledSoup& walled, const RepairOptions& options) {
   RepairOptions second = options;
   second.thicken = {};
-  second.seal = {};
   second.sew.mode = SewMode::none;
   second.holes.mode = HoleMode::none;
   second.inside.rule = InsideRule::winding;

@@ -7,7 +7,7 @@
 #include <base/parallel.h>
 #include <check/mesh_distance.h>
 
-#include <check/nearest_triangle.h>
+#include "distance/nearest_triangle.h"
 #include "shapes.h"
 
 namespace meshrepair {
