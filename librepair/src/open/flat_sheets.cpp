@@ -83,8 +83,10 @@ std::vector<char> triangles_of_flat_parts(const CleanSoup& soup) {
   }
   const double rounding = rounding_of(soup);
   std::vector<char> flat;
+  flat.reserve(parts);
   for (const std::vector<Vec3d>& part : corners) flat.push_back(is_flat(part, rounding) ? 1 : 0);
   std::vector<char> of_triangles;
+  of_triangles.reserve(places.parts.size());
   for (const std::uint32_t part : places.parts) of_triangles.push_back(flat[part]);
   return of_triangles;
 }

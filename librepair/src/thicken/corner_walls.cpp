@@ -52,14 +52,9 @@ std::vector<Vec3d> even_directions() {
 
 class CornerMaker {
  public:
-  CornerMaker(const SheetMesh& mesh, const CornerOffsets& offsets, const WallReach& reach,
-              const std::vector<FoldEnd>& folds, SheetWalls& walls)
-      : mesh_(mesh),
-        offsets_(offsets),
-        reach_(reach),
-        folds_(folds),
-        walls_(walls),
-        fan_(mesh.joint.size()) {}
+  CornerMaker(const SheetMesh& mesh, const WallReach& reach, const std::vector<FoldEnd>& folds,
+              SheetWalls& walls)
+      : mesh_(mesh), reach_(reach), folds_(folds), walls_(walls), fan_(mesh.joint.size()) {}
 
   std::size_t run() {
     join_fans();
@@ -147,7 +142,6 @@ class CornerMaker {
   }
 
   const SheetMesh& mesh_;
-  const CornerOffsets& offsets_;
   const WallReach& reach_;
   const std::vector<FoldEnd>& folds_;
   SheetWalls& walls_;
@@ -159,9 +153,9 @@ class CornerMaker {
 
 }  // namespace
 
-void append_corners(const SheetMesh& mesh, const CornerOffsets& offsets, const WallReach& reach,
+void append_corners(const SheetMesh& mesh, const WallReach& reach,
                     const std::vector<FoldEnd>& folds, SheetWalls& walls, ThickenReport& report) {
-  report.corners = CornerMaker(mesh, offsets, reach, folds, walls).run();
+  report.corners = CornerMaker(mesh, reach, folds, walls).run();
 }
 
 }  // namespace meshrepair::internal

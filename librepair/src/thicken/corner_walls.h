@@ -13,7 +13,7 @@ namespace meshrepair::internal {
 
 // Adds to the walls what those of triangles and `folds` leave open there: a part of a ball, inside
 // the round of the folds.
-void append_corners(const SheetMesh& mesh, const CornerOffsets& offsets, const WallReach& reach,
+void append_corners(const SheetMesh& mesh, const WallReach& reach,
                     const std::vector<FoldEnd>& folds, SheetWalls& walls, ThickenReport& report);
 
 }  // namespace meshrepair::internal

@@ -17,6 +17,7 @@
 #include <array>
 #include <utility>
 
+#include <exact/double_predicates.h>
 #include <repair/thicken_sheets.h>
 
 #include "corner_offsets.h"
@@ -75,10 +76,12 @@ class TriangleWalls {
     walls_.source.push_back(mesh_.source[t]);
   }
 
-  // Along the diagonal that begins below the point with the lower number.
+  // Along the diagonal that bends outward, so that nothing is left between this and what goes
+  // around the edge.
   void close(std::uint32_t side) {
     const std::uint32_t t = side / 3, next = next_side(side);
-    if (mesh_.triangles[t][side % 3] < mesh_.triangles[t][next % 3]) {
+    const std::vector<Vec3d>& at = walls_.soup.points;
+    if (orientation(at[low(side)], at[low(next)], at[high(next)], at[high(side)]) <= 0) {
       add(t, {low(side), low(next), high(next)});
       add(t, {low(side), high(next), high(side)});
     } else {
@@ -111,9 +114,8 @@ SheetWalls thicken_sheets(const CleanSoup& soup, const std::vector<char>& is_she
   SheetWalls walls;
   TriangleWalls(mesh, offsets, walls).run();
   internal::append_own_walls(mesh, offsets, reach, walls);
-  internal::append_corners(mesh, offsets, reach,
-                           internal::append_folds(mesh, offsets, reach, walls, report), walls,
-                           report);
+  internal::append_corners(mesh, reach, internal::append_folds(mesh, offsets, reach, walls, report),
+                           walls, report);
   report.thickness = thickness;
   report.side = side;
   report.triangles = mesh.triangles.size();

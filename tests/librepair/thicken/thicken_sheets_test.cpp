@@ -145,6 +145,21 @@ TEST(ThickenSheets, AWallThickerThanItsTubeFillsIt) {
   EXPECT_NEAR(result.report.output_volume, 4 * std::numbers::pi * 2.5 * 2.5, 3);
 }
 
+// Many points at which no common direction suits all triangles.
+TEST(ThickenSheets, ANoisySheetHasNoVoidsInItsWall) {
+  Random random(5);
+  const TriangleSoup sheet = sheet_of(24, 24, [&](double u, double v) {
+    return Vec3d(u, v, 0.1 * std::sin(5 * u) + random.real(-0.01, 0.01));
+  });
+  for (const double thickness : {0.02, 0.1}) {
+    const RepairResult result = expect_solid(sheet, walls_of(thickness));
+    EXPECT_EQ(result.report.output.parts, 1u);
+    EXPECT_GT(result.report.thicken.corners, 0u);
+    const double volume = thickness * surface_area(sheet);
+    EXPECT_NEAR(result.report.output_volume, volume, 0.05 * volume);
+  }
+}
+
 TEST(ThickenSheets, SolidsStayBitForBit) {
   TriangleSoup soup = unit_sheet();
   const TriangleSoup solid = moved(sphere(500), {5, 5, 5});
