@@ -5,8 +5,7 @@
 // - Triangles whose corners are moved together, corner_offsets.h, make a wall of one piece: the
 //   walls of triangles, which are upright each, less the sides that two of them have in common.
 // - Where that would turn some over, as the sheet is curved more than the wall is thick, they go
-// less
-//   far there, and what lies in a plane has a wall of its own, too, that stands upright on it:
+//   less far there, and what lies in a plane has a wall of its own, too, that stands upright on it:
 //   own_walls.h.
 // - Where the walls of neighbours do not end in the same four points, a convex piece goes around
 //   their edge: fold_walls.h.
