@@ -82,9 +82,8 @@ std::optional<std::pair<double, bool>> length_in(std::string word) {
 
 // For CLI11: an empty text where the word is a length.
 std::string why_no_length(const std::string& word) {
-  return length_in(word)
-             ? std::string()
-             : word + " is no length: a number above 0, or one with a % behind it";
+  return length_in(word) ? std::string()
+                         : word + " is no length: a number above 0, or one with a % behind it";
 }
 
 // For CLI11: an empty text where the word is a tolerance.
