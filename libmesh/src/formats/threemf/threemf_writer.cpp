@@ -193,7 +193,8 @@ class ModelWriter {
     std::vector<const KeptObject*> objects(scene.meshes.size());
     if (graph != nullptr) {
       for (const KeptObject& object : graph->objects) {
-        if (object.mesh < objects.size() && object.components.empty()) objects[object.mesh] = &object;
+        if (object.mesh < objects.size() && object.components.empty())
+          objects[object.mesh] = &object;
       }
     }
     std::vector<std::uint32_t> ids;  // of meshes
