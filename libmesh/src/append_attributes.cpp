@@ -14,7 +14,7 @@ bool same_look(const Attributes& all, const Material& a, const Material& b) {
   if (a.texture_set != b.texture_set || a.transform != b.transform) return false;
   const Image &first = all.images[a.image], &second = all.images[b.image];
   if (first.bytes && second.bytes) return *first.bytes == *second.bytes;
-  return !first.bytes && !second.bytes && first.path == second.path;
+  return !first.bytes && !second.bytes && first.path == second.path && first.name == second.name;
 }
 
 void append_corners(CornerAttribute& to, CornerAttribute from) {

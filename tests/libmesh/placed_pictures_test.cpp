@@ -96,6 +96,19 @@ TEST(PlacedPictures, AreScaledThenTurnedThenMoved) {
   }
 }
 
+// Also where the format does not hold the set that the picture lies by.
+TEST(PlacedPictures, AreWhatAFormatWithOneSetHolds) {
+  Pictured mesh;
+  mesh.attributes.looks[0].texture_set = mesh.attributes.looks[1].texture_set = 1;
+  for (const SoupFormat format : {SoupFormat::obj, SoupFormat::threemf}) {
+    const Attributes held = held_by(format, mesh.attributes);
+    ASSERT_EQ(held.corners.size(), 1u);
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_EQ(place_at(held, k)[0], place_at(mesh.attributes, k)[0] + 0.5);
+    }
+  }
+}
+
 TEST(PlacedPictures, LieAsTheyDidInEveryFormatThatHoldsThem) {
   Pictured mesh;
   mesh.attributes.looks[0].transform = {.offset = {0.5, 0.25}, .scale = {2, 3}, .rotation = 1};

@@ -1,8 +1,13 @@
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <unordered_set>
 #include <utility>
 
+#include <mesh/placed_pictures.h>
 #include <mesh/soup_io.h>
+
+#include "formats/obj/obj_io.h"
 
 namespace meshrepair {
 namespace {
@@ -59,6 +64,13 @@ bool holds(const Held& held, const CornerAttribute& attribute, std::size_t& text
 
 Attributes held_by(SoupFormat format, Attributes attributes) {
   const Held held = held_by(format);
+  // Before sets go that pictures may lie by.
+  if (held.materials && held.textures == 1) {
+    auto placed = with_placed_pictures(attributes, format == SoupFormat::obj
+                                                       ? library_materials(attributes)
+                                                       : std::unordered_set<std::string>());
+    if (placed) attributes = std::move(*placed);
+  }
   std::size_t textures = 0;
   std::erase_if(attributes.corners, [&](const CornerAttribute& attribute) {
     return !holds(held, attribute, textures);
