@@ -166,7 +166,7 @@ std::vector<std::uint32_t> add_materials(Attributes& all, const Attributes& othe
   TriangleLabels renamed;
   renamed.names = new_names;
   if (has_looks) all.looks.resize(all.materials.names.size());
-  const std::vector<std::uint32_t> number_of = add_names(all.materials, renamed);
+  std::vector<std::uint32_t> number_of = add_names(all.materials, renamed);
   if (!has_looks) return number_of;
   const std::size_t before = all.looks.size();
   all.looks.resize(all.materials.names.size());
