@@ -308,7 +308,7 @@ TEST(GltfOddFile, LooksThatAreBrokenRefuseOnlyThoseWhoWantThem) {
 
 TEST(GltfOddFile, EachPointHasOneValueOfAnAttribute) {
   for (const std::string name : {"TEXCOORD_0", "COLOR_0", "NORMAL", "_OTHER"}) {
-    for (const std::size_t count : {2, 4}) {
+    for (const std::size_t count : {std::size_t{2}, std::size_t{4}}) {
       const std::string bytes = changed([&](GltfMaker& maker) {
         maker.root["meshes"][0]["primitives"][0]["attributes"][name] =
             maker.add_accessor<float>(std::vector<float>(3 * count, 0.5f), "VEC3");
