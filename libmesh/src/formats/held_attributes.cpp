@@ -1,7 +1,7 @@
+#include "held_attributes.h"
+
 #include <algorithm>
 #include <limits>
-#include <string>
-#include <unordered_set>
 #include <utility>
 
 #include <mesh/placed_pictures.h>
@@ -62,14 +62,17 @@ bool holds(const Held& held, const CornerAttribute& attribute, std::size_t& text
 
 }  // namespace
 
+std::optional<Attributes> placed_for(SoupFormat format, const Attributes& attributes) {
+  if (format == SoupFormat::glb || format == SoupFormat::gltf) return std::nullopt;
+  if (format != SoupFormat::obj) return with_placed_pictures(attributes);
+  return with_placed_pictures(attributes, library_materials(attributes));
+}
+
 Attributes held_by(SoupFormat format, Attributes attributes) {
   const Held held = held_by(format);
   // Before sets go that pictures may lie by.
   if (held.materials && held.textures == 1) {
-    auto placed = with_placed_pictures(attributes, format == SoupFormat::obj
-                                                       ? library_materials(attributes)
-                                                       : std::unordered_set<std::string>());
-    if (placed) attributes = std::move(*placed);
+    if (auto placed = placed_for(format, attributes)) attributes = std::move(*placed);
   }
   std::size_t textures = 0;
   std::erase_if(attributes.corners, [&](const CornerAttribute& attribute) {

@@ -7,7 +7,6 @@
 #include <base/error.h>
 #include <mesh/float32.h>
 #include <mesh/mesh_source.h>
-#include <mesh/placed_pictures.h>
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 
@@ -18,6 +17,7 @@
 #include "formats/ply/ply_io.h"
 #include "formats/stl/stl_io.h"
 #include "formats/threemf/threemf_io.h"
+#include "held_attributes.h"
 #include "mesh_readers.h"
 #include "opened_file.h"
 
@@ -71,11 +71,7 @@ class PlainExtras {
  public:
   PlainExtras(SoupFormat format, const SoupExtras& extras) : extras_(extras) {
     if (extras.attributes == nullptr) return;
-    if (format == SoupFormat::obj) {
-      placed_ = with_placed_pictures(*extras.attributes, library_materials(*extras.attributes));
-    } else if (format != SoupFormat::glb && format != SoupFormat::gltf) {
-      placed_ = with_placed_pictures(*extras.attributes);
-    }
+    placed_ = placed_for(format, *extras.attributes);
     if (placed_) extras_.attributes = &*placed_;
     const bool has_lines = format == SoupFormat::obj || holds_sources(format);
     if (has_lines) plain_ = with_plain_names(*extras_.attributes, format == SoupFormat::obj);

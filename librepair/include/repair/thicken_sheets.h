@@ -53,10 +53,10 @@ struct SheetWalls {
 //
 // Both sides of a wall are in the planes of the sheet's triangles, moved along their normals by
 // what `side` says of `thickness`, up to a share of kMostBeside. Where a sheet folds by less than
-// kLargestMiter, these planes are extended until they meet; around sharper folds the wall is round.
-// Where a sheet is curved more than its wall is thick, each triangle has a wall of its own. Rims
-// are closed by strips that stand on the sheet. Where sheets meet others along edges, `others` have
-// a flag, their walls are round.
+// 30 degrees, these planes are extended until they meet; around sharper folds the wall is round.
+// Where a sheet is curved more than its wall is thick, each plane has a wall of its own. Rims are
+// closed by strips that stand on the sheet; along an edge of triangles that are no sheet they are
+// round.
 //
 // n log n. Throws Cancelled.
 [[nodiscard]] SheetWalls thicken_sheets(const CleanSoup& soup, const std::vector<char>& is_sheet,

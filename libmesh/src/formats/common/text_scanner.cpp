@@ -56,6 +56,13 @@ bool looks_like_text(std::string_view bytes) {
   });
 }
 
+std::string_view without_blanks(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
 bool equals_ignoring_case(std::string_view token, std::string_view lower) {
   return std::equal(token.begin(), token.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return to_lower(a) == b; });

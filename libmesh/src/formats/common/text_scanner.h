@@ -17,6 +17,9 @@ namespace meshrepair {
 // No byte that text does not have, near the start.
 [[nodiscard]] bool looks_like_text(std::string_view bytes);
 
+// Without the blanks and line ends around it.
+[[nodiscard]] std::string_view without_blanks(std::string_view text);
+
 struct TextDialect {
   char comment = '\0';        // a token that begins with it ends the line; 0: there are no comments
   bool continuation = false;  // a backslash at the end of a line joins it to the next

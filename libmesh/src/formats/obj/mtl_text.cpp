@@ -8,13 +8,6 @@
 namespace meshrepair {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 std::optional<double> number_of(std::string_view word) {
   double value = 0;
   TextScanner text(word);
@@ -46,9 +39,9 @@ constexpr std::array<MapOption, 12> kOptions = {{{"-blendu", 1, false},
 }  // namespace
 
 MtlLine split_mtl_line(std::string_view text) {
-  text = trimmed(text);
+  text = without_blanks(text);
   const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-  return {text.substr(0, end), trimmed(text.substr(end))};
+  return {text.substr(0, end), without_blanks(text.substr(end))};
 }
 
 bool names_picture(std::string_view key) {

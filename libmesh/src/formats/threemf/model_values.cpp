@@ -8,16 +8,6 @@
 #include "formats/common/text_scanner.h"
 
 namespace meshrepair {
-namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-}  // namespace
 
 bool read_model_number(std::string_view text, double& value) {
   const std::string_view word = without_blanks(text);
