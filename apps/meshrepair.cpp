@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
       ->required();
   add_inside_options(app, options.repair.inside);
   add_sew_option(app, options.repair.sew);
+  add_seal_option(app, options.repair.seal);
   add_holes_option(app, options.repair.holes);
   const CLI::Option& max_hole = add_max_hole_option(app, options.repair.holes);
   add_thicken_options(app, max_hole, options.repair.thicken);

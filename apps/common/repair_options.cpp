@@ -136,6 +136,24 @@ void add_sew_option(CLI::App& app, SewOptions& sew) {
       ->group("Repair");
 }
 
+void add_seal_option(CLI::App& app, SealOptions& seal) {
+  app.add_option_function<std::string>(
+         "--seal",
+         [&seal](const std::string& word) {
+           seal.automatic = word == "auto";
+           std::tie(seal.size, seal.is_share) = length_in(word).value_or(std::pair(0.0, false));
+         },
+         "Close openings that a ball of this diameter cannot pass, and fill what is behind:\n"
+         "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
+         "auto: those of the narrowest opening that leads into a far wider space")
+      ->check([](const std::string& word) {
+        return word == "auto" || word == "none" ? std::string() : why_no_length(word);
+      })
+      ->type_name("auto|none|X|X%")
+      ->default_str("none")
+      ->group("Repair");
+}
+
 void add_holes_option(CLI::App& app, HoleOptions& holes) {
   add_choice(
       app, "--holes", kHoleModes, [&holes](HoleMode value) { holes.mode = value; },

@@ -20,6 +20,8 @@ void add_inside_options(CLI::App& app, InsideOptions& inside);
 
 // --sew: how far open edges may be apart that belong together; automatic unless given.
 void add_sew_option(CLI::App& app, SewOptions& sew);
+// --seal: openings that a ball cannot pass.
+void add_seal_option(CLI::App& app, SealOptions& seal);
 // --holes: how gaps are closed.
 void add_holes_option(CLI::App& app, HoleOptions& holes);
 // --max-hole: how large a patch may be.

@@ -130,6 +130,16 @@ Json section_of(const HoleReport& holes) {
           {"longest_loop", holes.longest_loop}};
 }
 
+Json section_of(const SealReport& seal) {
+  return {{"automatic", seal.automatic},
+          {"size", seal.size},
+          {"step", seal.step},
+          {"openings", seal.openings},
+          {"patches_area", seal.patches_area},
+          {"filled_volume", seal.filled_volume},
+          {"leaks", seal.leaks}};
+}
+
 Json section_of(const ThickenReport& thicken) {
   return {{"thickness", thicken.thickness},
           {"side", thicken_side_name(thicken.side)},
@@ -318,6 +328,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "sew")) report.set_section("sew", section_of(repair.sew));
   if (has("tree") || was_begun(repair, "arrange"))
     report.set_section("holes", section_of(repair.holes));
+  if (was_begun(repair, "seal")) report.set_section("seal", section_of(repair.seal));
   if (repair.thicken.triangles > 0) report.set_section("thicken", section_of(repair.thicken));
   if (was_begun(repair, "tree")) report.set_section("tree", section_of(repair.tree));
   if (was_begun(repair, "orient")) report.set_section("orient", section_of(repair.orient));

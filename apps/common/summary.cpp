@@ -193,6 +193,25 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
   lines.add("closed", texts);
 }
 
+void describe_seals(const SealReport& seal, Lines& lines) {
+  if (seal.size <= 0 && !seal.automatic) return;
+  std::vector<std::string> texts;
+  if (seal.size <= 0) {
+    texts.emplace_back("nothing: no narrow opening leads into a far wider space");
+  } else if (seal.openings > 0) {
+    texts.push_back(fmt::format("{} below {:.6g}, volume {:.6g} behind",
+                                number_of(seal.openings, "opening"), seal.size,
+                                seal.filled_volume));
+  } else if (seal.leaks == 0) {
+    texts.push_back(fmt::format("nothing: no opening below {:.6g} leads into a space", seal.size));
+  }
+  if (seal.leaks > 0) {
+    texts.push_back(fmt::format("not {}: another way leads in, narrower than {:.3g}",
+                                number_of(seal.leaks, "space"), seal.step));
+  }
+  lines.add("sealed", texts);
+}
+
 void describe_walls(const ThickenReport& thicken, Lines& lines) {
   if (thicken.triangles == 0) return;
   std::vector<std::string> texts = {fmt::format(
@@ -350,6 +369,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   describe_input(findings, lines);
   describe_sewing(findings.repair.sew, lines);
   describe_holes(findings.repair, lines);
+  describe_seals(findings.repair.seal, lines);
   describe_walls(findings.repair.thicken, lines);
   describe_predicates(findings.repair, lines);
   if (findings.repair.inside.solid_cells > 0 || findings.repair.spared_cells) {

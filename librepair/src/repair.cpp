@@ -31,6 +31,7 @@
 #include "cells/covered_cells.h"
 #include "prepare/prepare.h"
 #include "sew/moved_corners.h"
+#include "seal/seal_solid.h"
 #include "solid/find_solid.h"
 #include "surface/make_surface.h"
 #include "tangles/cut_tangles.h"
@@ -127,13 +128,13 @@ Surface repair_with_walls(const TriangleSoup& soup, const RepairOptions& options
     why_none = error;
   }
   job.meter.begin("thicken");
-  const internal::WalledSoup walled = internal::add_walls(job.clean, solids, options, report);
+  const internal::SecondSoup walled = internal::add_walls(job.clean, solids, options, report);
   job.meter.end();
   if (walled.empty() && !solids) throw NoSolidError(*why_none);
   if (walled.empty()) return std::move(*solids);
   RepairReport united;
   Surface surface =
-      repair_solids(walled.soup, internal::options_for_walls(walled, options), united);
+      repair_solids(walled.soup, internal::options_for_second(walled, options), united);
   internal::finish_walls(job.clean, walled, std::move(united), surface, report);
   return surface;
 }
@@ -163,6 +164,9 @@ void require_labels(const Tree& tree) {
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   Surface surface = options.thicken.wanted() ? repair_with_walls(soup, options, report)
                                              : repair_solids(soup, options, report);
+  if (options.seal.wanted()) {
+    surface = internal::seal_solid(soup, std::move(surface), options, report);
+  }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
   return surface;
 }

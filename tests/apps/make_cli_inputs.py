@@ -83,6 +83,20 @@ def scene() -> bytes:
     return f"o open\n{first}o whole\n{second}o sheet\n{sheet}".encode()
 
 
+def mug() -> bytes:
+    """A solid with a wall of 0.1 around a hollow that is 1.8 wide and 1.9 deep."""
+    sides = 24
+    profile = [(0, 0), (1, 0), (1, 2), (0.9, 2), (0.9, 0.1), (0, 0.1)]
+    angles = [2 * math.pi * i / sides for i in range(sides)]
+    points = [(r * math.cos(a), r * math.sin(a), z) for r, z in profile for a in angles]
+    lines = ["v %r %r %r" % point for point in points]
+    for k in range(len(profile) - 1):
+        for i in range(sides):
+            a, b = k * sides + i + 1, k * sides + (i + 1) % sides + 1
+            lines += [f"f {a} {a + sides} {b + sides} {b}"]
+    return "\n".join(lines + [""]).encode()
+
+
 def textured_boxes():
     """OBJ text: two boxes that overlap, each with a picture on all sides and a material of its own."""
     text = b"mtllib textured.mtl\n"
@@ -238,6 +252,7 @@ def main():
         "painted_too.gltf": painted_tetrahedron(0.25, 0.5),
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
+        "mug.obj": mug(),
         "coloured_sides.stl": coloured_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
         "grain.png": png(),

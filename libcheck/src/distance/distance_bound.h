@@ -7,7 +7,7 @@
 
 #include <base/progress.h>
 
-#include "nearest_triangle.h"
+#include <check/nearest_triangle.h>
 
 namespace meshrepair::internal {
 

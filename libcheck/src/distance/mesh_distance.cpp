@@ -22,7 +22,7 @@
 #include <check/mesh_distance.h>
 
 #include "distance_bound.h"
-#include "nearest_triangle.h"
+#include <check/nearest_triangle.h>
 
 namespace meshrepair {
 namespace {

@@ -1,4 +1,4 @@
-#include "nearest_triangle.h"
+#include <check/nearest_triangle.h>
 
 #include <algorithm>
 

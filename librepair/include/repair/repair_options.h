@@ -12,6 +12,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/seal_openings.h>
 #include <repair/sew_soup.h>
 #include <repair/thicken_sheets.h>
 
@@ -29,6 +30,7 @@ struct RepairOptions {
   std::vector<float> opacity;
   SewOptions sew;
   HoleOptions holes;
+  SealOptions seal;
   // Open sheets, which enclose nothing: what of them is to become walls. What `holes` leaves open
   // is a sheet then, unless it is to be extended.
   ThickenOptions thicken;

@@ -20,6 +20,7 @@
 #include <repair/inside_rule.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
+#include <repair/seal_openings.h>
 #include <repair/sew_soup.h>
 #include <repair/thicken_sheets.h>
 #include <repair/thin_cells.h>
@@ -37,6 +38,7 @@ struct RepairReport {
   double input_area = 0;  // of the clean soup, in the input's units, squared
   SewReport sew;
   HoleReport holes;
+  SealReport seal;
   ThickenReport thicken;
   BuildTreeReport tree;
   Predicates predicates = Predicates::exact;  // and, if they are not exact, their epsilon

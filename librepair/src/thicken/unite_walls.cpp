@@ -4,15 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include <base/error.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
-#include <mesh/weld_points.h>
 
 #include "find_sheets.h"
 #include "report/describe_result.h"
@@ -62,26 +59,6 @@ double thickness_of(const CleanSoup& soup, const RepairOptions& options) {
   return thickness;
 }
 
-void append_walls(SheetWalls walls, WalledSoup& walled) {
-  const auto base = static_cast<std::uint32_t>(walled.soup.points.size());
-  std::vector<Vec3d>& points = walled.soup.points;
-  points.insert(points.end(), walls.soup.points.begin(), walls.soup.points.end());
-  for (const auto& [a, b, c] : walls.soup.triangles) {
-    walled.soup.triangles.push_back({a + base, b + base, c + base});
-  }
-  walled.source.insert(walled.source.end(), walls.source.begin(), walls.source.end());
-  walled.input_point.resize(points.size(), 0);
-}
-
-// On one side of a sheet its own points may be those of the wall, which counts for nothing.
-void set_input_points(const WalledSoup& walled, Surface& surface) {
-  const std::vector<std::uint32_t> place = first_in_place(walled.soup.points, surface.mesh.points);
-  for (std::size_t p = 0; p < place.size(); ++p) {
-    const bool is_given = place[p] < walled.input_point.size() && walled.input_point[place[p]] != 0;
-    if (!is_given) surface.input_point[p] = 0;
-  }
-}
-
 }  // namespace
 
 RepairOptions options_for_sheets(const RepairOptions& options) {
@@ -94,7 +71,7 @@ RepairOptions options_for_sheets(const RepairOptions& options) {
   return first;
 }
 
-WalledSoup add_walls(const CleanSoup& soup, const std::optional<Surface>& solids,
+SecondSoup add_walls(const CleanSoup& soup, const std::optional<Surface>& solids,
                      const RepairOptions& options, RepairReport& report) {
   std::vector<std::uint8_t> places = std::move(report.parts.places);
   if (!solids) places.assign(soup.triangles.size(), kOutside);
@@ -107,54 +84,17 @@ WalledSoup add_walls(const CleanSoup& soup, const std::optional<Surface>& solids
     if (is_sheet[t] != 0) places[t] = kOnBoundary;
   }
   report.parts = find_part_fates(soup, places);
-  WalledSoup walled;
-  if (solids) {
-    walled = {solids->mesh, solids->source, solids->input_point};
-    report.thicken.solid_volume = report.output_volume;
-  }
-  append_walls(std::move(walls), walled);
+  if (solids) report.thicken.solid_volume = report.output_volume;
+  SecondSoup walled = solids ? SecondSoup(*solids) : SecondSoup();
+  walled.append(walls.soup, walls.source);
   return walled;
 }
 
-RepairOptions options_for_walls(const WalledSoup& walled, const RepairOptions& options) {
-  RepairOptions second = options;
-  second.thicken = {};
-  second.sew.mode = SewMode::none;
-  second.holes.mode = HoleMode::none;
-  second.inside.rule = InsideRule::winding;
-  second.opacity.clear();
-  second.examine = nullptr;
-  second.keep_valid = true;
-  if (options.reach.empty()) return second;
-  second.reach.clear();
-  for (const std::uint32_t source : walled.source) {
-    second.reach.push_back(source == Surface::kNoSource ? std::numeric_limits<double>::infinity()
-                                                        : options.reach[source]);
-  }
-  return second;
-}
-
-void finish_walls(const CleanSoup& soup, const WalledSoup& walled, RepairReport united,
+void finish_walls(const CleanSoup& soup, const SecondSoup& walled, RepairReport united,
                   Surface& surface, RepairReport& report) {
-  for (std::uint32_t& source : surface.source) {
-    if (source != Surface::kNoSource) source = walled.source[source];
-  }
-  set_input_points(walled, surface);
+  refer_to_first(walled, surface);
   if (report.thicken.solid_volume == 0) report.inside = united.inside;
-  report.kept_valid = false;
-  report.spared_cells = false;
-  report.predicates = united.predicates;
-  report.epsilon = united.epsilon;
-  report.extract = united.extract;
-  report.thin_cells = united.thin_cells;
-  report.precision = united.precision;
-  report.slits_area = united.slits_area;
-  report.fins_area = united.fins_area;
-  report.crumbs += united.crumbs;
-  report.simplify = united.simplify;
-  report.certify = united.certify;
-  report.stages.insert(report.stages.end(), std::make_move_iterator(united.stages.begin()),
-                       std::make_move_iterator(united.stages.end()));
+  append_report(std::move(united), report);
   describe_result(soup, surface, report);
 }
 

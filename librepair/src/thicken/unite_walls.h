@@ -1,15 +1,14 @@
 // From what a repair left of a soup to the same with walls for its sheets.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include <bsp/clean_soup.h>
 #include <extract/surface.h>
-#include <mesh/soup.h>
 #include <repair/repair_options.h>
 #include <repair/repair_report.h>
+
+#include "again/second_repair.h"
 
 namespace meshrepair::internal {
 
@@ -17,28 +16,16 @@ namespace meshrepair::internal {
 // the thickness is none.
 [[nodiscard]] RepairOptions options_for_sheets(const RepairOptions& options);
 
-// What is to be united: closed surfaces, of which that is solid what they wind around.
-struct WalledSoup {
-  TriangleSoup soup;
-  std::vector<std::uint32_t> source;  // of each triangle, as Surface::source
-  std::vector<char> input_point;      // of each point, as Surface::input_point
-
-  [[nodiscard]] bool empty() const { return source.empty(); }
-};
-
-// `soup` is what was repaired, and `solids` came of that, if anything is solid. Empty if it has no
+// What is to be united: closed surfaces, of which that is solid what they wind around. `soup` is
+// what was repaired, and `solids` came of that, if anything is solid. Empty if it has no
 // sheets. Sets what the report says about parts and walls. Throws UsageError where walls are
 // thinner than numbers tell, or thicker.
-[[nodiscard]] WalledSoup add_walls(const CleanSoup& soup, const std::optional<Surface>& solids,
+[[nodiscard]] SecondSoup add_walls(const CleanSoup& soup, const std::optional<Surface>& solids,
                                    const RepairOptions& options, RepairReport& report);
-
-// For the repair that unites them.
-[[nodiscard]] RepairOptions options_for_walls(const WalledSoup& walled,
-                                              const RepairOptions& options);
 
 // Brings the surface that this gave, and its report, back to the soup that was given. `report` says
 // what was found in that, and becomes the report of the whole.
-void finish_walls(const CleanSoup& soup, const WalledSoup& walled, RepairReport united,
+void finish_walls(const CleanSoup& soup, const SecondSoup& walled, RepairReport united,
                   Surface& surface, RepairReport& report);
 
 // Where nothing is solid, a thickness for walls that fits the mesh: ThickenReport::fitting.

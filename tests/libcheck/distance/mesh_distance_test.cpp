@@ -7,7 +7,7 @@
 #include <base/parallel.h>
 #include <check/mesh_distance.h>
 
-#include "distance/nearest_triangle.h"
+#include <check/nearest_triangle.h>
 #include "shapes.h"
 
 namespace meshrepair {

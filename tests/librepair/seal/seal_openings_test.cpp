@@ -1,0 +1,233 @@
+// Openings that a ball cannot pass are closed, others are not.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <base/error.h>
+#include <mesh/topology.h>
+#include <mesh/triangle_measures.h>
+#include <repair/repair.h>
+#include <repair/seal_openings.h>
+
+#include "random_geometry.h"
+#include "revolved.h"
+#include "shapes.h"
+#include "share_of_cases.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+constexpr double kBall = 4 * std::numbers::pi / 3;
+
+RepairResult sealed(const TriangleSoup& soup, double size) {
+  RepairOptions options;
+  options.keep_valid = true;
+  options.seal = {.size = size, .most_cubes = std::size_t{1} << 20};
+  return repair(soup, options);
+}
+
+// Inner diameters of 1.8 and 0.56; a cup that is not as deep as wide.
+const Profile kMug = {{0, 0}, {1, 0}, {1, 2}, {0.9, 2}, {0.9, 0.1}, {0, 0.1}};
+const Profile kBottle = {{0, 0},      {1, 0},       {1, 2},       {0.35, 2.6}, {0.35, 3.2},
+                         {0.28, 3.2}, {0.28, 2.55}, {0.92, 1.95}, {0.92, 0.1}, {0, 0.1}};
+const Profile kDish = {{0, 0}, {1, 0}, {1, 0.5}, {0.9, 0.5}, {0.9, 0.1}, {0, 0.1}};
+
+std::set<std::array<double, 9>> triangles_at(const TriangleSoup& soup) {
+  std::set<std::array<double, 9>> all;
+  for (const auto& t : soup.triangles) {
+    std::array<double, 9> at{};
+    // From the corner that comes first, so that it does not matter which one the list begins with.
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      const Vec3d &a = soup.points[t[k]], &b = soup.points[t[first]];
+      if (std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end())) first = k;
+    }
+    for (std::size_t i = 0; i < 9; ++i) {
+      at[i] = soup.points[t[(first + i / 3) % 3]][static_cast<Eigen::Index>(i % 3)];
+    }
+    all.insert(at);
+  }
+  return all;
+}
+
+TEST(SealOpenings, APinholeMakesAFullBall) {
+  for (const double hole : {0.06, 0.1}) {
+    const TriangleSoup shell = pierced_shell(hole, 0.1, 64);
+    const RepairResult result = sealed(shell, 3 * hole);
+    EXPECT_TRUE(result.report.certify.passed());
+    EXPECT_EQ(result.report.seal.openings, 1u);
+    EXPECT_NEAR(signed_volume(result.surface.mesh) / kBall, 1, 0.005) << hole;
+    // Of the outer wall all is there but what is at the hole.
+    const auto given = triangles_at(shell), made = triangles_at(result.surface.mesh);
+    std::size_t outer = 0, kept = 0;
+    for (const auto& t : given) {
+      const bool is_outer = std::hypot(t[0], t[1], t[2]) > 0.999 &&
+                            std::hypot(t[3], t[4], t[5]) > 0.999 &&
+                            std::hypot(t[6], t[7], t[8]) > 0.999;
+      outer += is_outer ? 1 : 0;
+      kept += is_outer && made.contains(t) ? 1 : 0;
+    }
+    EXPECT_EQ(kept, outer) << hole;
+  }
+}
+
+TEST(SealOpenings, WhatABallPassesStaysAsItIs) {
+  for (const double hole : {0.2}) {
+    const TriangleSoup shell = pierced_shell(hole, 0.1, 64);
+    const RepairResult result = sealed(shell, 1.5 * hole);
+    EXPECT_EQ(result.report.seal.openings, 0u);
+    EXPECT_EQ(result.surface.mesh.triangles, shell.triangles);
+  }
+}
+
+TEST(SealOpenings, VesselsAreFilledWhenTheirMouthIsTooSmall) {
+  const TriangleSoup mug = revolved(kMug, 48), bottle = revolved(kBottle, 48);
+  EXPECT_EQ(sealed(mug, 1.7).report.seal.openings, 0u);
+  EXPECT_EQ(sealed(bottle, 0.5).report.seal.openings, 0u);
+  for (const double size : {2.2, 3.0, 20.0}) {
+    const double volume = signed_volume(sealed(mug, size).surface.mesh);
+    EXPECT_GT(volume, 4) << size;
+    EXPECT_LT(volume, 2 * std::numbers::pi) << size;
+  }
+  for (const double size : {0.65, 4.0}) {
+    // Somewhere in the neck, which holds 0.15.
+    EXPECT_NEAR(signed_volume(sealed(bottle, size).surface.mesh), 7.33, 0.08) << size;
+  }
+}
+
+// Edges and corners, concave by 90 degrees, and a dish that is wider than deep.
+TEST(SealOpenings, FilletsAndDishesStay) {
+  TriangleSoup stairs = box({0, 0, 0}, {3, 3, 1});
+  append(stairs, box({0, 0, 0}, {3, 1, 2}));
+  append(stairs, box({0, 0, 0}, {1, 3, 3}));
+  const RepairResult united = sealed(stairs, 0);
+  for (const double size : {0.5, 2.0}) {
+    EXPECT_EQ(sealed(united.surface.mesh, size).report.seal.openings, 0u) << size;
+    EXPECT_EQ(sealed(revolved(kDish, 48), size).report.seal.openings, 0u) << size;
+  }
+}
+
+// Another place on the grid, the same decision.
+TEST(SealOpenings, TurningAShapeChangesNoDecision) {
+  Random random(5);
+  const TriangleSoup shell = pierced_shell(0.1, 0.1, 48), bottle = revolved(kBottle, 32),
+                     mug = revolved(kMug, 32);
+  const std::size_t turns = share_of_cases(4);
+  for (std::size_t i = 0; i < turns; ++i) {
+    const Eigen::Matrix3d turn = random_rotation(random);
+    const auto made = [&](const TriangleSoup& soup, double size) {
+      const RepairResult result = sealed(transformed(soup, turn), size);
+      EXPECT_TRUE(result.report.certify.passed());
+      EXPECT_EQ(result.report.seal.leaks, 0u);
+      return result;
+    };
+    EXPECT_NEAR(signed_volume(made(shell, 0.27).surface.mesh) / kBall, 1, 0.01);
+    EXPECT_EQ(made(shell, 0.15).report.seal.openings, 0u);
+    EXPECT_NEAR(signed_volume(made(bottle, 0.7).surface.mesh), 7.3, 0.15);
+    EXPECT_EQ(made(bottle, 0.48).report.seal.openings, 0u);
+    EXPECT_NEAR(signed_volume(made(mug, 1.95).surface.mesh), 4.7, 0.7);
+    EXPECT_EQ(made(mug, 1.6).report.seal.openings, 0u);
+  }
+}
+
+// Behind the front that cubes see, a wall may pass between their centres.
+TEST(SealOpenings, WallsAskewToTheGridLeakNothing) {
+  Random random(17);
+  const std::size_t cases = share_of_cases(6);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const double wall = random.real(0.02, 0.12), hole = random.real(0.05, 0.15);
+    const TriangleSoup shell = transformed(pierced_shell(hole, wall, 32), random_rotation(random));
+    const RepairResult result = sealed(shell, 2.6 * hole);
+    EXPECT_EQ(result.report.seal.leaks, 0u) << i;
+    EXPECT_EQ(result.report.output.parts, 1u) << i;
+    EXPECT_GT(signed_volume(result.surface.mesh), 0.97 * kBall) << i;
+  }
+}
+
+TEST(SealOpenings, WhatStaysKeepsItsSource) {
+  const TriangleSoup shell = pierced_shell(0.1, 0.1, 48);
+  const Surface surface = sealed(shell, 0.27).surface;
+  std::size_t whole = 0, patch = 0;
+  for (std::size_t t = 0; t < surface.source.size(); ++t) {
+    const std::uint32_t source = surface.source[t];
+    if (source == Surface::kNoSource) {
+      ++patch;
+      continue;
+    }
+    ASSERT_LT(source, shell.triangles.size());
+    const auto &made = surface.mesh.triangles[t], &given = shell.triangles[source];
+    const Vec3d& corner = surface.mesh.points[made[0]];
+    const bool is_same = std::any_of(given.begin(), given.end(),
+                                     [&](std::uint32_t p) { return shell.points[p] == corner; });
+    whole += is_same ? 1 : 0;
+  }
+  EXPECT_GT(whole, shell.triangles.size() / 3);
+  EXPECT_GT(patch, 0u);
+}
+
+TEST(SealOpenings, WhatIsSolidAlreadyIsKeptAsGiven) {
+  const RepairResult result = sealed(sphere(500), 0.3);
+  EXPECT_TRUE(result.report.kept_valid);
+  EXPECT_EQ(result.report.seal.openings, 0u);
+}
+
+TEST(SealOpenings, SeveralHolesAreClosedOneByOne) {
+  TriangleSoup two = pierced_shell(0.06, 0.1, 48);
+  append(two, moved(pierced_shell(0.15, 0.1, 48), {3, 0, 0}));
+  const RepairResult small = sealed(two, 0.2);
+  EXPECT_EQ(small.report.seal.openings, 1u);
+  const RepairResult both = sealed(two, 0.45);
+  EXPECT_EQ(both.report.seal.openings, 2u);
+  EXPECT_NEAR(signed_volume(both.surface.mesh) / kBall, 2, 0.02);
+}
+
+TEST(SealOpenings, OfASoupThatIsNoSolidYet) {
+  TriangleSoup shell = pierced_shell(0.05, 0.1, 48);
+  append(shell, moved(sphere(500, 0.3), {1, 0, 0}));
+  shell = with_some_flipped(std::move(shell), 0.1, 3);
+  const RepairResult result = sealed(shell, 0.15);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_GT(signed_volume(result.surface.mesh), 0.99 * kBall);
+}
+
+TEST(SealOpenings, NecksLeadIntoWiderSpaces) {
+  for (const double hole : {0.03, 0.1}) {
+    const std::vector<Neck> necks =
+        find_necks(pierced_shell(hole, 0.1, 48), kWorthSealing, 1 << 20);
+    ASSERT_GE(necks.size(), 1u) << hole;
+    EXPECT_LT(necks.front().width, 2 * hole) << hole;
+    EXPECT_GT(necks.front().width + necks.front().error, 1.99 * hole) << hole;
+    EXPECT_NEAR(necks.front().volume / (kBall * 0.729), 1, 0.1) << hole;
+  }
+  // A mouth as wide as what is behind it is none.
+  EXPECT_TRUE(find_necks(revolved(kMug, 48), kWorthSealing, 1 << 18).empty());
+  EXPECT_TRUE(find_necks(sphere(500), kWorthSealing, 1 << 18).empty());
+}
+
+TEST(SealOpenings, TheSizeMayBeFound) {
+  RepairOptions options;
+  options.keep_valid = true;
+  options.seal.automatic = true;
+  const RepairResult full = repair(pierced_shell(0.05, 0.1, 48), options);
+  EXPECT_EQ(full.report.seal.openings, 1u);
+  EXPECT_GT(full.report.seal.size, 0.1);
+  EXPECT_LT(full.report.seal.size, 0.25);
+  EXPECT_GT(signed_volume(full.surface.mesh), 0.98 * kBall);
+  const RepairResult mug = repair(revolved(kMug, 48), options);
+  EXPECT_EQ(mug.report.seal.openings, 0u);
+  EXPECT_EQ(mug.report.seal.size, 0);
+}
+
+TEST(SealOpenings, TooSmallASizeIsRefused) {
+  EXPECT_THROW((void)sealed(sphere(500), 1e-5), UsageError);
+}
+
+}  // namespace
+}  // namespace meshrepair
