@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include <base/progress.h>
-#include <mesh/soup.h>
+#include <extract/surface.h>
 
 namespace meshrepair {
 
@@ -18,15 +17,18 @@ namespace meshrepair {
 // fillets in concave edges of more than 55 degrees and in corners stay, and so do grooves and
 // dishes that are less deep than about two thirds of their width.
 //
-// Openings are found with a grid of cubes, 6 to 48 to the ball's diameter, as many as are cheap.
-// Those narrower than a cube may be missed; whether one is closed whose width differs by less than
-// a step from the diameter is a matter of where the grid lies. The patch is made of faces of cubes,
-// the smallest that part what is behind, at most two steps behind what the ball reaches. That they
-// do is decided exactly.
+// Openings are found with a grid of cubes, 6 to 48 to the ball's diameter, as many as are cheap: of
+// all space, or, where that takes too many, of the places where walls face each other less than
+// the diameter apart. Those narrower than a cube may be missed; whether one is closed whose width
+// differs by less than a step from the diameter is a matter of where the grid lies. The patch is
+// made of faces of cubes, the smallest that part what is behind, at most two steps behind what the
+// ball reaches. That they do is decided exactly.
 struct SealOptions {
   double size = 0;        // diameter of the ball, in the soup's unit; 0: nothing is sealed
   bool is_share = false;  // it is a share of the diagonal of the solid's bounding box instead
-  // The size is that of the narrowest neck that find_necks() finds; without one nothing is sealed.
+  // The size is the first of 1/1024, 1/512, ... 1/8 of the diagonal with which openings are closed
+  // that are small beside what they lead to, where that is worth it (kWorthSealing); nothing is
+  // sealed if there is none.
   bool automatic = false;
   // Of the grid. More than an eighth only where openings need it; where even 6 to the diameter are
   // more, the size is refused with a UsageError.
@@ -46,26 +48,12 @@ struct SealReport {
   std::size_t leaks = 0;
 };
 
-// An opening that leads into a space at least three times as wide.
-struct Neck {
-  double width = 0;   // of a ball that passes, in the soup's unit
-  double error = 0;   // how much larger the largest one may be
-  double volume = 0;  // of the space behind, and of those that only lead there, rounded to cubes
-};
-
-// Those of the boundary of a solid that hold at least `least_share` of its volume, the narrowest
-// first. Found with grids of cubes, of at most `most_cubes` each: openings narrower than two steps
-// of the finest are missed. Throws Cancelled.
-[[nodiscard]] std::vector<Neck> find_necks(const TriangleSoup& solid, double least_share,
-                                           std::size_t most_cubes = std::size_t{1} << 21,
-                                           ProgressObserver* progress = nullptr);
-
-// What find_necks() is asked for where a size to seal is wanted.
+// A smaller share of the solid's volume behind openings is no reason to close them unasked.
 inline constexpr double kWorthSealing = 0.01;
 
-// A size that surely closes the neck.
-[[nodiscard]] inline double size_to_seal(const Neck& neck) {
-  return 1.2 * (neck.width + neck.error);
-}
+// What SealOptions::automatic would close of a solid, size 0 if nothing. Throws Cancelled.
+[[nodiscard]] SealReport propose_seal(const Surface& solid,
+                                      std::size_t most_cubes = SealOptions().most_cubes,
+                                      ProgressObserver* progress = nullptr);
 
 }  // namespace meshrepair

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -66,11 +67,43 @@ void BallReach::visit_around(std::uint32_t cube, Visit visit) const {
   }
 }
 
+// Whether the ball gets from here straight to where the larger one is, as far as samples tell.
+// Within that it has room anyway.
+bool BallReach::gets_to_larger(std::uint32_t node, const NearestTriangle& nearest) const {
+  const std::uint32_t there = larger_->grid_.node_around(grid_.centre(node));
+  if (there == kNone || larger_->reached_[there] == 0) return false;
+  const Vec3d from = grid_.centre(node), to = larger_->grid_.centre(larger_->centre_of_[there]);
+  const double length = (to - from).norm();
+  const double narrow = length - (larger_->radius_ - radius_);
+  const double least = radius_ - kSlack * grid_.step();
+  std::uint32_t hint = 0;
+  for (double at = 0; at < narrow; at += grid_.step()) {
+    const Nearest found = nearest.find(from + at / length * (to - from), hint);
+    if (found.squared_distance < least * least) return false;
+    hint = found.triangle;
+  }
+  return true;
+}
+
 void BallReach::put_centres(ProgressObserver* progress) {
-  CancelCheck check(progress);
   reached_.assign(grid_.nodes(), 0);
-  std::vector<std::uint32_t> waiting = {grid_.outermost()};
-  reached_[waiting.front()] = 2;
+  if (larger_ == nullptr) {
+    spread_from(grid_.outermost(), progress);
+    return;
+  }
+  const NearestTriangle nearest(grid_.corners());
+  CancelCheck check(progress);
+  for (std::uint32_t c = 0; c < grid_.cubes(); ++c) {
+    check.tick();
+    if (reached_[c] != 0 || !is_open(c)) continue;
+    if (gets_to_larger(c, nearest)) spread_from(c, progress);
+  }
+}
+
+void BallReach::spread_from(std::uint32_t first, ProgressObserver* progress) {
+  CancelCheck check(progress);
+  std::vector<std::uint32_t> waiting = {first};
+  reached_[first] = 2;
   while (!waiting.empty()) {
     check.tick();
     const std::uint32_t node = waiting.back();
@@ -96,6 +129,8 @@ void BallReach::roll(ProgressObserver* progress) {
       queue.emplace(static_cast<float>(distance), next, from);
     });
   };
+  centre_of_.resize(grid_.nodes());
+  std::iota(centre_of_.begin(), centre_of_.end(), 0u);
   CancelCheck check(progress);
   for (std::uint32_t c = 0; c < grid_.cubes(); ++c) {
     check.tick();
@@ -107,6 +142,7 @@ void BallReach::roll(ProgressObserver* progress) {
     check.tick();
     if (reached_[cube] != 0) continue;
     reached_[cube] = 1;
+    centre_of_[cube] = from;
     push_around(cube, from);
   }
 }
@@ -175,7 +211,7 @@ bool BallReach::find_deep(const std::vector<std::uint32_t>& by_depth, ProgressOb
 
 bool BallReach::is_deep(std::uint32_t cube) const {
   const double least = std::max(kLeastDepth * grid_.step(), kDeep * grid_.clearance(cube));
-  return static_cast<double>(depth_[cube]) > least && !widens(cube);
+  return static_cast<double>(depth_[cube]) > least && grid_.is_amid(cube) && !widens(cube);
 }
 
 // Walls are farther away elsewhere around, by much, and not because it is farther in.
@@ -226,9 +262,13 @@ void BallReach::grow_back(ProgressObserver* progress) {
   }
 }
 
-bool BallReach::find(ProgressObserver* progress) {
+void BallReach::roll_around(ProgressObserver* progress) {
   put_centres(progress);
   roll(progress);
+}
+
+bool BallReach::find(ProgressObserver* progress) {
+  roll_around(progress);
   if (!find_deep(find_depths(progress), progress)) return false;
   grow_back(progress);
   return true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <check/nearest_triangle.h>
 #include <check/soup_rays.h>
 
 #include "space_grid.h"
@@ -14,10 +15,14 @@ namespace meshrepair::internal {
 
 class BallReach {
  public:
-  // Both outlive this.
-  BallReach(const SpaceGrid& grid, const SoupRays& rays, double radius)
-      : grid_(grid), rays_(rays), radius_(radius) {}
+  // A place that a larger ball comes to, this one comes to as well: `larger` tells where the ball
+  // is in a grid of narrow places. All outlive this.
+  BallReach(const SpaceGrid& grid, const SoupRays& rays, double radius,
+            const BallReach* larger = nullptr)
+      : grid_(grid), rays_(rays), radius_(radius), larger_(larger) {}
 
+  // Finds where the ball comes to; find() does so, too.
+  void roll_around(ProgressObserver* progress);
   // Finds what is to be closed: see seal_openings(). False if it is nothing.
   bool find(ProgressObserver* progress);
 
@@ -36,6 +41,8 @@ class BallReach {
 
  private:
   void put_centres(ProgressObserver* progress);
+  void spread_from(std::uint32_t first, ProgressObserver* progress);
+  [[nodiscard]] bool gets_to_larger(std::uint32_t node, const NearestTriangle& nearest) const;
   void roll(ProgressObserver* progress);
   std::vector<std::uint32_t> find_depths(ProgressObserver* progress);
   bool find_deep(const std::vector<std::uint32_t>& by_depth, ProgressObserver* progress);
@@ -50,8 +57,10 @@ class BallReach {
   const SpaceGrid& grid_;
   const SoupRays& rays_;
   double radius_;
+  const BallReach* larger_;
   std::vector<char> reached_;  // of each node: the ball's centre comes there (2), or the ball (1)
-  std::vector<float> depth_;   // of each cube that is not reached: the way from one that is
+  std::vector<std::uint32_t> centre_of_;  // of each node that is reached: a centre of the ball
+  std::vector<float> depth_;         // of each cube that is not reached: the way from one that is
   std::vector<std::uint32_t> deep_;  // cubes that are deep, or behind such
   // Of each cube, how much farther it is from these than they are from what is reached.
   std::vector<float> back_;

@@ -8,8 +8,11 @@
 #include <queue>
 #include <utility>
 
+#include <base/parallel.h>
 #include <check/box_tree.h>
 #include <check/nearest_triangle.h>
+
+#include "narrow_places.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -19,6 +22,9 @@ constexpr float kUnknown = std::numeric_limits<float>::infinity();
 // So far from a triangle, in steps, the distance is exact.
 constexpr double kExact = 1.5;
 
+// Some milliseconds of work.
+constexpr std::size_t kBricksPerTask = 16;
+
 Corners corners_of(const TriangleSoup& soup, std::uint32_t t) {
   const auto& c = soup.triangles[t];
   return {soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]};
@@ -26,8 +32,7 @@ Corners corners_of(const TriangleSoup& soup, std::uint32_t t) {
 
 }  // namespace
 
-SpaceGrid::SpaceGrid(const TriangleSoup& soup, double step, double reach,
-                     ProgressObserver* progress)
+SpaceGrid::SpaceGrid(const TriangleSoup& soup, double step, double reach)
     : soup_(&soup), step_(step), reach_(reach) {
   Box box;
   for (const auto& triangle : soup.triangles) {
@@ -35,30 +40,74 @@ SpaceGrid::SpaceGrid(const TriangleSoup& soup, double step, double reach,
   }
   // Two bricks around the reach: nothing is near the outermost one.
   const double margin = reach + 2 * kBrick * step;
-  std::size_t count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     low_[static_cast<Eigen::Index>(k)] = box.low[k] - margin;
     size_[k] = static_cast<std::int32_t>(
         std::ceil((box.high[k] - box.low[k] + 2 * margin) / (kBrick * step)));
-    count *= static_cast<std::size_t>(size_[k]);
   }
+}
+
+SpaceGrid::SpaceGrid(const TriangleSoup& soup, double step, double reach,
+                     ProgressObserver* progress)
+    : SpaceGrid(soup, step, reach) {
+  std::size_t count = 1;
+  for (const std::int32_t size : size_) count *= static_cast<std::size_t>(size);
   bricks_.assign(count, kNone);
   find_refined(progress);
 }
 
-std::size_t SpaceGrid::number_of(const Brick& brick) const {
-  std::size_t number = 0;
+std::optional<SpaceGrid> SpaceGrid::of_narrow_places(const TriangleSoup& soup, double step,
+                                                     double reach, double width,
+                                                     std::size_t most_cubes,
+                                                     ProgressObserver* progress) {
+  SpaceGrid grid(soup, step, reach);
+  const NarrowPlaces narrow(soup, grid.low_, kBrick * step, width, progress);
+  const std::optional<std::vector<CubePlace>> bricks = narrow.find(grid.size_, most_cubes / kCubes);
+  if (!bricks) return std::nullopt;
+  grid.refine_around(*bricks);
+  if (grid.cubes() > most_cubes) return std::nullopt;
+  return grid;
+}
+
+void SpaceGrid::refine_around(const std::vector<Brick>& narrow) {
+  for (const Brick& brick : narrow) {
+    for (std::int32_t i = 0; i < 27; ++i) {
+      const Brick at = {brick[0] + i % 3 - 1, brick[1] + i / 3 % 3 - 1, brick[2] + i / 9 - 1};
+      bool is_there = true;
+      for (std::size_t k = 0; k < 3; ++k) is_there = is_there && at[k] >= 0 && at[k] < size_[k];
+      if (is_there) refined_.push_back(number_of(at));
+    }
+  }
+  std::sort(refined_.begin(), refined_.end());
+  refined_.erase(std::unique(refined_.begin(), refined_.end()), refined_.end());
+  refined_of_ = HashIndex(refined_.size());
+  for (std::uint32_t b = 0; b < refined_.size(); ++b) {
+    (void)refined_of_.find_or_insert(hash_mix(0, refined_[b]), b,
+                                     [](std::uint32_t) { return false; });
+  }
+  is_narrow_.assign(refined_.size(), 0);
+  for (const Brick& brick : narrow) is_narrow_[refined_at(number_of(brick))] = 1;
+}
+
+std::uint32_t SpaceGrid::refined_at(std::uint64_t number) const {
+  if (is_whole()) return bricks_[number];
+  return refined_of_.find(hash_mix(0, number),
+                          [&](std::uint32_t b) { return refined_[b] == number; });
+}
+
+std::uint64_t SpaceGrid::number_of(const Brick& brick) const {
+  std::uint64_t number = 0;
   for (std::size_t k = 3; k-- > 0;) {
-    number = number * static_cast<std::size_t>(size_[k]) + static_cast<std::size_t>(brick[k]);
+    number = number * static_cast<std::uint64_t>(size_[k]) + static_cast<std::uint64_t>(brick[k]);
   }
   return number;
 }
 
-SpaceGrid::Brick SpaceGrid::brick_of(std::size_t number) const {
+SpaceGrid::Brick SpaceGrid::brick_of(std::uint64_t number) const {
   Brick brick{};
   for (std::size_t k = 0; k < 3; ++k) {
-    brick[k] = static_cast<std::int32_t>(number % static_cast<std::size_t>(size_[k]));
-    number /= static_cast<std::size_t>(size_[k]);
+    brick[k] = static_cast<std::int32_t>(number % static_cast<std::uint64_t>(size_[k]));
+    number /= static_cast<std::uint64_t>(size_[k]);
   }
   return brick;
 }
@@ -71,9 +120,19 @@ std::uint32_t SpaceGrid::node_at(const CubePlace& place) const {
     brick[k] = place[k] / kBrick;
     cube = cube * kBrick + static_cast<std::uint32_t>(place[k] % kBrick);
   }
-  const std::size_t number = number_of(brick);
-  const std::uint32_t refined = bricks_[number];
-  return refined == kNone ? static_cast<std::uint32_t>(cubes() + number) : kCubes * refined + cube;
+  const std::uint64_t number = number_of(brick);
+  const std::uint32_t refined = refined_at(number);
+  if (refined != kNone) return kCubes * refined + cube;
+  return is_whole() ? static_cast<std::uint32_t>(cubes() + number) : kNone;
+}
+
+std::uint32_t SpaceGrid::node_around(const Vec3d& point) const {
+  CubePlace place{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    place[k] = static_cast<std::int32_t>(std::floor((point[axis] - low_[axis]) / step_));
+  }
+  return node_at(place);
 }
 
 CubePlace SpaceGrid::place_of(std::uint32_t cube) const {
@@ -171,18 +230,46 @@ float SpaceGrid::squared_distance_to(std::uint32_t cube, std::uint32_t triangle)
 void SpaceGrid::measure(ProgressObserver* progress) {
   squared_.assign(cubes(), kUnknown);
   nearest_.assign(cubes(), kNone);
+  if (!is_whole()) {
+    measure_all(progress);
+    return;
+  }
   CancelCheck check(progress);
   for (std::uint32_t t = 0; t < soup_->triangles.size(); ++t) {
     check.tick();
-    visit_near(t, kExact * step_, 1, [&](const CubePlace& place) {
-      const std::uint32_t cube = node_at(place);
-      const float squared = squared_distance_to(cube, t);
-      if (squared >= squared_[cube]) return;
-      squared_[cube] = squared;
-      nearest_[cube] = t;
-    });
+    visit_near(t, kExact * step_, 1, [&](const CubePlace& place) { measure_from(place, t); });
   }
   propagate(progress);
+}
+
+std::vector<Corners> SpaceGrid::corners() const {
+  std::vector<Corners> triangles(soup_->triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) triangles[t] = corners_of(*soup_, t);
+  return triangles;
+}
+
+// What is nearest to a cube may lie where no cubes are: so all triangles are asked.
+void SpaceGrid::measure_all(ProgressObserver* progress) {
+  const NearestTriangle nearest(corners());
+  CancelCheck check(progress);
+  parallel_tasks(
+      refined_.size(), kBricksPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+        std::uint32_t hint = 0;
+        for (std::size_t c = kCubes * first; c < kCubes * last; ++c) {
+          const Nearest found = nearest.find(centre(static_cast<std::uint32_t>(c)), hint);
+          squared_[c] = static_cast<float>(found.squared_distance);
+          hint = found.triangle;
+        }
+      });
+  check.ask();
+}
+
+void SpaceGrid::measure_from(const CubePlace& place, std::uint32_t triangle) {
+  const std::uint32_t cube = node_at(place);
+  const float squared = squared_distance_to(cube, triangle);
+  if (squared >= squared_[cube]) return;
+  squared_[cube] = squared;
+  nearest_[cube] = triangle;
 }
 
 // From near to far, as Dijkstra's algorithm does.

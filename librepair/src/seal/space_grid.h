@@ -1,16 +1,20 @@
 // Space around a surface as equal cubes, as far as they are near it.
 //
 // Cubes are made in bricks of 8 x 8 x 8, and only those bricks that come near a triangle. All
-// others are far from all triangles, and each of them is one node.
+// others are far from all triangles, and each of them is one node. A grid of narrow places has the
+// bricks around these alone, and knows of no others.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include <base/hash_index.h>
 #include <base/ids.h>
 #include <base/progress.h>
+#include <check/nearest_triangle.h>
 #include <check/soup_rays.h>
 #include <mesh/soup.h>
 
@@ -27,6 +31,14 @@ class SpaceGrid {
   // this. Nothing is known yet of how far cubes are from triangles: see measure().
   SpaceGrid(const TriangleSoup& soup, double step, double reach, ProgressObserver* progress);
 
+  // The same around places where triangles that face each other are less than `width` apart; twice
+  // `reach` is more than that. Nothing where that takes more cubes than `most_cubes`.
+  [[nodiscard]] static std::optional<SpaceGrid> of_narrow_places(const TriangleSoup& soup,
+                                                                 double step, double reach,
+                                                                 double width,
+                                                                 std::size_t most_cubes,
+                                                                 ProgressObserver* progress);
+
   // How many cubes there are.
   [[nodiscard]] std::size_t cubes() const { return kCubes * refined_.size(); }
   // Finds the distances from the centres of all cubes to the nearest triangle: those of cubes that
@@ -35,11 +47,18 @@ class SpaceGrid {
 
   // A node is a cube or a far brick. Cubes come first.
   [[nodiscard]] std::size_t nodes() const { return cubes() + bricks_.size(); }
+  // All space is in nodes, and not narrow places alone.
+  [[nodiscard]] bool is_whole() const { return !bricks_.empty(); }
   [[nodiscard]] bool is_cube(std::uint32_t node) const { return node < cubes(); }
   // A brick in the corner of space, which nothing is near.
   [[nodiscard]] std::uint32_t outermost() const { return static_cast<std::uint32_t>(cubes()); }
+  // Whether there are cubes for all that is up to a brick away.
+  [[nodiscard]] bool is_amid(std::uint32_t cube) const {
+    return is_whole() || is_narrow_[cube / kCubes] != 0;
+  }
   // What the place lies in; kNone: beyond what there is.
   [[nodiscard]] std::uint32_t node_at(const CubePlace& place) const;
+  [[nodiscard]] std::uint32_t node_around(const Vec3d& point) const;
   [[nodiscard]] CubePlace place_of(std::uint32_t cube) const;
   [[nodiscard]] Vec3d centre(std::uint32_t node) const;
   // The corner of the cube at this place with the lowest coordinates.
@@ -47,6 +66,8 @@ class SpaceGrid {
   // Of the centre from the nearest triangle; infinite if it is beyond the reach.
   [[nodiscard]] double clearance(std::uint32_t node) const;
   [[nodiscard]] double step() const { return step_; }
+  // Of all triangles.
+  [[nodiscard]] std::vector<Corners> corners() const;
 
   // Calls visit(node) for all nodes that have a face in common with this one; some may come often.
   template <class Visit>
@@ -55,8 +76,14 @@ class SpaceGrid {
  private:
   using Brick = std::array<std::int32_t, 3>;
 
-  [[nodiscard]] std::size_t number_of(const Brick& brick) const;
-  [[nodiscard]] Brick brick_of(std::size_t number) const;
+  // Without bricks.
+  SpaceGrid(const TriangleSoup& soup, double step, double reach);
+  [[nodiscard]] std::uint32_t refined_at(std::uint64_t number) const;
+  void refine_around(const std::vector<Brick>& narrow);
+  void measure_all(ProgressObserver* progress);
+  void measure_from(const CubePlace& place, std::uint32_t triangle);
+  [[nodiscard]] std::uint64_t number_of(const Brick& brick) const;
+  [[nodiscard]] Brick brick_of(std::uint64_t number) const;
   // Calls visit_brick(brick) for bricks that the triangle is within the reach of.
   template <class Visit>
   void descend(std::uint32_t triangle, const CubePlace& low, std::int32_t side, double reach,
@@ -72,7 +99,9 @@ class SpaceGrid {
   Vec3d low_ = Vec3d::Zero();
   Brick size_ = {0, 0, 0};
   std::vector<std::uint32_t> bricks_;   // of each brick its place in refined_; kNone: it is far
-  std::vector<std::uint32_t> refined_;  // numbers of bricks, ascending
+  std::vector<std::uint64_t> refined_;  // numbers of bricks, ascending
+  HashIndex refined_of_{0};             // of narrow places: positions in refined_
+  std::vector<char> is_narrow_;         // of these
   std::vector<float> squared_;          // of each cube
   std::vector<std::uint32_t> nearest_;
 };

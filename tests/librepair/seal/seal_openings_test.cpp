@@ -197,18 +197,18 @@ TEST(SealOpenings, OfASoupThatIsNoSolidYet) {
   EXPECT_GT(signed_volume(result.surface.mesh), 0.99 * kBall);
 }
 
-TEST(SealOpenings, NecksLeadIntoWiderSpaces) {
-  for (const double hole : {0.03, 0.1}) {
-    const std::vector<Neck> necks =
-        find_necks(pierced_shell(hole, 0.1, 48), kWorthSealing, 1 << 20);
-    ASSERT_GE(necks.size(), 1u) << hole;
-    EXPECT_LT(necks.front().width, 2 * hole) << hole;
-    EXPECT_GT(necks.front().width + necks.front().error, 1.99 * hole) << hole;
-    EXPECT_NEAR(necks.front().volume / (kBall * 0.729), 1, 0.1) << hole;
+// Around narrow places alone, as all space would take too many cubes.
+TEST(SealOpenings, PinholesOfAThousandthAreClosed) {
+  for (const double hole : {0.001, 0.004, 0.02}) {
+    const TriangleSoup shell = pierced_shell(hole, 0.03, 64);
+    EXPECT_EQ(sealed(shell, 1.5 * hole).report.seal.openings, 0u) << hole;
+    for (const double size : {3 * hole, 5 * hole}) {
+      const RepairResult full = sealed(shell, size);
+      EXPECT_EQ(full.report.seal.openings, 1u) << hole;
+      EXPECT_EQ(full.report.seal.leaks, 0u) << hole;
+      EXPECT_NEAR(signed_volume(full.surface.mesh) / kBall, 1, 0.005) << hole;
+    }
   }
-  // A mouth as wide as what is behind it is none.
-  EXPECT_TRUE(find_necks(revolved(kMug, 48), kWorthSealing, 1 << 18).empty());
-  EXPECT_TRUE(find_necks(sphere(500), kWorthSealing, 1 << 18).empty());
 }
 
 TEST(SealOpenings, TheSizeMayBeFound) {
@@ -218,15 +218,17 @@ TEST(SealOpenings, TheSizeMayBeFound) {
   const RepairResult full = repair(pierced_shell(0.05, 0.1, 48), options);
   EXPECT_EQ(full.report.seal.openings, 1u);
   EXPECT_GT(full.report.seal.size, 0.1);
-  EXPECT_LT(full.report.seal.size, 0.25);
+  EXPECT_LT(full.report.seal.size, 0.3);
   EXPECT_GT(signed_volume(full.surface.mesh), 0.98 * kBall);
   const RepairResult mug = repair(revolved(kMug, 48), options);
   EXPECT_EQ(mug.report.seal.openings, 0u);
   EXPECT_EQ(mug.report.seal.size, 0);
 }
 
-TEST(SealOpenings, TooSmallASizeIsRefused) {
-  EXPECT_THROW((void)sealed(sphere(500), 1e-5), UsageError);
+TEST(SealOpenings, TooManyCubesAreRefused) {
+  RepairOptions options;
+  options.seal = {.size = 0.03, .most_cubes = 1 << 10};
+  EXPECT_THROW((void)repair(pierced_shell(0.01, 0.1, 48), options), UsageError);
 }
 
 }  // namespace
