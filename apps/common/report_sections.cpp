@@ -200,6 +200,9 @@ Json section_of(const InsideReport& inside) {
           {"turned_parts", inside.turned_parts},
           {"doubtful_parts", inside.doubtful_parts},
           {"cavity_walls", inside.cavity_walls},
+          {"poking_walls", inside.poking_walls},
+          {"poking_share", inside.poking_share},
+          {"other", inside.other == InsideRule::automatic ? Json() : Json(rule_name(inside.other))},
           {"left_out_folds", inside.left_out_folds},
           {"filled_voids", inside.filled_voids},
           {"solid_cells", inside.solid_cells}};

@@ -156,6 +156,16 @@ void describe_decision(const RepairReport& repair, Lines& lines) {
       fmt::format("decided by {}{}", rule_name(inside.used),
                   inside.asked == InsideRule::automatic ? ": " + inside.reason : ", as asked for")};
   if (!remarks.empty()) texts.push_back(joined(remarks));
+  if (inside.poking_walls > 0) {
+    texts.push_back(
+        fmt::format("{} that {} out of what is around, with up to {:.2g} % of the area",
+                    number_of(inside.poking_walls, "wall of a cavity", "walls of cavities"),
+                    inside.poking_walls == 1 ? "pokes" : "poke", 100 * inside.poking_share));
+  }
+  if (inside.other != InsideRule::automatic) {
+    texts.push_back(fmt::format("nearly as likely is the solid that --inside {} gives",
+                                rule_name(inside.other)));
+  }
   lines.add("inside", texts);
 }
 
