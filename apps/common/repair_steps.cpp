@@ -87,6 +87,13 @@ void warn_of_poking_walls(const Findings& findings) {
       findings.input_name(), 100 * inside.poking_share);
 }
 
+void warn_of_unknown_parts(const Findings& findings) {
+  const KeepPartsReport& keep = findings.repair.keep;
+  if (keep.done || !keep.asked) return;
+  spdlog::warn("{}: all parts stay, as a surface that is not closed does not tell solids apart",
+               findings.output_name());
+}
+
 // Where that is much: in single precision other numbers would have kept it.
 void warn_of_coarse_numbers(const Findings& findings) {
   const RepairReport& repair = findings.repair;
@@ -182,6 +189,7 @@ void warn_of_findings(const Findings& findings) {
   warn_of_lost_triangles(findings);
   warn_of_made_up_surface(findings);
   warn_of_poking_walls(findings);
+  warn_of_unknown_parts(findings);
   warn_of_coarse_numbers(findings);
 }
 

@@ -17,13 +17,14 @@
 // The last two make cells (cells/). The last three say what is solid (arrange/, tangles/, solid/),
 // by the rules of inside/. In surface/ the boundary is extracted, simplified and certified: attempt
 // by attempt (make_surface.cpp), each with rounds of repairing it again on coarser grids
-// (certify_surface.cpp).
+// (certify_surface.cpp). Last of all, solids that are not wanted go.
 #include <array>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <base/error.h>
+#include <repair/keep_parts.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
 
@@ -164,6 +165,11 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   Surface surface = options.thicken.wanted() ? repair_with_walls(soup, options, report)
                                              : repair_solids(soup, options, report);
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
+  if (options.keep.wanted()) {
+    StageMeter meter(report.stages, options.progress);
+    meter.begin("keep");
+    keep_parts(soup, surface, options.keep, report, options.progress);
+  }
   return surface;
 }
 

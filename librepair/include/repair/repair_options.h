@@ -12,6 +12,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/keep_parts.h>
 #include <repair/sew_soup.h>
 #include <repair/thicken_sheets.h>
 
@@ -35,6 +36,7 @@ struct RepairOptions {
   BuildTreeOptions tree;
   InsideOptions inside;
   ExtractOptions extract;
+  KeepPartsOptions keep;  // which solids of the result stay
   // How far the surface may move to have fewer triangles where it was cut, as a share of the
   // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
   double simplify = 0;

@@ -18,6 +18,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/keep_parts.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
 #include <repair/sew_soup.h>
@@ -61,6 +62,7 @@ struct RepairReport {
   std::size_t crumbs = 0;   // parts of cut pieces alone, thinner than a step of the grid: dropped
   SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;
+  KeepPartsReport keep;
   TriangleFates triangles;
   Topology output;
   double output_volume = 0;  // in the input's units, cubed

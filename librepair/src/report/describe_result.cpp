@@ -21,6 +21,10 @@ double closing_area(const Surface& surface) {
 
 void describe_result(const CleanSoup& input, const Surface& surface, RepairReport& report) {
   report.triangles = find_triangle_fates(input, report.parts, surface);
+  describe_output(surface, report);
+}
+
+void describe_output(const Surface& surface, RepairReport& report) {
   report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
   report.output_volume = signed_volume(surface.mesh);
   report.output_area = surface_area(surface.mesh);

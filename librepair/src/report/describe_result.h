@@ -11,4 +11,7 @@ namespace meshrepair::internal {
 // RepairReport::triangles and all of `output`. Pre: `parts` is known.
 void describe_result(const CleanSoup& input, const Surface& surface, RepairReport& report);
 
+// All of `output` alone.
+void describe_output(const Surface& surface, RepairReport& report);
+
 }  // namespace meshrepair::internal
