@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <repair/explain_repair.h>
 #include <repair/keep_parts.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
@@ -165,6 +166,7 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   Surface surface = options.thicken.wanted() ? repair_with_walls(soup, options, report)
                                              : repair_solids(soup, options, report);
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
+  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
   if (options.keep.wanted()) {
     StageMeter meter(report.stages, options.progress);
     meter.begin("keep");

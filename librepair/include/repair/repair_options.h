@@ -56,6 +56,8 @@ struct RepairOptions {
   // closing holes and turning parts makes one of it (valid_solid.h), unless another option asks for
   // more: the work for that is a small part of that of a repair.
   bool keep_valid = false;
+  // Fills RepairReport::explanation.
+  bool explain = false;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
   ProgressObserver* progress = nullptr;

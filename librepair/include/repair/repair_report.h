@@ -16,6 +16,7 @@
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <repair/certify.h>
+#include <repair/explain_repair.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
 #include <repair/keep_parts.h>
@@ -64,6 +65,7 @@ struct RepairReport {
   CertifyReport certify;
   KeepPartsReport keep;
   TriangleFates triangles;
+  RepairExplanation explanation;  // empty unless it is asked for
   Topology output;
   double output_volume = 0;  // in the input's units, cubed
   double output_area = 0;

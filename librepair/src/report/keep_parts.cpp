@@ -147,10 +147,21 @@ class PartKeeper {
     stays.reserve(found_.part_of.size());
     for (const std::uint32_t part : found_.part_of) stays.push_back(shells_[part].stays ? 1 : 0);
     forget_triangles(stays);
+    forget_origins(stays);
     keep_triangles(surface_, stays);
     internal::describe_output(surface_, report_);
     // Less is left than was given.
     if (std::exchange(report_.kept_valid, false)) report_.spared_cells = true;
+  }
+
+  void forget_origins(const std::vector<char>& stays) {
+    std::vector<TriangleOrigin>& origins = report_.explanation.origins;
+    if (origins.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < stays.size(); ++t) {
+      if (stays[t] != 0) origins[kept++] = origins[t];
+    }
+    origins.resize(kept);
   }
 
   // Of the input's triangles in the result, those that are in none of what stays.
@@ -167,7 +178,11 @@ class PartKeeper {
     TriangleFates& fates = report_.triangles;
     for (std::size_t t = 0; t < fate.size(); ++t) {
       std::size_t& count = whole[t] != 0 ? fates.untouched : fates.cut;
-      if (fate[t] == goes && count > 0) --count;
+      if (fate[t] != goes) continue;
+      if (count > 0) --count;
+      if (!report_.explanation.fates.empty()) {
+        report_.explanation.fates[t] = TriangleFate::left_out;
+      }
     }
   }
 
