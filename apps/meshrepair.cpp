@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
   add_holes_option(app, options.repair.holes);
   const CLI::Option& max_hole = add_max_hole_option(app, options.repair.holes);
   add_thicken_options(app, max_hole, options.repair.thicken);
+  add_keep_options(app, options.repair.keep);
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   add_scene_option(app, options.assets);

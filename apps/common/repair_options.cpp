@@ -71,6 +71,23 @@ std::string why_no_share(const std::string& word) {
   return is_number && value >= 0 ? std::string() : word + " is not a share: a number from 0 on";
 }
 
+// What --keep says; nothing where it is none of its words.
+std::optional<KeepPartsOptions> kept_by(const std::string& word) {
+  KeepPartsOptions keep;
+  if (word == "all") return keep;
+  keep.outer = word == "outer";
+  if (word == "largest") keep.most = 1;
+  if (keep.wanted()) return keep;
+  const bool is_count = CLI::detail::lexical_cast(word, keep.most) && word[0] != '-';
+  return is_count && keep.most > 0 ? std::optional(keep) : std::nullopt;
+}
+
+// For CLI11: an empty text where the word is one.
+std::string why_not_kept(const std::string& word) {
+  return kept_by(word) ? std::string()
+                       : word + " is none of all, outer, largest, and a number from 1 on";
+}
+
 // A length above 0, and whether it is a share; nothing where the word says none.
 std::optional<std::pair<double, bool>> length_in(std::string word) {
   const bool is_share = !word.empty() && word.back() == '%';
@@ -202,6 +219,39 @@ void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOpti
       "  outside  the wall is where its triangles face\n"
       "  inside   the wall is behind them\n")
       ->default_str("middle")
+      ->group("Repair");
+}
+
+void add_keep_options(CLI::App& app, KeepPartsOptions& keep) {
+  app.add_option_function<std::string>(
+         "--keep",
+         [&keep](const std::string& word) {
+           const KeepPartsOptions asked = *kept_by(word);
+           keep.outer = asked.outer;
+           keep.most = asked.most;
+         },
+         "Which solids of the result stay, each with its voids:\n"
+         "  all      all of them\n"
+         "  outer    those that lie in no void of another one\n"
+         "  largest  the one of most volume\n"
+         "  a number: so many, those of most volume")
+      ->check(why_not_kept)
+      ->type_name("NAME|N")
+      ->default_str("all")
+      ->group("Repair");
+  app.add_option("--min-part", keep.smallest_share,
+                 "Remove solids of less than this share of the volume of the largest one")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE")
+      ->capture_default_str()
+      ->group("Repair");
+  app.add_option_function<std::string>(
+         "--only", [&keep](const std::string&) { keep.fill_voids = true; },
+         "What stays of each solid:\n"
+         "  outer  its outer surface: voids are filled, and what is in them goes")
+      ->check(CLI::IsMember({"outer"}))
+      ->type_name("NAME")
+      ->default_str("all")
       ->group("Repair");
 }
 

@@ -30,6 +30,7 @@ const CLI::Option& add_max_hole_option(CLI::App& app, HoleOptions& holes);
 // decides alone which holes are closed.
 void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOptions& thicken);
 // --touching: what becomes of solids that touch along an edge.
+void add_keep_options(CLI::App& app, KeepPartsOptions& keep);
 void add_touching_option(CLI::App& app, Touching& touching);
 
 // --simplify: how far the surface may move to have fewer triangles; kDefaultSimplify unless given.

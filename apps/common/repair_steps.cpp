@@ -77,6 +77,23 @@ double share_of_surface(double area, const RepairReport& repair) {
   return area > 0 ? area / (area + repair.output_area) : 0;
 }
 
+void warn_of_poking_walls(const Findings& findings) {
+  constexpr double kWorthAWarning = 0.01;
+  const InsideReport& inside = findings.repair.inside;
+  if (inside.poking_share < kWorthAWarning) return;
+  spdlog::warn(
+      "{}: the wall of a cavity pokes out of what is around it with {:.2g} % of its area; "
+      "--inside solidity fills the cavity",
+      findings.input_name(), 100 * inside.poking_share);
+}
+
+void warn_of_unknown_parts(const Findings& findings) {
+  const KeepPartsReport& keep = findings.repair.keep;
+  if (keep.done || !keep.asked) return;
+  spdlog::warn("{}: all parts stay, as a surface that is not closed does not tell solids apart",
+               findings.output_name());
+}
+
 // Where that is much: in single precision other numbers would have kept it.
 void warn_of_coarse_numbers(const Findings& findings) {
   const RepairReport& repair = findings.repair;
@@ -171,6 +188,8 @@ void warn_of_findings(const Findings& findings) {
   warn_of_coarse_grid(findings);
   warn_of_lost_triangles(findings);
   warn_of_made_up_surface(findings);
+  warn_of_poking_walls(findings);
+  warn_of_unknown_parts(findings);
   warn_of_coarse_numbers(findings);
 }
 

@@ -1,6 +1,7 @@
 #include "common/report_sections.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "common/distance_report.h"
@@ -210,6 +211,9 @@ Json section_of(const InsideReport& inside) {
           {"turned_parts", inside.turned_parts},
           {"doubtful_parts", inside.doubtful_parts},
           {"cavity_walls", inside.cavity_walls},
+          {"poking_walls", inside.poking_walls},
+          {"poking_share", inside.poking_share},
+          {"other", inside.other == InsideRule::automatic ? Json() : Json(rule_name(inside.other))},
           {"left_out_folds", inside.left_out_folds},
           {"filled_voids", inside.filled_voids},
           {"solid_cells", inside.solid_cells}};
@@ -231,6 +235,30 @@ Json section_of(const SimplifyReport& simplify) {
           {"distance_at_most", simplify.distance},
           {"points_to_stay", simplify.points_to_stay},
           {"rounds", simplify.rounds}};
+}
+
+Json section_of(const RemovedPart& part) {
+  return {{"what", part.is_void ? "void" : "solid"},
+          {"volume", part.volume},
+          {"centre", {part.centre.x(), part.centre.y(), part.centre.z()}},
+          {"triangles", part.triangles}};
+}
+
+Json section_of(const KeepPartsReport& keep) {
+  constexpr std::size_t kMostListed = 100;
+  std::array<std::size_t, 2> count = {0, 0};
+  std::array<double, 2> volume = {0, 0};
+  Json first = Json::array();
+  for (const RemovedPart& part : keep.removed) {
+    const std::size_t kind = part.is_void ? 1 : 0;
+    ++count[kind];
+    volume[kind] += part.volume;
+    if (first.size() < kMostListed) first.push_back(section_of(part));
+  }
+  return {{"done", keep.done},           {"solids", keep.solids},
+          {"voids", keep.voids},         {"removed_solids", count[0]},
+          {"removed_volume", volume[0]}, {"filled_voids", count[1]},
+          {"filled_volume", volume[1]},  {"first_removed", std::move(first)}};
 }
 
 Json section_of(const PartsAndArea& parts) {
@@ -342,6 +370,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (was_begun(repair, "simplify")) {
     report.set_section("simplify", section_of(repair.simplify));
   }
+  if (repair.keep.asked) report.set_section("keep", section_of(repair.keep));
   // meshcheck has a stage of this name, too, but no result.
   if (has("extract") && was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));

@@ -156,6 +156,16 @@ void describe_decision(const RepairReport& repair, Lines& lines) {
       fmt::format("decided by {}{}", rule_name(inside.used),
                   inside.asked == InsideRule::automatic ? ": " + inside.reason : ", as asked for")};
   if (!remarks.empty()) texts.push_back(joined(remarks));
+  if (inside.poking_walls > 0) {
+    texts.push_back(
+        fmt::format("{} that {} out of what is around, with up to {:.2g} % of the area",
+                    number_of(inside.poking_walls, "wall of a cavity", "walls of cavities"),
+                    inside.poking_walls == 1 ? "pokes" : "poke", 100 * inside.poking_share));
+  }
+  if (inside.other != InsideRule::automatic) {
+    texts.push_back(fmt::format("nearly as likely is the solid that --inside {} gives",
+                                rule_name(inside.other)));
+  }
   lines.add("inside", texts);
 }
 
@@ -279,6 +289,31 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   return texts;
 }
 
+// The first of each kind.
+std::vector<std::string> left_out_parts(const KeepPartsReport& keep) {
+  constexpr std::size_t kMostLines = 3;
+  std::vector<std::string> texts;
+  for (const bool is_void : {false, true}) {
+    std::vector<const RemovedPart*> parts;
+    for (const RemovedPart& part : keep.removed) {
+      if (part.is_void == is_void) parts.push_back(&part);
+    }
+    if (parts.empty()) continue;
+    texts.push_back(
+        fmt::format("{} of {}{}:", grouped(parts.size()),
+                    is_void ? number_of(keep.voids, "void") : number_of(keep.solids, "solid"),
+                    is_void ? ", filled" : ""));
+    for (std::size_t i = 0; i < std::min(kMostLines, parts.size()); ++i) {
+      const RemovedPart& part = *parts[i];
+      texts.push_back(fmt::format("  volume {:.4g} at {:.4g} {:.4g} {:.4g}", part.volume,
+                                  part.centre.x(), part.centre.y(), part.centre.z()));
+    }
+    if (parts.size() > kMostLines)
+      texts.push_back(fmt::format("  and {} more", grouped(parts.size() - kMostLines)));
+  }
+  return texts;
+}
+
 std::vector<std::string> simplified(const SimplifyReport& report) {
   if (report.removed_triangles == 0) return {};
   return {fmt::format("{} fewer where it was cut, which moved the surface by {:.2g} at most",
@@ -297,6 +332,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   std::vector<std::string> removed = removed_parts(repair);
   add_count(removed, findings.dropped_solids, "solid", "too small for the points to tell");
   lines.add("removed", removed);
+  lines.add("left out", left_out_parts(repair.keep));
   lines.add("simpler", simplified(repair.simplify));
   lines.add("checked",
             joined({output.closed() ? "closed" : "NOT CLOSED",

@@ -17,13 +17,15 @@
 // The last two make cells (cells/). The last three say what is solid (arrange/, tangles/, solid/),
 // by the rules of inside/. In surface/ the boundary is extracted, simplified and certified: attempt
 // by attempt (make_surface.cpp), each with rounds of repairing it again on coarser grids
-// (certify_surface.cpp).
+// (certify_surface.cpp). Last of all, solids that are not wanted go.
 #include <array>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <base/error.h>
+#include <repair/explain_repair.h>
+#include <repair/keep_parts.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
 
@@ -168,6 +170,12 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
     surface = internal::seal_solid(soup, std::move(surface), options, report);
   }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
+  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
+  if (options.keep.wanted()) {
+    StageMeter meter(report.stages, options.progress);
+    meter.begin("keep");
+    keep_parts(soup, surface, options.keep, report, options.progress);
+  }
   return surface;
 }
 

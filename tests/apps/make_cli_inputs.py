@@ -264,6 +264,10 @@ def main():
         # A slit and a fin of 1e-7, and a post through each of them.
         "slit.obj": boxes(((0, 0, 0), (1, 1, 1)), ((0.8, 0.2, 0.5), (0.2, 0.8, 0.5 + 1e-7)),
                           ((0.7, 0.7, 0.2), (0.9, 0.9, 1.8))),
+        "poking_cavity.obj": boxes(((0, 0, 0), (1, 1, 1)), ((0.8, 0.2, 0.2), (0.2, 0.8, 1.01))),
+        "half_way_out.obj": boxes(((0, 0, 0), (1, 1, 1)), ((0.7, 0.3, 0.4), (0.3, 0.7, 1.35))),
+        "nested_boxes.obj": boxes(((0, 0, 0), (8, 8, 8)), ((6, 2, 2), (2, 6, 6)), ((3, 3, 3), (5, 5, 5)),
+                                  ((20, 0, 0), (23, 3, 3)), ((0, 20, 0), (1, 21, 1))),
         "fin.obj": boxes(((0, 0, 0), (1, 1, 1)), ((-0.5, -0.5, 0.5), (1.5, 1.5, 0.5 + 1e-7))),
         "slipped.obj": slipped_tetrahedra(),
         "far_point.obj": two_tetrahedra(size=10 ** 9),

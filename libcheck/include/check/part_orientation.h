@@ -12,7 +12,8 @@ namespace meshrepair {
 struct PartOrientation {
   std::vector<std::uint32_t> part_of;  // of each triangle
   std::vector<std::uint32_t> depth;    // of each part: how many others lie around it
-  std::vector<char> inside_out;        // of each part: 1 if it faces the wrong way
+  std::vector<std::uint32_t> around;  // of each part: the innermost of these; kNone: there are none
+  std::vector<char> inside_out;       // of each part: 1 if it faces the wrong way
 };
 
 // A part faces outward if an even number of others lies around it; if an odd one, it is the wall of

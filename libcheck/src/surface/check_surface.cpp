@@ -244,7 +244,7 @@ class SurfaceChecker {
       if (part_of[t] != internal::kNoPart) members[part_of[t]].push_back(t);
     }
     const std::vector<std::uint32_t> depths =
-        internal::nesting_depths(soup, part_of, closed_parts.size(), options_.progress);
+        internal::find_nesting(soup, part_of, closed_parts.size(), options_.progress).depth;
     for (std::size_t i = 0; i < closed_parts.size(); ++i) {
       SurfacePart& part = check_.parts[closed_parts[i]];
       part.depth = depths[i];

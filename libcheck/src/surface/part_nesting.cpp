@@ -111,11 +111,11 @@ class RayCaster {
 
 }  // namespace
 
-std::vector<std::uint32_t> nesting_depths(const TriangleSoup& soup,
-                                          std::span<const std::uint32_t> part_of, std::size_t parts,
-                                          ProgressObserver* progress) {
-  std::vector<std::uint32_t> depths(parts, 0);
-  if (parts < 2) return depths;
+PartNesting find_nesting(const TriangleSoup& soup, std::span<const std::uint32_t> part_of,
+                         std::size_t parts, ProgressObserver* progress) {
+  PartNesting nesting{std::vector<std::uint32_t>(parts, 0),
+                      std::vector<std::uint32_t>(parts, kNoPart)};
+  if (parts < 2) return nesting;
   const RayCaster caster(soup, part_of, parts);
   const std::size_t count = soup.triangles.size();
   const std::size_t tasks = tasks_of(count, kTrianglesPerTask);
@@ -131,8 +131,14 @@ std::vector<std::uint32_t> nesting_depths(const TriangleSoup& soup,
     for (const auto& some : passings) all.insert(all.end(), some.begin(), some.end());
     keep_odd(all);
   }
-  for (const Passing& passing : all) ++depths[passing.inner];
-  return depths;
+  for (const Passing& passing : all) ++nesting.depth[passing.inner];
+  for (const Passing& passing : all) {
+    std::uint32_t& around = nesting.around[passing.inner];
+    if (around == kNoPart || nesting.depth[passing.outer] > nesting.depth[around]) {
+      around = passing.outer;
+    }
+  }
+  return nesting;
 }
 
 }  // namespace meshrepair::internal

@@ -16,7 +16,10 @@ PartOrientation examine_part_orientation(const TriangleSoup& mesh, ProgressObser
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     members[orientation.part_of[t]].push_back(t);
   }
-  orientation.depth = internal::nesting_depths(mesh, orientation.part_of, parts, progress);
+  internal::PartNesting nesting =
+      internal::find_nesting(mesh, orientation.part_of, parts, progress);
+  orientation.depth = std::move(nesting.depth);
+  orientation.around = std::move(nesting.around);
   for (std::uint32_t part = 0; part < parts; ++part) {
     const int right = orientation.depth[part] % 2 == 0 ? 1 : -1;
     orientation.inside_out.push_back(

@@ -58,6 +58,10 @@ struct InsideReport {
   std::size_t turned_parts = 0;    // inside out by their own triangles, and turned
   std::size_t doubtful_parts = 0;  // whose triangles do not tell which way is out ...
   std::size_t cavity_walls = 0;    // ... and that were found to be walls of cavities
+  std::size_t poking_walls = 0;    // of cavities, that poke out of what is around them ...
+  double poking_share = 0;         // ... and of one of them, at most, the share of its area
+  // The rule that gives another solid, which is nearly as likely; `automatic`: there is none.
+  InsideRule other = InsideRule::automatic;
   std::size_t left_out_folds = 0;  // that wind the wrong way: slivers, and what a patch cuts off
   std::size_t filled_voids = 0;    // made solid because of the rule or the option
   std::size_t solid_cells = 0;
@@ -73,10 +77,10 @@ struct CellLabels {
 // looks at more than which part a triangle belongs to.
 //
 // `automatic` first looks whether the winding numbers can be trusted, then turns parts that are
-// inside out or do not tell which way is out: shells that lie in the solid of others are walls of
-// cavities, others face outward. Solid is what they wind around, and what winds the other way and
-// borders the outside. Where the winding cannot be trusted, it is `solidity`, but voids are kept
-// that are bounded by whole parts.
+// inside out or do not tell which way is out: shells that lie in the solid of others, those that
+// face inward with two thirds of their area at least, are walls of cavities, others face outward.
+// Solid is what they wind around, and what winds the other way and borders the outside. Where the
+// winding cannot be trusted, it is `solidity`, but voids are kept that are bounded by whole parts.
 [[nodiscard]] CellLabels label_cells(const CellGraph& graph, const Orientation& orientation,
                                      const InsideOptions& options, InsideReport& report);
 

@@ -35,6 +35,8 @@ struct PartFates {
 inline constexpr std::uint8_t kOnBoundary = 1;
 inline constexpr std::uint8_t kInside = 2;
 inline constexpr std::uint8_t kOutside = 4;
+// Beside kOnBoundary: of a sheet that was thickened, whose walls bound the solid.
+inline constexpr std::uint8_t kThickened = 8;
 
 // Of a piece that has what is solid, or not, on its two sides.
 [[nodiscard]] constexpr std::uint8_t place_between(bool one_solid, bool other_solid) {

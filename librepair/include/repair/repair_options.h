@@ -12,6 +12,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/keep_parts.h>
 #include <repair/seal_openings.h>
 #include <repair/sew_soup.h>
 #include <repair/thicken_sheets.h>
@@ -37,6 +38,7 @@ struct RepairOptions {
   BuildTreeOptions tree;
   InsideOptions inside;
   ExtractOptions extract;
+  KeepPartsOptions keep;  // which solids of the result stay
   // How far the surface may move to have fewer triangles where it was cut, as a share of the
   // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
   double simplify = 0;
@@ -56,6 +58,8 @@ struct RepairOptions {
   // closing holes and turning parts makes one of it (valid_solid.h), unless another option asks for
   // more: the work for that is a small part of that of a repair.
   bool keep_valid = false;
+  // Fills RepairReport::explanation.
+  bool explain = false;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
   ProgressObserver* progress = nullptr;

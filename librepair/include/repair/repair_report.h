@@ -16,8 +16,10 @@
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <repair/certify.h>
+#include <repair/explain_repair.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/keep_parts.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
 #include <repair/seal_openings.h>
@@ -63,7 +65,9 @@ struct RepairReport {
   std::size_t crumbs = 0;   // parts of cut pieces alone, thinner than a step of the grid: dropped
   SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;
+  KeepPartsReport keep;
   TriangleFates triangles;
+  RepairExplanation explanation;  // empty unless it is asked for
   Topology output;
   double output_volume = 0;  // in the input's units, cubed
   double output_area = 0;

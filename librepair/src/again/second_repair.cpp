@@ -22,6 +22,8 @@ RepairOptions options_for_second(const SecondSoup& second, const RepairOptions& 
   RepairOptions again = options;
   again.thicken = {};
   again.seal = {};
+  again.keep = {};
+  again.explain = false;
   again.sew.mode = SewMode::none;
   again.holes.mode = HoleMode::none;
   again.inside.rule = InsideRule::winding;

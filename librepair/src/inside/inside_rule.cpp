@@ -22,6 +22,10 @@ std::string parts(std::size_t count) {
 // it adds are often slivers.
 constexpr double kClearlyBetter = 0.95;
 
+// Within this factor the other rule is named, if more than this share of the volume hangs on it.
+constexpr double kNearlyAsGood = 1.1;
+constexpr double kMuchOfVolume = 0.01;
+
 class InsideDecider {
  public:
   InsideDecider(const CellGraph& graph, const Orientation& orientation,
@@ -124,15 +128,23 @@ class InsideDecider {
       for (std::size_t i = 0; i < pockets.is_left_out.size(); ++i) {
         if (pockets.is_left_out[i] != 0) others.solid[i] = 0;
       }
-      if (price(others, given) < kClearlyBetter * price(labels, given)) {
+      const double price_of_others = price(others, given);
+      const double price_of_winding = price(labels, given);
+      if (price_of_others < kClearlyBetter * price_of_winding) {
         report_.used = InsideRule::solidity;
         report_.left_out_folds = pockets.left_out;
         report_.reason =
             "it takes less made-up surface, and leaves out less of what is there, than the winding "
             "numbers";
+        if (differ(others, labels) && kNearlyAsGood * price_of_others > price_of_winding) {
+          report_.other = InsideRule::winding;
+        }
         return others;
       }
       report_ = by_winding_numbers;
+      if (differ(others, labels) && price_of_others < kNearlyAsGood * price_of_winding) {
+        report_.other = InsideRule::solidity;
+      }
     }
     report_.used = InsideRule::winding;
     report_.reason = why_winding();
@@ -155,6 +167,16 @@ class InsideDecider {
       if (!explained) sum += share * link.area;
     }
     return sum;
+  }
+
+  // By more than what is bridged otherwise at holes.
+  [[nodiscard]] bool differ(const CellLabels& a, const CellLabels& b) const {
+    double all = 0, different = 0;
+    for (CellId c(0u); c.index() < graph_.cells(); ++c.value) {
+      if (a.solid[c.index()] != 0 || b.solid[c.index()] != 0) all += graph_.volume(c);
+      if (a.solid[c.index()] != b.solid[c.index()]) different += graph_.volume(c);
+    }
+    return different > kMuchOfVolume * all;
   }
 
   [[nodiscard]] std::string why_winding() const {

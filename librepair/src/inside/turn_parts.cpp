@@ -10,8 +10,9 @@
 // - If no shell is doubtful and no winding number, as given, is negative: as given.
 // - If none is doubtful and none is positive: all of it is inside out and is turned.
 // - Else the shells that face outward by their own word stay so. Each of the others is the wall of
-//   a cavity if the solid of the parts around it, decided before it, encloses it; if it does not
-//   lie in any other shell, crosses one or lies in the cavity of one, it faces outward.
+//   a cavity if the solid of the parts around it, decided before it, encloses most of its area; if
+//   it does not lie in any other shell, is hardly more inside than outside or lies in the cavity of
+//   one, it faces outward.
 //
 // Each depth of nesting costs a pass over the cells (or the solver, where triangles are missing).
 #include "turn_parts.h"
@@ -29,8 +30,18 @@ namespace meshrepair::internal {
 namespace {
 
 // A shell that pokes out of the solid around it with no more than this share of its area lies in it
-// all the same: the wall of a cavity that comes through somewhere.
+// all the same: the wall of a cavity that comes through somewhere. Its triangles say nothing ...
 constexpr double kPokingShare = 0.05;
+
+// ... or that it is such a wall: then twice as much of it has to lie inside as outside. Two rough
+// surfaces of one body have about half of their area outside each other, as have the boundaries of
+// two equal bodies that overlap, at least: 1/2, however little they are apart. Those of a rough
+// wall that is as thick as it is rough have up to 1/5.
+constexpr double kPokingShareOfInward = 1.0 / 3;
+
+// Between these shares the other reading is nearly as likely.
+constexpr double kSurelyWall = 0.2;
+constexpr double kSurelyBody = 0.5;
 
 bool in_doubt(const Orientation& orientation, const std::vector<double>& w) {
   return std::any_of(w.begin(), w.end(), [](double x) { return x < -0.5; }) ||
@@ -75,6 +86,7 @@ class PartTurner {
   struct Candidate {
     double depth;
     std::uint32_t part;
+    double outside;  // the share of its area, among all shells
   };
 
   std::vector<double> field() {
@@ -206,24 +218,47 @@ class PartTurner {
     return depth;
   }
 
-  void decide_candidates(const std::vector<double>& w_outward) {
+  [[nodiscard]] double most_outside(std::uint32_t p) const {
+    return parts_[p].believed ? kPokingShareOfInward : kPokingShare;
+  }
+
+  // Those that others enclose, from the outermost on.
+  std::vector<Candidate> enclosed_candidates(const std::vector<double>& w_outward) {
     std::vector<Candidate> enclosed;
     for (std::uint32_t p = 0; p < parts_.size(); ++p) {
-      if (!is_candidate(p) || share_outside(p, w_outward) > kPokingShare) continue;
-      enclosed.push_back({depth_of(p, w_outward), p});
+      if (!is_candidate(p)) continue;
+      const double outside = share_outside(p, w_outward);
+      if (outside <= most_outside(p)) {
+        enclosed.push_back({depth_of(p, w_outward), p, outside});
+      } else if (parts_[p].believed && outside < kSurelyBody) {
+        report_.other = InsideRule::winding;
+      }
     }
     std::stable_sort(enclosed.begin(), enclosed.end(),
                      [](const Candidate& a, const Candidate& b) { return a.depth < b.depth; });
+    return enclosed;
+  }
+
+  void decide_candidates(const std::vector<double>& w_outward) {
+    const std::vector<Candidate> enclosed = enclosed_candidates(w_outward);
     for (std::size_t first = 0; first < enclosed.size();) {
       const std::vector<double> w = field();
-      std::vector<std::uint32_t> walls;
+      std::vector<Candidate> walls;
       std::size_t last = first;
       for (; last < enclosed.size() && enclosed[last].depth == enclosed[first].depth; ++last) {
-        if (share_outside(enclosed[last].part, w) < 0.5) walls.push_back(enclosed[last].part);
+        if (share_outside(enclosed[last].part, w) < 0.5) walls.push_back(enclosed[last]);
       }
-      for (const std::uint32_t p : walls) sign_[p] = static_cast<std::int8_t>(-sign_[p]);
+      for (const Candidate& wall : walls) make_wall(wall);
       first = last;
     }
+  }
+
+  void make_wall(const Candidate& wall) {
+    sign_[wall.part] = static_cast<std::int8_t>(-sign_[wall.part]);
+    if (wall.outside == 0) return;
+    ++report_.poking_walls;
+    report_.poking_share = std::max(report_.poking_share, wall.outside);
+    if (wall.outside > kSurelyWall) report_.other = InsideRule::solidity;
   }
 
   void count_turned(const std::vector<std::int8_t>& outward) {

@@ -81,7 +81,7 @@ SecondSoup add_walls(const CleanSoup& soup, const std::optional<Surface>& solids
                                     options.thicken.side, report.thicken, options.progress);
   if (walls.soup.triangles.empty()) return {};
   for (std::size_t t = 0; t < places.size(); ++t) {
-    if (is_sheet[t] != 0) places[t] = kOnBoundary;
+    if (is_sheet[t] != 0) places[t] = kOnBoundary | kThickened;
   }
   report.parts = find_part_fates(soup, places);
   if (solids) report.thicken.solid_volume = report.output_volume;
