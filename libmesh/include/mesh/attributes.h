@@ -95,9 +95,6 @@ struct Keepsake {
   // Words on what no file of another format can hold of it.
   [[nodiscard]] virtual std::vector<std::string> lost_in(SoupFormat format) const;
 
-  // What two files held, for one; null: this alone, as nothing of the other can be kept.
-  [[nodiscard]] virtual std::shared_ptr<const Keepsake> joined(const Keepsake& other) const;
-
   // The same where attributes with this one are appended to those with `first` (may be null). It
   // says what materials are to be called where it knows more of them than how they look. Null:
   // `first` alone; or this one, unchanged, if there is no first.
@@ -130,6 +127,8 @@ struct AppendedMaterials {
 
   // The name itself, or with a number that no material has if `all` has it already.
   [[nodiscard]] std::string free_name(const std::string& name);
+  // No free name is this one, as keepsakes know it.
+  void take_name(const std::string& name);
 
   const Attributes& all;                    // it has the images of both, and its own materials
   const Attributes& other;                  // the images of its looks are those of `all`

@@ -17,6 +17,7 @@
 #include <mesh/named_files.h>
 
 #include "formats/common/text_scanner.h"
+#include "joined_libraries.h"
 #include "mtl_text.h"
 
 namespace meshrepair {
@@ -179,17 +180,11 @@ std::vector<std::string> MaterialLibraries::lost_in(SoupFormat format) const {
   return {words + " of materials"};
 }
 
-std::shared_ptr<const Keepsake> MaterialLibraries::joined(const Keepsake& other) const {
-  const auto* const others = dynamic_cast<const MaterialLibraries*>(&other);
-  if (others == nullptr) return nullptr;
-  auto all = std::make_shared<MaterialLibraries>();
-  all->libraries = libraries;
-  for (const Library& library : others->libraries) {
-    const bool is_known = std::any_of(libraries.begin(), libraries.end(),
-                                      [&](const Library& known) { return known.is_like(library); });
-    if (!is_known) all->libraries.push_back(library);
-  }
-  return all;
+std::shared_ptr<const Keepsake> MaterialLibraries::appended_to(const Keepsake* first,
+                                                               AppendedMaterials& materials) const {
+  const auto* const before = dynamic_cast<const MaterialLibraries*>(first);
+  if (first != nullptr && before == nullptr) return nullptr;
+  return joined_libraries(before, *this, materials);
 }
 
 bool MaterialLibraries::Library::is_like(const Library& other) const {
