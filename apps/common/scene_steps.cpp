@@ -186,8 +186,7 @@ class SceneRepair {
     if (!attributes.empty()) format.extras.attributes = &attributes;
     format.extras.scene = &scene_;
     format.progress = &run_.progress;
-    write_soup(all_.mesh, findings_.output, format);
-    run_.report.set_output({{"path", findings_.output}, {"format", format_name(*format.format)}});
+    write_with_files(all_.mesh, format, run_, findings_);
   }
 
   [[nodiscard]] std::string summary() const {
@@ -204,7 +203,7 @@ class SceneRepair {
     if (outcomes_.size() > kMostLines) {
       text += fmt::format("{:<9} and {} more\n", "", outcomes_.size() - kMostLines);
     }
-    return text + fmt::format("written   {}: {}, {}, in {:.2f} s\n", findings_.output_name(),
+    return text + fmt::format("written   {}: {}, {}, in {:.2f} s\n", findings_.written_name(),
                               meshes, number_of(all_.mesh.triangles.size(), "triangle"),
                               run_.progress.seconds());
   }

@@ -238,6 +238,7 @@ def main():
         "painted_too.gltf": painted_tetrahedron(0.25, 0.5),
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
+        "undefined.obj": b"mtllib textured.mtl\nusemtl tin\n" + tetrahedron(f1="f 1 3 2\nusemtl wood"),
         "coloured_sides.stl": coloured_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
         "grain.png": png(),

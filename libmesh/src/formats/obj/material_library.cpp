@@ -157,6 +157,26 @@ std::vector<std::string_view> names_in(const MeshSource& source, std::string_vie
   return names;
 }
 
+// Who misses a library knows it already.
+void warn_of_undefined(const MaterialLibraries& libraries, const std::vector<std::string>& names,
+                       ReadReport& report) {
+  std::unordered_set<std::string_view> defined;
+  for (const MaterialLibraries::Library& library : libraries.libraries) {
+    if (library.path.empty() && !library.is_packed) return;
+    visit_mtl_lines(library.text, [&](std::string_view text) {
+      const MtlLine line = split_mtl_line(text);
+      if (line.key == "newmtl") defined.insert(line.rest);
+    });
+  }
+  const auto is_undefined = [&](const std::string& name) { return !defined.contains(name); };
+  const auto first = std::find_if(names.begin(), names.end(), is_undefined);
+  if (first == names.end()) return;
+  const auto count = static_cast<std::size_t>(std::count_if(first, names.end(), is_undefined));
+  report.warnings.push_back(count == 1 ? "no library defines the material " + printable(*first)
+                                       : "no library defines " + counted(count, "material") + ": " +
+                                             printable(*first) + ", ...");
+}
+
 }  // namespace
 
 std::vector<std::string> MaterialLibraries::lost_in(SoupFormat format) const {
@@ -213,6 +233,7 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
   for (const MaterialLibraries::Library& library : kept->libraries) {
     LibraryReader(source, numbers, library, attributes).run();
   }
+  warn_of_undefined(*kept, attributes.materials.names, report);
   attributes.keepsake = std::move(kept);
 }
 
