@@ -7,6 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <mesh/append_soup.h>
 
 #include "common/picture_steps.h"
 #include "common/report_sections.h"
@@ -37,11 +38,7 @@ Surface as_given(const TriangleSoup& soup) {
 }
 
 void append(const Surface& mesh, std::size_t first_source, Surface& all) {
-  const auto base = static_cast<std::uint32_t>(all.mesh.points.size());
-  all.mesh.points.insert(all.mesh.points.end(), mesh.mesh.points.begin(), mesh.mesh.points.end());
-  for (const auto& [a, b, c] : mesh.mesh.triangles) {
-    all.mesh.triangles.push_back({a + base, b + base, c + base});
-  }
+  append_soup(all.mesh, mesh.mesh);
   for (const std::uint32_t source : mesh.source) {
     all.source.push_back(
         source == Surface::kNoSource ? source : source + static_cast<std::uint32_t>(first_source));

@@ -12,6 +12,7 @@ bool same_look(const Attributes& all, const Material& a, const Material& b) {
   if (a.colour != b.colour || (a.image == kNone) != (b.image == kNone)) return false;
   if (a.image == kNone) return true;
   if (a.texture_set != b.texture_set || a.transform != b.transform) return false;
+  if (a.sampling != b.sampling) return false;
   const Image &first = all.images[a.image], &second = all.images[b.image];
   if (first.bytes && second.bytes) return *first.bytes == *second.bytes;
   return !first.bytes && !second.bytes && first.path == second.path && first.name == second.name;

@@ -74,12 +74,24 @@ struct TextureTransform {
   bool operator==(const TextureTransform&) const = default;
 };
 
+// What a picture is beyond its edges, and between its pixels.
+struct TextureSampling {
+  enum class Wrap { repeat, mirror, clamp, none };  // none: there is nothing of it
+  enum class Filter { automatic, linear, nearest };
+
+  std::array<Wrap, 2> wrap = {Wrap::repeat, Wrap::repeat};  // beside it, and above and below
+  Filter filter = Filter::automatic;
+
+  bool operator==(const TextureSampling&) const = default;
+};
+
 // What all formats that have materials can say of one.
 struct Material {
-  std::array<double, 4> colour = {1, 1, 1, 1};  // red, green, blue, opacity
+  std::array<double, 4> colour = {1, 1, 1, 1};  // red, green, blue as sRGB has them, and opacity
   std::uint32_t image = kNone;                  // of Attributes::images: times the colour
   std::uint32_t texture_set = 0;    // of the attributes with texture coordinates: that of the image
   TextureTransform transform = {};  // of these coordinates
+  TextureSampling sampling = {};    // of the image
 };
 
 struct AppendedMaterials;

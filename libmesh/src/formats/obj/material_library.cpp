@@ -75,6 +75,8 @@ class LibraryReader {
   // v grows upwards here, but not in the transform.
   void set_picture(const MtlMap& map) {
     look_->image = image_of(with_slashes(map.picture));
+    using Wrap = TextureSampling::Wrap;
+    look_->sampling.wrap.fill(map.is_clamped ? Wrap::clamp : Wrap::repeat);
     look_->transform.scale = map.scale;
     look_->transform.offset = {map.offset[0], 1 - map.scale[1] - map.offset[1]};
   }
