@@ -12,6 +12,7 @@
 
 #include <base/error.h>
 #include <boolean/boolean.h>
+#include <mesh/append_soup.h>
 #include <repair/repair.h>
 
 #include "common/choice_option.h"
@@ -47,15 +48,7 @@ struct JoinedMeshes {
   void add(const TriangleSoup& other, Attributes carried) {
     append_attributes(attributes, soup.triangles.size(), std::move(carried),
                       other.triangles.size());
-    append(other);
-  }
-
-  void append(const TriangleSoup& other) {
-    const auto base = static_cast<std::uint32_t>(soup.points.size());
-    soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
-    for (const auto& [a, b, c] : other.triangles) {
-      soup.triangles.push_back({a + base, b + base, c + base});
-    }
+    append_soup(soup, other);
   }
 };
 
@@ -81,9 +74,8 @@ class CommonUnit {
   void apply(std::optional<LengthUnit> own, TriangleSoup& soup) {
     if (!own) own = units_;
     if (!unit_) unit_ = own;
-    if (!own || own == unit_) return;
-    const double scale = millimeters(*own) / millimeters(*unit_);
-    for (Vec3d& point : soup.points) point *= scale;
+    if (!own) return;
+    bring_to_unit(*own, *unit_, soup);
   }
 
   [[nodiscard]] std::optional<LengthUnit> get() const { return unit_; }
@@ -198,7 +190,7 @@ struct Operands {
 
   void join() {
     if (joined.attributes.is_bare()) return;
-    for (const TriangleSoup& solid : solids) joined.append(solid);
+    for (const TriangleSoup& solid : solids) append_soup(joined.soup, solid);
   }
 };
 

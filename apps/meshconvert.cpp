@@ -26,7 +26,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   const Attributes held = chosen_for(*format.format, options.assets, all);
   Attributes still_held = held_by(*format.format, all);
   if (options.assets.by_mesh) still_held.objects = all.objects;
-  const std::string lost = lost_attributes(soup, all, still_held, *format.format);
+  const std::string lost = lost_words(soup, all, still_held, *format.format);
   if (!lost.empty()) {
     spdlog::warn("{}: {} cannot hold what {} has: {}", findings.output_name(),
                  format_name(*format.format), findings.input_name(), lost);
@@ -36,7 +36,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
     check_scene(input.scene, *format.format);
     format.extras.scene = &input.scene;
   }
-  findings.unit = bring_to_unit(*format.format, options.assets, findings.unit, input.soup);
+  findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   write_soup_stage(soup, format, run, findings);
   draw_picture_stage(options.picture, up_of(findings), {options.input}, {{soup, all}, {soup, held}},

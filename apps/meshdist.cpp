@@ -41,10 +41,9 @@ Read read(const std::string& path, const std::string& key, Run& run, std::string
 }
 
 // Of two that say their units, the second is brought to that of the first.
-void bring_to_unit(const Read& first, Read& second, std::string& lines) {
+void bring_to_same_unit(const Read& first, Read& second, std::string& lines) {
   if (!first.unit || !second.unit || first.unit == second.unit) return;
-  const double scale = millimeters(*second.unit) / millimeters(*first.unit);
-  for (Vec3d& point : second.soup.points) point *= scale;
+  bring_to_unit(*second.unit, *first.unit, second.soup);
   lines += fmt::format("B is in {}, and is brought to {}\n", units_text(second.unit),
                        units_text(first.unit));
 }
@@ -60,7 +59,7 @@ ExitCode measure(Options& options, Run& run) {
   std::string lines;
   const Read first = read(options.first, "read", run, lines);
   Read second = read(options.second, "read_b", run, lines);
-  bring_to_unit(first, second, lines);
+  bring_to_same_unit(first, second, lines);
   const MeshDistance distance = mesh_distance(first.soup, second.soup, options.distance);
   run.report.set_section("distance", distance_section(distance, options.distance));
   run.progress.finish();

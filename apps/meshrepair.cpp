@@ -37,7 +37,7 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
     repair_options.thicken.thickness *=
         scale_to_unit(*format.format, options.assets, findings.unit);
   }
-  findings.unit = bring_to_unit(*format.format, options.assets, findings.unit, input.soup);
+  findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();

@@ -109,19 +109,18 @@ Attributes chosen_for(SoupFormat format, const AssetOptions& options, Attributes
   return attributes;
 }
 
-std::optional<LengthUnit> bring_to_unit(SoupFormat output, const AssetOptions& options,
-                                        std::optional<LengthUnit> unit, TriangleSoup& soup) {
+std::optional<LengthUnit> brought_to_unit(SoupFormat output, const AssetOptions& options,
+                                          std::optional<LengthUnit> unit, TriangleSoup& soup) {
   if (!unit) return options.units;
-  if (has_unit(output) || !options.units || unit == options.units) return unit;
-  const double scale = scale_to_unit(output, options, unit);
-  for (Vec3d& point : soup.points) point *= scale;
+  if (has_unit(output) || !options.units) return unit;
+  bring_to_unit(*unit, *options.units, soup);
   return options.units;
 }
 
 double scale_to_unit(SoupFormat output, const AssetOptions& options,
                      std::optional<LengthUnit> unit) {
-  if (!unit || has_unit(output) || !options.units || unit == options.units) return 1;
-  return millimeters(*unit) / millimeters(*options.units);
+  if (!unit || has_unit(output) || !options.units) return 1;
+  return unit_scale(*unit, *options.units);
 }
 
 void check_format(SoupFormat format, const AssetOptions& options) {

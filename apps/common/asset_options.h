@@ -38,10 +38,10 @@ void add_units_option(CLI::App& app, AssetOptions& options);
 
 // What of a soup its unit is. `unit` is that of its file. Where the output has none either, but
 // --units says one, the soup is brought to that.
-[[nodiscard]] std::optional<LengthUnit> bring_to_unit(SoupFormat output,
-                                                      const AssetOptions& options,
-                                                      std::optional<LengthUnit> unit,
-                                                      TriangleSoup& soup);
+[[nodiscard]] std::optional<LengthUnit> brought_to_unit(SoupFormat output,
+                                                        const AssetOptions& options,
+                                                        std::optional<LengthUnit> unit,
+                                                        TriangleSoup& soup);
 // What lengths of the file are multiplied with for that.
 [[nodiscard]] double scale_to_unit(SoupFormat output, const AssetOptions& options,
                                    std::optional<LengthUnit> unit);

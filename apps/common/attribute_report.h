@@ -16,10 +16,9 @@ namespace meshrepair {
 [[nodiscard]] std::vector<std::string> attribute_words(const TriangleSoup& soup,
                                                        const Attributes& attributes);
 
-// The names of the kinds alone that are among `all` and not among `held`, or that a file of this
-// format has no place for where they stand, joined by commas.
-[[nodiscard]] std::string lost_attributes(const TriangleSoup& soup, const Attributes& all,
-                                          const Attributes& held, SoupFormat format);
+// What lost_attributes() says, joined by commas; it says how what can be kept can be kept.
+[[nodiscard]] std::string lost_words(const TriangleSoup& soup, const Attributes& all,
+                                     const Attributes& held, SoupFormat format);
 
 // Section "attributes" of a report.
 [[nodiscard]] Json attributes_section(const TriangleSoup& soup, const Attributes& attributes);

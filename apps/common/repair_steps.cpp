@@ -220,6 +220,11 @@ std::string Findings::input_name() const { return input == "-" ? "standard input
 
 std::string Findings::output_name() const { return output == "-" ? "standard output" : output; }
 
+std::string Findings::written_name() const {
+  if (staging.empty()) return output_name();
+  return (fs::path(staging) / fs::path(output).filename()).string() + ", to be " + output;
+}
+
 TreeFacts facts_of(const Tree& tree) {
   TreeFacts facts;
   facts.triangles = tree.input.triangles.size();
@@ -351,6 +356,20 @@ Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes
                              findings.has_walls || findings.repair.thicken.triangles > 0);
 }
 
+// Of a mesh without a name: nobody knows what those beside it are to be called.
+void write_with_files(const TriangleSoup& soup, const WriteOptions& format, Run& run,
+                      Findings& findings) {
+  const Attributes* const attributes = format.extras.attributes;
+  if (findings.output == "-" && attributes != nullptr &&
+      has_files_beside(*format.format, *attributes)) {
+    spdlog::warn("{}: {} has its materials and pictures in files beside it, and OUT has no name",
+                 findings.output_name(), format_name(*format.format));
+  }
+  findings.staging = format.staging.string();
+  write_soup(soup, findings.output, format);
+  run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
+}
+
 std::string advice_to_thicken(const RepairReport& repair) {
   if (repair.thicken.fitting == 0) return {};
   return fmt::format("; --thicken {:g} makes walls of them", repair.thicken.fitting);
@@ -367,18 +386,16 @@ void write_mesh_stage(const Surface& surface, const Attributes& attributes, Writ
   if (options.sources) format.extras.sources = surface.source;
   if (!attributes.empty()) format.extras.attributes = &attributes;
   format.progress = &run.progress;
-  write_soup(surface.mesh, findings.output, format);
-  run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
+  write_with_files(surface.mesh, format, run, findings);
 }
 
 void write_soup_stage(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings) {
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("write");
   format.progress = &run.progress;
-  write_soup(soup, findings.output, format);
+  write_with_files(soup, format, run, findings);
   findings.soup_written = true;
   findings.soup_triangles = soup.triangles.size();
-  run.report.set_output({{"path", findings.output}, {"format", format_name(*format.format)}});
 }
 
 void write_tree_stage(const Tree& tree, Run& run, Findings& findings) {

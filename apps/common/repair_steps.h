@@ -43,9 +43,11 @@ struct Findings {
   // For people: "-" by what it stands for.
   [[nodiscard]] std::string input_name() const;
   [[nodiscard]] std::string output_name() const;
+  [[nodiscard]] std::string written_name() const;  // also where it is until it is moved there
 
   std::string input;
   std::string output;
+  std::string staging;  // where the output is written first; empty: where it belongs
   std::optional<ReadReport> mesh_read;
   std::optional<LengthUnit> unit;  // of the output, as far as it is known
   std::optional<PointReadReport> points_read;
@@ -147,6 +149,9 @@ void measure_distance_stage(const TriangleSoup& input, const Surface& surface, P
                                                    Findings& findings);
 // To go behind the message of a NoSolidError: how its sheets become walls; empty where it has none.
 [[nodiscard]] std::string advice_to_thicken(const RepairReport& repair);
+// Warns where the materials of a mesh are in files beside it, but there can be none.
+void write_with_files(const TriangleSoup& soup, const WriteOptions& format, Run& run,
+                      Findings& findings);
 // Stage "write".
 // Finds which guarantees the file would not hold; if options.strict and there are any, writes
 // nothing. `format` is that of mesh_format(options), `attributes` those of the surface.

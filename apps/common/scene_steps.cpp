@@ -7,6 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <mesh/append_soup.h>
 
 #include "common/picture_steps.h"
 #include "common/report_sections.h"
@@ -37,11 +38,7 @@ Surface as_given(const TriangleSoup& soup) {
 }
 
 void append(const Surface& mesh, std::size_t first_source, Surface& all) {
-  const auto base = static_cast<std::uint32_t>(all.mesh.points.size());
-  all.mesh.points.insert(all.mesh.points.end(), mesh.mesh.points.begin(), mesh.mesh.points.end());
-  for (const auto& [a, b, c] : mesh.mesh.triangles) {
-    all.mesh.triangles.push_back({a + base, b + base, c + base});
-  }
+  append_soup(all.mesh, mesh.mesh);
   for (const std::uint32_t source : mesh.source) {
     all.source.push_back(
         source == Surface::kNoSource ? source : source + static_cast<std::uint32_t>(first_source));
@@ -186,8 +183,7 @@ class SceneRepair {
     if (!attributes.empty()) format.extras.attributes = &attributes;
     format.extras.scene = &scene_;
     format.progress = &run_.progress;
-    write_soup(all_.mesh, findings_.output, format);
-    run_.report.set_output({{"path", findings_.output}, {"format", format_name(*format.format)}});
+    write_with_files(all_.mesh, format, run_, findings_);
   }
 
   [[nodiscard]] std::string summary() const {
@@ -204,7 +200,7 @@ class SceneRepair {
     if (outcomes_.size() > kMostLines) {
       text += fmt::format("{:<9} and {} more\n", "", outcomes_.size() - kMostLines);
     }
-    return text + fmt::format("written   {}: {}, {}, in {:.2f} s\n", findings_.output_name(),
+    return text + fmt::format("written   {}: {}, {}, in {:.2f} s\n", findings_.written_name(),
                               meshes, number_of(all_.mesh.triangles.size(), "triangle"),
                               run_.progress.seconds());
   }

@@ -323,7 +323,7 @@ std::vector<std::string> simplified(const SimplifyReport& report) {
 void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
-  lines.add("written", fmt::format("{}: {} in {}, in {:.2f} s", findings.output_name(),
+  lines.add("written", fmt::format("{}: {} in {}, in {:.2f} s", findings.written_name(),
                                    number_of(output.triangles, "triangle"),
                                    number_of(output.parts, "part"), seconds));
   if (repair.clean.triangles_in > 0) {
@@ -348,7 +348,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
 }
 
 void describe_soup(const Findings& findings, double seconds, Lines& lines) {
-  lines.add("written", fmt::format("{}: {}, in {:.2f} s", findings.output_name(),
+  lines.add("written", fmt::format("{}: {}, in {:.2f} s", findings.written_name(),
                                    number_of(findings.soup_triangles, "triangle"), seconds));
 }
 

@@ -12,6 +12,7 @@ bool same_look(const Attributes& all, const Material& a, const Material& b) {
   if (a.colour != b.colour || (a.image == kNone) != (b.image == kNone)) return false;
   if (a.image == kNone) return true;
   if (a.texture_set != b.texture_set || a.transform != b.transform) return false;
+  if (a.sampling != b.sampling) return false;
   const Image &first = all.images[a.image], &second = all.images[b.image];
   if (first.bytes && second.bytes) return *first.bytes == *second.bytes;
   return !first.bytes && !second.bytes && first.path == second.path && first.name == second.name;
@@ -132,15 +133,17 @@ Material look_of(const Attributes& attributes, std::size_t material) {
 std::vector<std::string> names_of_other(AppendedMaterials& materials) {
   const auto& [names, of_triangle] = materials.all.materials;
   const bool has_looks = !materials.all.looks.empty() || !materials.other.looks.empty();
+  // Looks of the one alone are not known of the other.
+  const bool are_alike = materials.all.looks.empty() == materials.other.looks.empty();
   std::vector<std::string> result;
   for (std::size_t m = 0; m < materials.other.materials.names.size(); ++m) {
     const std::string& name = materials.other.materials.names[m];
     const auto renamed = materials.new_names.find(name);
     const auto known = std::find(names.begin(), names.end(), name);
     const auto number = static_cast<std::size_t>(known - names.begin());
-    const bool is_other =
-        known != names.end() && has_looks &&
-        !same_look(materials.all, look_of(materials.all, number), look_of(materials.other, m));
+    const bool is_other = known != names.end() && has_looks &&
+                          (!are_alike || !same_look(materials.all, look_of(materials.all, number),
+                                                    look_of(materials.other, m)));
     if (renamed != materials.new_names.end()) {
       result.push_back(renamed->second);
     } else {
@@ -192,6 +195,11 @@ std::string AppendedMaterials::free_name(const std::string& name) {
     std::string next = name + "_" + std::to_string(i);
     if (taken_.insert(next).second) return next;
   }
+}
+
+void AppendedMaterials::take_name(const std::string& name) {
+  own_.insert(name);
+  taken_.insert(name);
 }
 
 void append_attributes(Attributes& all, std::size_t triangles, Attributes other,

@@ -35,13 +35,9 @@ std::vector<std::uint32_t> first_values(const CornerAttribute& attribute) {
 
 std::vector<std::string> Keepsake::lost_in(SoupFormat /*format*/) const { return {}; }
 
-std::shared_ptr<const Keepsake> Keepsake::joined(const Keepsake& /*other*/) const {
-  return nullptr;
-}
-
-std::shared_ptr<const Keepsake> Keepsake::appended_to(const Keepsake* first,
+std::shared_ptr<const Keepsake> Keepsake::appended_to(const Keepsake* /*first*/,
                                                       AppendedMaterials& /*materials*/) const {
-  return first == nullptr ? nullptr : first->joined(*this);
+  return nullptr;
 }
 
 const CornerAttribute* find_kind(const Attributes& attributes, CornerAttribute::Kind kind) {

@@ -23,6 +23,14 @@ constexpr std::array<UnitFacts, 6> kUnits = {{{LengthUnit::micron, "micron", 0.0
 
 double millimeters(LengthUnit unit) { return kUnits[static_cast<std::size_t>(unit)].millimeters; }
 
+double unit_scale(LengthUnit from, LengthUnit to) { return millimeters(from) / millimeters(to); }
+
+void bring_to_unit(LengthUnit from, LengthUnit to, TriangleSoup& soup) {
+  if (from == to) return;
+  const double scale = unit_scale(from, to);
+  for (Vec3d& point : soup.points) point *= scale;
+}
+
 std::string_view unit_name(LengthUnit unit) { return kUnits[static_cast<std::size_t>(unit)].name; }
 
 std::optional<LengthUnit> unit_named(std::string_view name) {

@@ -37,8 +37,8 @@ void move_values(const TextureTransform& transform, double* first, const double*
 // Makes one set of coordinates out of several.
 class PictureSet {
  public:
-  PictureSet(const Attributes& attributes, const std::vector<Material>& looks)
-      : materials_(attributes.materials), looks_(looks) {
+  PictureSet(const Attributes& attributes, const std::vector<Placing>& placings)
+      : materials_(attributes.materials), placings_(placings) {
     for (const CornerAttribute& attribute : attributes.corners) {
       if (attribute.kind == CornerAttribute::Kind::texture) sets_.push_back(&attribute);
     }
@@ -52,7 +52,7 @@ class PictureSet {
   CornerAttribute run() {
     for (std::size_t t = 0; t < materials_.of_triangle.size(); ++t) {
       const std::uint32_t material = materials_.of_triangle[t];
-      add_triangle(t, material < looks_.size() ? placing_of(looks_[material]) : Placing());
+      add_triangle(t, material < placings_.size() ? placings_[material] : Placing());
     }
     share_values(result_);
     return std::move(result_);
@@ -92,7 +92,7 @@ class PictureSet {
   }
 
   const TriangleLabels& materials_;
-  const std::vector<Material>& looks_;
+  const std::vector<Placing>& placings_;
   std::vector<const CornerAttribute*> sets_;
   std::vector<std::pair<Placing, std::uint32_t>> blocks_;
   CornerAttribute result_;
@@ -103,15 +103,17 @@ class PictureSet {
 std::optional<Attributes> with_placed_pictures(const Attributes& attributes,
                                                const std::unordered_set<std::string>& but) {
   if (find_kind(attributes, CornerAttribute::Kind::texture) == nullptr) return std::nullopt;
-  std::vector<Material> looks = attributes.looks;
-  bool are_all = true;
-  for (std::size_t m = 0; m < looks.size(); ++m) {
-    if (!but.empty() && but.contains(attributes.materials.names[m])) looks[m].image = kNone;
-    are_all = are_all && placing_of(looks[m]) == Placing();
+  std::vector<Placing> placings;
+  for (std::size_t m = 0; m < attributes.looks.size(); ++m) {
+    const Material& look = attributes.looks[m];
+    const bool is_placed = !but.empty() && but.contains(attributes.materials.names[m]);
+    placings.push_back(is_placed ? Placing{look.texture_set, {}} : placing_of(look));
   }
+  const bool are_all = std::all_of(placings.begin(), placings.end(),
+                                   [](const Placing& one) { return one == Placing(); });
   if (are_all) return std::nullopt;
   Attributes placed = attributes;
-  CornerAttribute set = PictureSet(attributes, looks).run();
+  CornerAttribute set = PictureSet(attributes, placings).run();
   // Texture coordinates come before all others.
   if (set.count() > 0) placed.corners.insert(placed.corners.begin(), std::move(set));
   for (Material& look : placed.looks) {

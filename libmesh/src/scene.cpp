@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <base/ids.h>
+#include <mesh/append_soup.h>
 #include <mesh/scene.h>
 
 namespace meshrepair {
@@ -126,15 +127,10 @@ void place_instances(TriangleSoup& soup, Attributes& attributes, const Scene& sc
   std::vector<std::size_t> turned;  // triangles that are seen in a mirror
   soup = {};
   for (const auto& [mesh, name, placement] : scene.instances) {
-    const auto base = static_cast<std::uint32_t>(soup.points.size());
-    for (const Vec3d& point : meshes[mesh].points) soup.points.push_back(placement.of(point));
-    for (auto corners : meshes[mesh].triangles) {
-      for (std::uint32_t& corner : corners) corner += base;
-      if (placement.mirrors()) {
-        turned.push_back(soup.triangles.size());
-        std::swap(corners[1], corners[2]);
-      }
-      soup.triangles.push_back(corners);
+    const std::size_t before = soup.triangles.size();
+    append_soup(soup, meshes[mesh], placement);
+    for (std::size_t t = before; placement.mirrors() && t < soup.triangles.size(); ++t) {
+      turned.push_back(t);
     }
     for (std::uint32_t t = first[mesh]; t < first[mesh + 1]; ++t) order.push_back(t);
   }

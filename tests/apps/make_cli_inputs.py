@@ -97,6 +97,23 @@ def mug() -> bytes:
     return "\n".join(lines + [""]).encode()
 
 
+def painted_picture():
+    """glTF text: a triangle with a colour and a picture in it that is mirrored beyond its edges."""
+    data = struct.pack("<9f6f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 2)
+    paint = {"baseColorFactor": [1, 0.5, 0, 1], "baseColorTexture": {"index": 0}}
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+        "materials": [{"name": "paint", "pbrMetallicRoughness": paint}],
+        "textures": [{"source": 0, "sampler": 0}], "samplers": [{"wrapS": 33648}],
+        "images": [{"uri": "data:image/png;base64," + base64.b64encode(png()).decode()}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+        "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+    }).encode()
+
+
 def textured_boxes():
     """OBJ text: two boxes that overlap, each with a picture on all sides and a material of its own."""
     text = b"mtllib textured.mtl\n"
@@ -249,10 +266,12 @@ def main():
         "not_finite.obj": tetrahedron(a="v nan 0 0", b="v inf 0 0", c="v 0 nan 0"),
         "single_triangle.obj": SINGLE_TRIANGLE,
         "painted.gltf": painted_tetrahedron(0, 0.25),
+        "painted_pictures.gltf": painted_picture(),
         "painted_too.gltf": painted_tetrahedron(0.25, 0.5),
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
         "mug.obj": mug(),
+        "undefined.obj": b"mtllib textured.mtl\nusemtl tin\n" + tetrahedron(f1="f 1 3 2\nusemtl wood"),
         "coloured_sides.stl": coloured_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
         "grain.png": png(),

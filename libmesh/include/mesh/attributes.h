@@ -74,12 +74,24 @@ struct TextureTransform {
   bool operator==(const TextureTransform&) const = default;
 };
 
+// What a picture is beyond its edges, and between its pixels.
+struct TextureSampling {
+  enum class Wrap { repeat, mirror, clamp, none };  // none: there is nothing of it
+  enum class Filter { automatic, linear, nearest };
+
+  std::array<Wrap, 2> wrap = {Wrap::repeat, Wrap::repeat};  // beside it, and above and below
+  Filter filter = Filter::automatic;
+
+  bool operator==(const TextureSampling&) const = default;
+};
+
 // What all formats that have materials can say of one.
 struct Material {
-  std::array<double, 4> colour = {1, 1, 1, 1};  // red, green, blue, opacity
+  std::array<double, 4> colour = {1, 1, 1, 1};  // red, green, blue as sRGB has them, and opacity
   std::uint32_t image = kNone;                  // of Attributes::images: times the colour
   std::uint32_t texture_set = 0;    // of the attributes with texture coordinates: that of the image
   TextureTransform transform = {};  // of these coordinates
+  TextureSampling sampling = {};    // of the image
 };
 
 struct AppendedMaterials;
@@ -94,9 +106,6 @@ struct Keepsake {
 
   // Words on what no file of another format can hold of it.
   [[nodiscard]] virtual std::vector<std::string> lost_in(SoupFormat format) const;
-
-  // What two files held, for one; null: this alone, as nothing of the other can be kept.
-  [[nodiscard]] virtual std::shared_ptr<const Keepsake> joined(const Keepsake& other) const;
 
   // The same where attributes with this one are appended to those with `first` (may be null). It
   // says what materials are to be called where it knows more of them than how they look. Null:
@@ -130,6 +139,8 @@ struct AppendedMaterials {
 
   // The name itself, or with a number that no material has if `all` has it already.
   [[nodiscard]] std::string free_name(const std::string& name);
+  // No free name is this one, as keepsakes know it.
+  void take_name(const std::string& name);
 
   const Attributes& all;                    // it has the images of both, and its own materials
   const Attributes& other;                  // the images of its looks are those of `all`

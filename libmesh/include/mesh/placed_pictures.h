@@ -11,7 +11,7 @@ namespace meshrepair {
 
 // The same attributes, but all pictures lie where the first set of texture coordinates says, with
 // no transform: most formats, and whoever draws, know no more. That set comes before the others.
-// Pictures of materials with the names in `but` stay where they are. Nothing where it is so
+// Materials with the names in `but` keep their transforms for themselves. Nothing where it is so
 // already.
 [[nodiscard]] std::optional<Attributes> with_placed_pictures(
     const Attributes& attributes, const std::unordered_set<std::string>& but = {});

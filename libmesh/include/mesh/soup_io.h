@@ -51,6 +51,10 @@ struct WriteOptions {
 // What of the attributes the format can hold.
 [[nodiscard]] Attributes held_by(SoupFormat format, Attributes attributes);
 
+// Whether write_soup() would write others beside a file with these: libraries of materials. Neither
+// standard output nor format_soup() has these.
+[[nodiscard]] bool has_files_beside(SoupFormat format, const Attributes& attributes);
+
 // Writes a file; "-" is standard output and needs options.format. Throws UsageError when no format
 // can be told, or there are sources and it is not PLY; OutputError when anything cannot be written
 // in full; the target is then as it was.

@@ -97,6 +97,11 @@ ReadResult read_soup(std::string_view bytes, const std::string& name, const Read
   return read_opened(OpenedFile(bytes, name, options));
 }
 
+bool has_files_beside(SoupFormat format, const Attributes& attributes) {
+  return format == SoupFormat::obj &&
+         obj_files({}, {.attributes = &attributes}, "mesh.obj").size() > 1;
+}
+
 void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                 const WriteOptions& options) {
   const auto format = options.format ? options.format : format_of_extension(path);

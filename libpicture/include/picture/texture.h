@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <mesh/attributes.h>
 #include <picture/pixels.h>
 
 namespace meshrepair {
@@ -22,9 +23,10 @@ class Texture {
 
   // The copy whose pixels are about as large as a sample, if a sample has so many of the texture's.
   [[nodiscard]] std::size_t copy_for(double texels_of_sample) const;
-  // Between the four nearest pixels. u is to the right and v up; the picture is repeated without
-  // end.
-  [[nodiscard]] Light light(double u, double v, std::size_t copy) const;
+  // Between the four nearest pixels, or that of the nearest. u is to the right and v up. White
+  // where there is nothing of the picture, so that what it lies on stays as it is.
+  [[nodiscard]] Light light(double u, double v, std::size_t copy,
+                            const TextureSampling& sampling = {}) const;
 
   [[nodiscard]] PictureSize size() const { return copies_.front().size; }
 

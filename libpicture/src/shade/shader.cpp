@@ -93,6 +93,7 @@ void Shader::add_look(std::uint32_t triangle, Face& face) const {
   if (material >= attributes_.looks.size()) return;
   const Material& look = attributes_.looks[material];
   for (std::size_t k = 0; k < 3; ++k) face.light[k] = square(look.colour[k]);
+  face.sampling = look.sampling;
   if (look.image < textures_.size()) add_texture(triangle, textures_[look.image].get(), face);
 }
 
@@ -132,8 +133,8 @@ Light Shader::light(const Face& face, const std::array<double, 3>& shares) const
   }
   if (face.texture != nullptr) {
     const auto& [a, b, c] = face.texture_places;
-    const Light own = face.texture->light(mixed(shares, a[0], b[0], c[0]),
-                                          mixed(shares, a[1], b[1], c[1]), face.copy);
+    const Light own = face.texture->light(
+        mixed(shares, a[0], b[0], c[0]), mixed(shares, a[1], b[1], c[1]), face.copy, face.sampling);
     for (std::size_t k = 0; k < 3; ++k) light[k] *= own[k];
   }
   return light;

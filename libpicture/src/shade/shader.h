@@ -30,6 +30,7 @@ class Shader {
     std::array<std::array<double, 3>, 3> colours{};  // of the corners
     const Texture* texture = nullptr;
     std::size_t copy = 0;  // of the texture
+    TextureSampling sampling;
     std::array<std::array<double, 2>, 3> texture_places{};
   };
   [[nodiscard]] Face face(std::uint32_t triangle, bool from_behind) const;

@@ -248,7 +248,19 @@ TEST(ObjAttributes, IndicesOutsideLeaveCornersWithoutValues) {
   EXPECT_EQ(texture.of_corner, (std::vector<std::uint32_t>{kNone, kNone, kNone, kNone, 0, 0}));
   ASSERT_EQ(result.report.warnings.size(), 1u);
   EXPECT_EQ(result.report.warnings[0],
-            "2 corners name texture coordinates or normals that are not there: left without");
+            "4 corners name texture coordinates or normals that are not there: left without");
+}
+
+TEST(ObjAttributes, IndicesOfValuesThatNoLineHasAreCounted) {
+  for (const std::string corner : {"1/0", "1/7", "1/-1", "1//0", "1//77", "1//-1"}) {
+    const ReadResult result =
+        parse_with_attributes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf " + corner + " 2/ 3\n");
+    EXPECT_EQ(result.soup.triangles.size(), 1u);
+    EXPECT_TRUE(result.attributes.corners.empty());
+    ASSERT_EQ(result.report.warnings.size(), 1u) << corner;
+    EXPECT_EQ(result.report.warnings[0],
+              "1 corner names texture coordinates or normals that are not there: left without");
+  }
 }
 
 }  // namespace

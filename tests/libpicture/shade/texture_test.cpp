@@ -35,12 +35,64 @@ TEST(Texture, RepeatsWithoutEnd) {
   EXPECT_EQ(texture.light(0, 0.75, 0), (Light{0.5, 0.5, 0}));  // between the last and the first
 }
 
+TextureSampling sampling_of(TextureSampling::Wrap wrap,
+                            TextureSampling::Filter filter = TextureSampling::Filter::automatic) {
+  return {{wrap, wrap}, filter};
+}
+
+TEST(Texture, GoesOnAsItsEdgesWhereItIsClamped) {
+  const Texture texture = four();
+  const TextureSampling clamp = sampling_of(TextureSampling::Wrap::clamp);
+  for (const double far : {0.75, 1.0, 1.25, 7.0, 1e300}) {
+    EXPECT_EQ(texture.light(far, far, 0, clamp), (Light{0, 1, 0}));
+    EXPECT_EQ(texture.light(1 - far, 1 - far, 0, clamp), (Light{0, 0, 1}));
+  }
+  EXPECT_EQ(texture.light(0.5, 0.75, 0, clamp), (Light{0.5, 0.5, 0}));
+}
+
+TEST(Texture, IsTurnedEverySecondTimeWhereItIsMirrored) {
+  const Texture texture = four();
+  const TextureSampling mirror = sampling_of(TextureSampling::Wrap::mirror);
+  for (const double n : {-4.0, -2.0, 0.0, 2.0}) {
+    EXPECT_EQ(texture.light(0.25 + n, 0.75 - n, 0, mirror), (Light{1, 0, 0}));
+    EXPECT_EQ(texture.light(n - 0.25, 0.75, 0, mirror), (Light{1, 0, 0}));
+    EXPECT_EQ(texture.light(0.25, n - 0.75, 0, mirror), (Light{1, 0, 0}));
+  }
+  EXPECT_EQ(texture.light(1, 0.75, 0, mirror), (Light{0, 1, 0}));
+}
+
+TEST(Texture, IsWhiteOutsideWhereThereIsNothingOfIt) {
+  const Texture texture = four();
+  const TextureSampling none = sampling_of(TextureSampling::Wrap::none);
+  EXPECT_EQ(texture.light(0.25, 0.75, 0, none), (Light{1, 0, 0}));
+  EXPECT_EQ(texture.light(1.25, 0.75, 0, none), (Light{1, 1, 1}));
+  EXPECT_EQ(texture.light(0.25, -0.25, 0, none), (Light{1, 1, 1}));
+}
+
+TEST(Texture, HasThePixelsAloneWhereTheNearestCounts) {
+  using Wrap = TextureSampling::Wrap;
+  const Texture texture = four();
+  for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp, Wrap::none}) {
+    const TextureSampling nearest = sampling_of(wrap, TextureSampling::Filter::nearest);
+    EXPECT_EQ(texture.light(0.4375, 0.5625, 0, nearest), (Light{1, 0, 0}));
+    EXPECT_EQ(texture.light(0.5625, 0.5625, 0, nearest), (Light{0, 1, 0}));
+  }
+}
+
 TEST(Texture, TakesAnyPlace) {
   const double inf = std::numeric_limits<double>::infinity();
   const Texture texture = four();
   for (const double u : {inf, -inf, std::nan(""), 1e300, -1e300, -1e-300, 5e-324, -5e-324}) {
     for (const double v : {0.25, inf, std::nan(""), -1e-300}) {
-      for (const double value : texture.light(u, v, 0)) EXPECT_TRUE(value >= 0 && value <= 1);
+      for (const auto wrap : {TextureSampling::Wrap::repeat, TextureSampling::Wrap::mirror,
+                              TextureSampling::Wrap::clamp, TextureSampling::Wrap::none}) {
+        for (const auto filter :
+             {TextureSampling::Filter::linear, TextureSampling::Filter::nearest}) {
+          for (const double value : texture.light(u, v, 0, sampling_of(wrap, filter))) {
+            EXPECT_TRUE(value >= 0 && value <= 1);
+          }
+        }
+      }
     }
   }
 }

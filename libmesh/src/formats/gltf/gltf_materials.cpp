@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <mesh/named_files.h>
+#include <mesh/srgb.h>
 
 #include "formats/common/uri.h"
 
@@ -72,6 +73,32 @@ void place_texture(const GltfJson& texture, Material& look) {
   }
 }
 
+// kNone: there is none. No file is refused for what its pictures look like.
+std::size_t number_in(const GltfJson& object, const char* key) {
+  const GltfJson* const number = gltf_member(object, key);
+  return number != nullptr && number->is_number_unsigned() ? number->get<std::size_t>() : kNone;
+}
+
+TextureSampling::Wrap wrap_of(std::size_t number) {
+  using Wrap = TextureSampling::Wrap;
+  if (number == kGltfClamp) return Wrap::clamp;
+  return number == kGltfMirror ? Wrap::mirror : Wrap::repeat;
+}
+
+// What is said of pictures that are seen from near counts for all.
+TextureSampling sampling_of(const GltfDocument& document, const GltfJson& texture) {
+  TextureSampling sampling;
+  const std::size_t number = number_in(texture, "sampler");
+  if (number >= document.count("samplers")) return sampling;
+  const GltfJson& sampler = document.entry("samplers", number);
+  sampling.wrap = {wrap_of(number_in(sampler, "wrapS")), wrap_of(number_in(sampler, "wrapT"))};
+  using Filter = TextureSampling::Filter;
+  const std::size_t filter = number_in(sampler, "magFilter");
+  if (filter == kGltfNearest) sampling.filter = Filter::nearest;
+  if (filter == kGltfLinear) sampling.filter = Filter::linear;
+  return sampling;
+}
+
 Material look_of(const GltfDocument& document, const GltfJson& material) {
   Material look;
   const GltfJson* const shading = gltf_member(material, "pbrMetallicRoughness");
@@ -81,11 +108,14 @@ Material look_of(const GltfDocument& document, const GltfJson& material) {
     for (std::size_t i = 0; i < look.colour.size(); ++i) {
       if ((*factor)[i].is_number()) look.colour[i] = (*factor)[i].get<double>();
     }
+    for (std::size_t i = 0; i < 3; ++i) look.colour[i] = srgb_of_linear(look.colour[i]);
   }
   const GltfJson* const texture = gltf_member(*shading, "baseColorTexture");
   const auto number = texture == nullptr ? std::nullopt : document.whole(*texture, "index");
   if (!number) return look;
-  const auto image = image_of_texture(document, document.entry("textures", *number));
+  const GltfJson& entry = document.entry("textures", *number);
+  look.sampling = sampling_of(document, entry);
+  const auto image = image_of_texture(document, entry);
   if (image && *image < document.count("images")) look.image = static_cast<std::uint32_t>(*image);
   place_texture(*texture, look);
   return look;

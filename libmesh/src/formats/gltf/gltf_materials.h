@@ -11,6 +11,13 @@
 
 namespace meshrepair {
 
+// Of samplers.
+inline constexpr std::size_t kGltfNearest = 9728;
+inline constexpr std::size_t kGltfLinear = 9729;
+inline constexpr std::size_t kGltfRepeat = 10497;
+inline constexpr std::size_t kGltfClamp = 33071;
+inline constexpr std::size_t kGltfMirror = 33648;
+
 // All of them, in their order: the names of `materials`, one for each, all different; `looks`;
 // `images`, of which nothing is decoded. Throws InputError.
 void read_materials(const GltfDocument& document, GltfBuffers& buffers, Attributes& attributes);

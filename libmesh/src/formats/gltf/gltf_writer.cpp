@@ -5,10 +5,10 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include <mesh/named_files.h>
+#include <mesh/srgb.h>
 
 #include "formats/common/uri.h"
 #include "gltf_builder.h"
@@ -38,7 +38,7 @@ class GltfWriter {
         kept_(attributes_ == nullptr
                   ? nullptr
                   : dynamic_cast<const GltfKeepsake*>(attributes_->keepsake.get())),
-        scale_(extras.unit ? millimeters(*extras.unit) / millimeters(LengthUnit::meter) : 1),
+        scale_(extras.unit ? unit_scale(*extras.unit, LengthUnit::meter) : 1),
         builder_(kept_) {}
 
   std::string run(bool binary) {
@@ -56,6 +56,12 @@ class GltfWriter {
   }
 
  private:
+  struct WrittenTexture {
+    std::uint32_t image;
+    TextureSampling sampling;
+    std::size_t source, number;  // in their lists
+  };
+
   void add_comments() {
     if (extras_.comments.empty()) return;
     GltfJson& extras = builder_.root()["asset"]["extras"];
@@ -242,6 +248,7 @@ class GltfWriter {
     std::array<double, 4> colour = look.colour;
     for (double& part : colour) part = std::isfinite(part) ? std::clamp(part, 0.0, 1.0) : 1.0;
     GltfJson shading = {{"metallicFactor", 0.0}};
+    for (std::size_t i = 0; i < 3; ++i) colour[i] = linear_of_srgb(colour[i]);
     if (colour != Material().colour) shading["baseColorFactor"] = colour;
     if (look.image < attributes_->images.size()) {
       shading["baseColorTexture"] = placed_texture(look);
@@ -251,7 +258,7 @@ class GltfWriter {
   }
 
   GltfJson placed_texture(const Material& look) {
-    GltfJson texture = {{"index", texture_of(look.image)}};
+    GltfJson texture = {{"index", texture_of(look.image, look.sampling)}};
     if (look.texture_set != 0) texture["texCoord"] = look.texture_set;
     if (look.transform == TextureTransform()) return texture;
     const auto& [offset, scale, rotation] = look.transform;
@@ -261,12 +268,38 @@ class GltfWriter {
     return texture;
   }
 
-  std::size_t texture_of(std::uint32_t image) {
-    const auto known = textures_.find(image);
-    if (known != textures_.end()) return known->second;
-    const std::size_t texture = builder_.append("textures", {{"source", image_of(image)}});
-    textures_.emplace(image, texture);
-    return texture;
+  std::size_t texture_of(std::uint32_t image, const TextureSampling& sampling) {
+    const auto known = std::find_if(
+        textures_.begin(), textures_.end(),
+        [&](const WrittenTexture& one) { return one.image == image && one.sampling == sampling; });
+    if (known != textures_.end()) return known->number;
+    const auto same = std::find_if(textures_.begin(), textures_.end(),
+                                   [&](const WrittenTexture& one) { return one.image == image; });
+    const std::size_t source = same == textures_.end() ? image_of(image) : same->source;
+    GltfJson texture = {{"source", source}};
+    if (sampling != TextureSampling()) texture["sampler"] = sampler_of(sampling);
+    const std::size_t number = builder_.append("textures", std::move(texture));
+    textures_.push_back({image, sampling, source, number});
+    return number;
+  }
+
+  // What ends at its edges has no word here: it goes on as it is there.
+  std::size_t sampler_of(const TextureSampling& sampling) {
+    const auto known = std::find_if(samplers_.begin(), samplers_.end(),
+                                    [&](const auto& one) { return one.first == sampling; });
+    if (known != samplers_.end()) return known->second;
+    using Wrap = TextureSampling::Wrap;
+    const auto wrap = [](Wrap one) {
+      if (one == Wrap::repeat) return kGltfRepeat;
+      return one == Wrap::mirror ? kGltfMirror : kGltfClamp;
+    };
+    GltfJson json = {{"wrapS", wrap(sampling.wrap[0])}, {"wrapT", wrap(sampling.wrap[1])}};
+    if (sampling.filter != TextureSampling::Filter::automatic) {
+      const bool is_linear = sampling.filter == TextureSampling::Filter::linear;
+      json["magFilter"] = json["minFilter"] = is_linear ? kGltfLinear : kGltfNearest;
+    }
+    samplers_.emplace_back(sampling, builder_.append("samplers", std::move(json)));
+    return samplers_.back().second;
   }
 
   std::size_t image_of(std::uint32_t number) {
@@ -301,7 +334,8 @@ class GltfWriter {
   const GltfKeepsake* kept_;
   double scale_;  // of the soup, to be in meters
   GltfBuilder builder_;
-  std::unordered_map<std::uint32_t, std::size_t> textures_;
+  std::vector<WrittenTexture> textures_;
+  std::vector<std::pair<TextureSampling, std::size_t>> samplers_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -143,7 +144,11 @@ class MaterialFiles {
         append_number(text, look.colour[3]);
         text += '\n';
       }
-      if (look.image != kNone) text += "map_Kd " + name_of_image(look.image) + '\n';
+      if (look.image == kNone) continue;
+      const auto clamp = TextureSampling::Wrap::clamp;
+      const bool is_clamped = look.sampling.wrap == std::array{clamp, clamp};
+      text += is_clamped ? "map_Kd -clamp on " : "map_Kd ";
+      text += name_of_image(look.image) + '\n';
     }
   }
 

@@ -17,6 +17,7 @@
 #include <mesh/named_files.h>
 
 #include "formats/common/text_scanner.h"
+#include "joined_libraries.h"
 #include "mtl_text.h"
 
 namespace meshrepair {
@@ -74,6 +75,8 @@ class LibraryReader {
   // v grows upwards here, but not in the transform.
   void set_picture(const MtlMap& map) {
     look_->image = image_of(with_slashes(map.picture));
+    using Wrap = TextureSampling::Wrap;
+    look_->sampling.wrap.fill(map.is_clamped ? Wrap::clamp : Wrap::repeat);
     look_->transform.scale = map.scale;
     look_->transform.offset = {map.offset[0], 1 - map.scale[1] - map.offset[1]};
   }
@@ -156,6 +159,26 @@ std::vector<std::string_view> names_in(const MeshSource& source, std::string_vie
   return names;
 }
 
+// Who misses a library knows it already.
+void warn_of_undefined(const MaterialLibraries& libraries, const std::vector<std::string>& names,
+                       ReadReport& report) {
+  std::unordered_set<std::string_view> defined;
+  for (const MaterialLibraries::Library& library : libraries.libraries) {
+    if (library.path.empty() && !library.is_packed) return;
+    visit_mtl_lines(library.text, [&](std::string_view text) {
+      const MtlLine line = split_mtl_line(text);
+      if (line.key == "newmtl") defined.insert(line.rest);
+    });
+  }
+  const auto is_undefined = [&](const std::string& name) { return !defined.contains(name); };
+  const auto first = std::find_if(names.begin(), names.end(), is_undefined);
+  if (first == names.end()) return;
+  const auto count = static_cast<std::size_t>(std::count_if(first, names.end(), is_undefined));
+  report.warnings.push_back(count == 1 ? "no library defines the material " + printable(*first)
+                                       : "no library defines " + counted(count, "material") + ": " +
+                                             printable(*first) + ", ...");
+}
+
 }  // namespace
 
 std::vector<std::string> MaterialLibraries::lost_in(SoupFormat format) const {
@@ -179,17 +202,11 @@ std::vector<std::string> MaterialLibraries::lost_in(SoupFormat format) const {
   return {words + " of materials"};
 }
 
-std::shared_ptr<const Keepsake> MaterialLibraries::joined(const Keepsake& other) const {
-  const auto* const others = dynamic_cast<const MaterialLibraries*>(&other);
-  if (others == nullptr) return nullptr;
-  auto all = std::make_shared<MaterialLibraries>();
-  all->libraries = libraries;
-  for (const Library& library : others->libraries) {
-    const bool is_known = std::any_of(libraries.begin(), libraries.end(),
-                                      [&](const Library& known) { return known.is_like(library); });
-    if (!is_known) all->libraries.push_back(library);
-  }
-  return all;
+std::shared_ptr<const Keepsake> MaterialLibraries::appended_to(const Keepsake* first,
+                                                               AppendedMaterials& materials) const {
+  const auto* const before = dynamic_cast<const MaterialLibraries*>(first);
+  if (first != nullptr && before == nullptr) return nullptr;
+  return joined_libraries(before, *this, materials);
 }
 
 bool MaterialLibraries::Library::is_like(const Library& other) const {
@@ -218,6 +235,7 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
   for (const MaterialLibraries::Library& library : kept->libraries) {
     LibraryReader(source, numbers, library, attributes).run();
   }
+  warn_of_undefined(*kept, attributes.materials.names, report);
   attributes.keepsake = std::move(kept);
 }
 

@@ -34,7 +34,9 @@ struct MaterialLibraries final : Keepsake {
 
   // Keys of lines.
   [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
-  [[nodiscard]] std::shared_ptr<const Keepsake> joined(const Keepsake& other) const override;
+  // Materials of one name that are not the same get different ones.
+  [[nodiscard]] std::shared_ptr<const Keepsake> appended_to(
+      const Keepsake* first, AppendedMaterials& materials) const override;
 };
 
 // Reads the libraries that these lines name, as far as they lie in the source's folder or below it:

@@ -67,6 +67,7 @@ MtlMap read_mtl_map(std::string_view rest) {
       const auto number = option->numbers ? number_of(word.key) : std::nullopt;
       if (word.rest.empty() || (option->numbers && !number)) break;
       map.picture = word.rest;
+      if (option->name == "-clamp") map.is_clamped = equals_ignoring_case(word.key, "on");
       if (number && i < 2 && option->name == "-o") map.offset[i] = *number;
       if (number && i < 2 && option->name == "-s") map.scale[i] = *number;
     }

@@ -31,6 +31,7 @@ void visit_mtl_lines(std::string_view text, const Visit& visit) {
 struct MtlMap {
   std::string_view picture;                               // its name, which may have blanks
   std::array<double, 2> offset = {0, 0}, scale = {1, 1};  // of texture coordinates: times, plus
+  bool is_clamped = false;
 };
 
 [[nodiscard]] MtlMap read_mtl_map(std::string_view rest);

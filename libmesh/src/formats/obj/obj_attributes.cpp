@@ -24,7 +24,9 @@ std::optional<std::int64_t> next_index(std::string_view& text) {
   std::int64_t number = 0;
   const char* const begin = text.data();
   const auto [end, error] = std::from_chars(begin, begin + text.size(), number);
-  const bool any = error == std::errc() && end != begin;
+  // Beyond all numbers there is none either that a file has.
+  if (error == std::errc::result_out_of_range) number = std::numeric_limits<std::int64_t>::max();
+  const bool any = end != begin;
   text.remove_prefix(static_cast<std::size_t>(end - begin));
   text.remove_prefix(std::min(
       text.size(), text.find('/') == std::string_view::npos ? text.size() : text.find('/') + 1));
@@ -32,8 +34,8 @@ std::optional<std::int64_t> next_index(std::string_view& text) {
 }
 
 std::int64_t position_of(std::optional<std::int64_t> index, std::size_t count) {
-  if (!index || *index == 0) return kNoValue;
-  if (*index > 0) return *index - 1;
+  if (!index) return kNoValue;
+  if (*index >= 0) return *index - 1;
   return std::max<std::int64_t>(static_cast<std::int64_t>(count) + *index, -1);
 }
 
@@ -176,6 +178,14 @@ CornerAttribute ObjAttributes::Corners::take(CornerAttribute::Kind kind,
   return taken;
 }
 
+void ObjAttributes::Corners::count_bad(const std::vector<FaceList::Origin>& origins) {
+  for (const FaceList::Origin& origin : origins) {
+    bad += static_cast<std::size_t>(
+        std::count_if(origin.corners.begin(), origin.corners.end(),
+                      [&](std::uint64_t corner) { return of_corner[corner] != kNoValue; }));
+  }
+}
+
 bool ObjAttributes::read_line(std::string_view word, TextScanner& text) {
   if (word == "vt") {
     texture_.add(text, 3);
@@ -233,10 +243,14 @@ Attributes ObjAttributes::take(const std::vector<FaceList::Origin>& origins,
                                const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   using Kind = CornerAttribute::Kind;
   Attributes attributes;
-  if (!texture_.values.empty()) {
+  if (texture_.values.empty()) {
+    texture_.count_bad(origins);
+  } else {
     attributes.corners.push_back(texture_.take(Kind::texture, origins));
   }
-  if (!normals_.values.empty()) {
+  if (normals_.values.empty()) {
+    normals_.count_bad(origins);
+  } else {
     attributes.corners.push_back(normals_.take(Kind::normal, origins));
   }
   if (!colours_.empty()) {

@@ -60,6 +60,8 @@ class ObjAttributes {
     void add(TextScanner& text, std::size_t most);
     [[nodiscard]] CornerAttribute take(CornerAttribute::Kind kind,
                                        const std::vector<FaceList::Origin>& origins);
+    // Where there are no values at all.
+    void count_bad(const std::vector<FaceList::Origin>& origins);
   };
 
   Corners texture_, normals_;

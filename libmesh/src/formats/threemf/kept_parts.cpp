@@ -8,6 +8,7 @@
 #include <base/error.h>
 
 #include "formats/common/part_names.h"
+#include "model_values.h"
 
 namespace meshrepair {
 namespace {
@@ -175,45 +176,18 @@ class PartAppender {
   std::vector<KeptPackage::Part> fresh_;
 };
 
-const KeptPackage::Tiling* tiling_of(const KeptPackage& package, const Attributes& attributes,
-                                     const Material& look) {
-  if (look.image >= attributes.images.size()) return nullptr;
-  const auto found = std::find_if(
-      package.tilings.begin(), package.tilings.end(),
-      [&](const auto& one) { return one.picture == attributes.images[look.image].bytes; });
-  return found == package.tilings.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
+TextureSampling KeptPackage::Tiling::sampling() const { return read_sampling(u, v, filter); }
+
 std::shared_ptr<const Keepsake> KeptPackage::appended_to(const Keepsake* first,
-                                                         AppendedMaterials& materials) const {
+                                                         AppendedMaterials& /*materials*/) const {
   const auto* const before = dynamic_cast<const KeptPackage*>(first);
   if (before == nullptr) return nullptr;
-  tell_tilings_apart(*before, materials);
   std::shared_ptr<KeptPackage> both = before->copy();
   PartAppender(*both, *this).run();
   both->tilings.insert(both->tilings.end(), tilings.begin(), tilings.end());
   return both;
-}
-
-// Those of one name that look the same but for how a picture is laid over triangles.
-void KeptPackage::tell_tilings_apart(const KeptPackage& first, AppendedMaterials& materials) const {
-  const Attributes &all = materials.all, &other = materials.other;
-  std::unordered_map<std::string_view, std::size_t> numbers;
-  for (std::size_t m = 0; m < all.looks.size() && m < all.materials.names.size(); ++m) {
-    numbers.emplace(all.materials.names[m], m);
-  }
-  for (std::size_t m = 0; m < other.looks.size() && m < other.materials.names.size(); ++m) {
-    const auto same = numbers.find(other.materials.names[m]);
-    if (same == numbers.end()) continue;
-    const Tiling* const here = tiling_of(*this, all, other.looks[m]);
-    const Tiling* const there = tiling_of(first, all, all.looks[same->second]);
-    if (here == nullptr || there == nullptr) continue;
-    if (here->u == there->u && here->v == there->v && here->filter == there->filter) continue;
-    const std::string& name = other.materials.names[m];
-    materials.new_names[name] = materials.free_name(name);
-  }
 }
 
 std::shared_ptr<KeptPackage> KeptPackage::copy() const {

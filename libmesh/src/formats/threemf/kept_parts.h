@@ -28,6 +28,8 @@ struct KeptPackage final : Keepsake {
   struct Tiling {
     std::shared_ptr<const std::string> picture;
     std::string u, v, filter;
+
+    [[nodiscard]] TextureSampling sampling() const;
   };
 
   std::optional<LengthUnit> unit;
@@ -46,7 +48,6 @@ struct KeptPackage final : Keepsake {
 
  private:
   [[nodiscard]] std::shared_ptr<KeptPackage> copy() const;
-  void tell_tilings_apart(const KeptPackage& first, AppendedMaterials& materials) const;
 };
 
 // Reads all parts but those that are written anew: models, relationships, types of content and the

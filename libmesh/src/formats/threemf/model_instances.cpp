@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <base/progress.h>
+#include <mesh/append_soup.h>
 #include <mesh/read_guard.h>
 
 #include "model_values.h"
@@ -197,12 +198,12 @@ class InstancePlacer {
   // In the unit of the part that names it.
   [[nodiscard]] Placement placement_in(std::uint32_t part, const ObjectReference& reference) const {
     const auto unit_of = [&](std::uint32_t one) {
-      return millimeters(parts_[one].unit.value_or(LengthUnit::millimeter));
+      return parts_[one].unit.value_or(LengthUnit::millimeter);
     };
-    const double from = unit_of(reference.part), to = unit_of(part);
+    const LengthUnit from = unit_of(reference.part), to = unit_of(part);
     if (from == to) return reference.placement;
     Placement scale;
-    scale.linear *= from / to;
+    scale.linear *= unit_scale(from, to);
     return scale.then(reference.placement);
   }
 
@@ -233,19 +234,9 @@ class InstancePlacer {
   }
 
   void append(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {
-    const TriangleSoup& mesh = parts_[part].objects[number].mesh;
-    TriangleSoup& soup = result_.soup;
-    const bool moved = !placement.is_identity();
-    const bool turned = placement.mirrors();
-    const auto first = static_cast<std::uint32_t>(soup.points.size());
-    result_.instances.push_back(
-        {part, number, named.object, named.part, soup.triangles.size(), turned});
-    for (const Vec3d& point : mesh.points)
-      soup.points.push_back(moved ? placement.of(point) : point);
-
-    for (const auto& [a, b, c] : mesh.triangles) {
-      soup.triangles.push_back({first + a, first + (turned ? c : b), first + (turned ? b : c)});
-    }
+    result_.instances.push_back({part, number, named.object, named.part,
+                                 result_.soup.triangles.size(), placement.mirrors()});
+    append_soup(result_.soup, parts_[part].objects[number].mesh, placement);
   }
 
   const MeshSource& source_;

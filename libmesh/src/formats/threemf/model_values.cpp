@@ -8,6 +8,19 @@
 #include "formats/common/text_scanner.h"
 
 namespace meshrepair {
+namespace {
+
+// In the order of the values.
+constexpr std::array<std::string_view, 4> kTiles = {"wrap", "mirror", "clamp", "none"};
+constexpr std::array<std::string_view, 3> kFilters = {"auto", "linear", "nearest"};
+
+template <class Value, std::size_t kCount>
+Value value_named(std::string_view name, const std::array<std::string_view, kCount>& names) {
+  const auto* const found = std::find(names.begin(), names.end(), without_blanks(name));
+  return found == names.end() ? Value() : static_cast<Value>(found - names.begin());
+}
+
+}  // namespace
 
 bool read_model_number(std::string_view text, double& value) {
   const std::string_view word = without_blanks(text);
@@ -47,6 +60,21 @@ std::optional<ModelColour> read_model_colour(std::string_view text) {
     colour.values[i] = byte / 255.0;
   }
   return colour;
+}
+
+TextureSampling read_sampling(std::string_view tile_u, std::string_view tile_v,
+                              std::string_view filter) {
+  using Wrap = TextureSampling::Wrap;
+  return {{value_named<Wrap>(tile_u, kTiles), value_named<Wrap>(tile_v, kTiles)},
+          value_named<TextureSampling::Filter>(filter, kFilters)};
+}
+
+std::string_view tile_name(TextureSampling::Wrap wrap) {
+  return kTiles[static_cast<std::size_t>(wrap)];
+}
+
+std::string_view filter_name(TextureSampling::Filter filter) {
+  return kFilters[static_cast<std::size_t>(filter)];
 }
 
 std::optional<Placement> read_placement(std::string_view text) {

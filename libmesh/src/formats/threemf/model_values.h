@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include <mesh/attributes.h>
+
 #include "model_part.h"
 
 namespace meshrepair {
@@ -30,5 +32,13 @@ struct ModelColour {
 // Twelve numbers, all finite: x' = x m0 + y m3 + z m6 + m9, y' = x m1 + ... Nothing where it is no
 // such thing.
 [[nodiscard]] std::optional<Placement> read_placement(std::string_view text);
+
+// What tilestyleu, tilestylev and filter say; what is missing or unknown is what it is by default.
+[[nodiscard]] TextureSampling read_sampling(std::string_view tile_u, std::string_view tile_v,
+                                            std::string_view filter);
+
+// The words for these.
+[[nodiscard]] std::string_view tile_name(TextureSampling::Wrap wrap);
+[[nodiscard]] std::string_view filter_name(TextureSampling::Filter filter);
 
 }  // namespace meshrepair

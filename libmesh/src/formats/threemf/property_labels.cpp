@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "model_values.h"
+
 namespace meshrepair {
 namespace {
 
@@ -59,15 +61,15 @@ class PropertyTables {
     const std::uint32_t base = property.base, texture = property.texture;
     if (texture == kNone || base == texture) return base;
     if (base == kNone) return texture;
-    const std::uint32_t image = attributes_.looks[texture].image;
+    const Material& over = attributes_.looks[texture];
     Material look = attributes_.looks[base];
-    if (look.image == kNone || look.image == image) {
-      attributes_.looks[base].image = image;
+    if (look.image == kNone || (look.image == over.image && look.sampling == over.sampling)) {
+      lay_picture(over, attributes_.looks[base]);
       return base;
     }
     const auto [found, is_new] = textured_.try_emplace(std::uint64_t{base} << 32 | texture, kNone);
     if (is_new) {
-      look.image = image;
+      lay_picture(over, look);
       found->second = add_material(attributes_.materials.names[base], look);
     }
     return found->second;
@@ -78,6 +80,11 @@ class PropertyTables {
 
  private:
   using Table = std::vector<CornerProperty>;
+
+  static void lay_picture(const Material& from, Material& to) {
+    to.image = from.image;
+    to.sampling = from.sampling;
+  }
 
   void fill(std::size_t number) {
     const ModelPart& part = parts_[number];
@@ -154,24 +161,39 @@ class PropertyTables {
     std::optional<Image> image;
     if (texture != part.textures.end()) image = find_(part, *texture);
     if (!image) ++oddities_.unreadable;
-    const std::string key = image ? image->path : std::string();
+    Material look;
+    std::string key, name = "texture";
+    if (image) {
+      look.sampling = read_sampling(texture->tile_u, texture->tile_v, texture->filter);
+      key = image->path + ' ' + sampling_key(look.sampling);
+      name = std::filesystem::path(image->name).stem().string();
+    }
     const auto [found, is_new] = pictures_.try_emplace(key, kNone);
     if (!is_new) return found->second;
-    Material look;
-    std::string name = "texture";
-    if (image) {
-      name = std::filesystem::path(image->name).stem().string();
-      image->path.clear();
-      look.image = static_cast<std::uint32_t>(attributes_.images.size());
-      attributes_.images.push_back(std::move(*image));
-    }
+    if (image) look.image = number_of(std::move(*image));
     const auto base = names_.find(name);
     if (base != names_.end() && attributes_.looks[base->second].image == kNone) {
-      attributes_.looks[base->second].image = look.image;
+      lay_picture(look, attributes_.looks[base->second]);
       found->second = base->second;
     } else {
       found->second = add_material(name, look);
     }
+    return found->second;
+  }
+
+  static std::string sampling_key(const TextureSampling& sampling) {
+    std::string key(tile_name(sampling.wrap[0]));
+    return key.append(1, ' ')
+        .append(tile_name(sampling.wrap[1]))
+        .append(1, ' ')
+        .append(filter_name(sampling.filter));
+  }
+
+  // Several textures may have one picture; only the first of them brings its bytes.
+  std::uint32_t number_of(Image image) {
+    const auto fresh = static_cast<std::uint32_t>(attributes_.images.size());
+    const auto [found, is_new] = images_.try_emplace(std::exchange(image.path, {}), fresh);
+    if (is_new) attributes_.images.push_back(std::move(image));
     return found->second;
   }
 
@@ -195,7 +217,8 @@ class PropertyTables {
   PropertyOddities& oddities_;
   std::vector<std::unordered_map<std::uint32_t, Table>> tables_;  // of each part, by id
   std::unordered_map<std::uint64_t, std::uint32_t> textured_;
-  std::unordered_map<std::string, std::uint32_t> pictures_;
+  std::unordered_map<std::string, std::uint32_t> pictures_;  // materials of textures
+  std::unordered_map<std::string, std::uint32_t> images_;    // by their parts
   std::unordered_map<std::string, std::uint32_t> names_;
   std::unordered_map<std::string, std::size_t> used_;
   CornerAttribute points_, colours_;

@@ -15,6 +15,7 @@
 
 #include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
+#include "model_values.h"
 #include "property_labels.h"
 #include "xml_text.h"
 
@@ -104,7 +105,7 @@ class PropertyWriter {
   // What a triangle has.
   struct Layers {
     std::uint32_t base = kNone;     // a material without a picture of its own
-    std::uint32_t picture = kNone;  // of result_.pictures
+    std::uint32_t picture = kNone;  // of textures_
     bool colours = false;
 
     [[nodiscard]] bool empty() const { return base == kNone && picture == kNone && !colours; }
@@ -112,6 +113,10 @@ class PropertyWriter {
       return static_cast<int>(base != kNone) + static_cast<int>(picture != kNone) +
              static_cast<int>(colours);
     }
+  };
+  struct Texture {
+    std::uint32_t picture = kNone;  // of result_.pictures
+    TextureSampling sampling;
   };
   // Entries of a texture2dgroup, in the order of their first use.
   struct PointList {
@@ -136,15 +141,25 @@ class PropertyWriter {
     picture_of_.assign(names.size(), kNone);
     is_base_.assign(names.size(), 1);
     if (points_ == nullptr) return;
-    std::unordered_map<std::uint32_t, std::uint32_t> of_image;
+    std::unordered_map<std::uint32_t, std::uint32_t> of_image;  // parts
     for (std::size_t m = 0; m < std::min(names.size(), attributes_.looks.size()); ++m) {
-      const std::uint32_t image = attributes_.looks[m].image;
-      if (image >= attributes_.images.size()) continue;
-      const auto [found, is_new] = of_image.try_emplace(image, kNone);
-      if (is_new) found->second = add_picture(image, names[m]);
-      picture_of_[m] = found->second;
-      if (is_new && found->second != kNone) is_base_[m] = 0;
+      const Material& look = attributes_.looks[m];
+      if (look.image >= attributes_.images.size()) continue;
+      const auto [found, is_new] = of_image.try_emplace(look.image, kNone);
+      if (is_new) found->second = add_picture(look.image, names[m]);
+      if (found->second == kNone) continue;
+      picture_of_[m] = texture_of(found->second, look.sampling);
+      if (is_new) is_base_[m] = 0;
     }
+  }
+
+  std::uint32_t texture_of(std::uint32_t picture, const TextureSampling& sampling) {
+    const auto known = std::find_if(textures_.begin(), textures_.end(), [&](const Texture& one) {
+      return one.picture == picture && one.sampling == sampling;
+    });
+    const auto number = static_cast<std::uint32_t>(known - textures_.begin());
+    if (known == textures_.end()) textures_.push_back({picture, sampling});
+    return number;
   }
 
   std::uint32_t add_picture(std::uint32_t image, const std::string& material) {
@@ -192,7 +207,7 @@ class PropertyWriter {
     // colours of materials with pictures stand nowhere else.
     if (has_base_ || has_nothing_ || !result_.pictures.empty()) base_group_ = result_.next_id++;
     if (has_colours_) colour_group_ = result_.next_id++;
-    points_of_.resize(result_.pictures.size());
+    points_of_.resize(textures_.size());
     for (PointList& list : points_of_) {
       result_.next_id++;  // of the texture
       list.group = result_.next_id++;
@@ -309,12 +324,13 @@ class PropertyWriter {
 
   void write_texture(std::size_t number) {
     const PointList& list = points_of_[number];
-    const WrittenPicture& picture = result_.pictures[number];
+    const Texture& texture = textures_[number];
+    const WrittenPicture& picture = result_.pictures[texture.picture];
     std::string& xml = result_.resources;
     open_group(prefix_ + "texture2d", list.group - 1);
     append_xml_attribute(xml, "path", "/" + picture.name);
     append_xml_attribute(xml, "contenttype", picture.media_type);
-    write_tiling(picture);
+    write_tiling(*picture.bytes, texture.sampling);
     xml += "/>\n";
     open_group(prefix_ + "texture2dgroup", list.group);
     append_xml_attribute(xml, "texid", std::to_string(list.group - 1));
@@ -331,15 +347,29 @@ class PropertyWriter {
     xml += "</" + prefix_ + "texture2dgroup>\n";
   }
 
-  void write_tiling(const WrittenPicture& picture) {
-    if (kept_ == nullptr) return;
-    const auto tiling = std::find_if(kept_->tilings.begin(), kept_->tilings.end(),
-                                     [&](const auto& one) { return one.picture == picture.bytes; });
-    if (tiling == kept_->tilings.end()) return;
+  // What is so by default stands there only if it stood there before.
+  void write_tiling(const std::string& picture, const TextureSampling& sampling) {
+    KeptPackage::Tiling words;
+    if (kept_ != nullptr) {
+      const auto& kept = kept_->tilings;
+      const auto same = std::find_if(kept.begin(), kept.end(), [&](const auto& one) {
+        return one.picture.get() == &picture && one.sampling() == sampling;
+      });
+      if (same != kept.end()) words = *same;
+    }
+    if (words.sampling() != sampling) {
+      const auto name = [](TextureSampling::Wrap wrap) {
+        return std::string(wrap == TextureSampling::Wrap::repeat ? "" : tile_name(wrap));
+      };
+      words.u = name(sampling.wrap[0]);
+      words.v = name(sampling.wrap[1]);
+      const bool has_filter = sampling.filter != TextureSampling::Filter::automatic;
+      words.filter = has_filter ? filter_name(sampling.filter) : "";
+    }
     std::string& xml = result_.resources;
-    if (!tiling->u.empty()) append_xml_attribute(xml, "tilestyleu", tiling->u);
-    if (!tiling->v.empty()) append_xml_attribute(xml, "tilestylev", tiling->v);
-    if (!tiling->filter.empty()) append_xml_attribute(xml, "filter", tiling->filter);
+    if (!words.u.empty()) append_xml_attribute(xml, "tilestyleu", words.u);
+    if (!words.v.empty()) append_xml_attribute(xml, "tilestylev", words.v);
+    if (!words.filter.empty()) append_xml_attribute(xml, "filter", words.filter);
   }
 
   void write_combinations(const Combinations& list) {
@@ -388,7 +418,8 @@ class PropertyWriter {
   std::vector<Layers> layers_;             // of the triangles
   bool has_base_ = false, has_colours_ = false, has_nothing_ = false;
   std::uint32_t base_group_ = kNone, colour_group_ = kNone;
-  std::vector<PointList> points_of_;  // of the pictures
+  std::vector<Texture> textures_;
+  std::vector<PointList> points_of_;  // of the textures
   std::map<std::tuple<bool, std::uint32_t, bool>, Combinations> combinations_;
   WrittenProperties result_;
 };

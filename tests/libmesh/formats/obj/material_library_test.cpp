@@ -114,7 +114,7 @@ TEST_F(ObjLibraries, OutsideTheFolderAreNotOpened) {
   }
 }
 
-// Two meshes whose materials have one name: the second gets another, and its library's goes.
+// Two meshes whose materials have one name: the second gets another, with all that is said of it.
 TEST_F(ObjLibraries, OfTwoMeshesWithOneNameMakeTwoMaterials) {
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl one\nf 1 2 3\n";
   write("in/a.mtl", "newmtl one\nKd 1 0 0\n");
@@ -137,7 +137,93 @@ TEST_F(ObjLibraries, OfTwoMeshesWithOneNameMakeTwoMaterials) {
   EXPECT_EQ(colour_of(1), (std::array<double, 4>{0, 0, 1, 1}));
   const std::string library = text_of(folder_.path() / "out/both.mtl");
   EXPECT_NE(library.find("newmtl other\nKd 0 1 0\nNs 7\n"), std::string::npos);
-  EXPECT_EQ(library.find("Ns 3"), std::string::npos);
+  EXPECT_EQ(library,
+            "newmtl one\nKd 1 0 0\n"
+            "newmtl one_2\nKd 0 0 1\nNs 3\nnewmtl other\nKd 0 1 0\nNs 7\n");
+}
+
+// A mesh of one triangle for each library: what they are joined to is written and read again.
+class JoinedLibraries : public ObjLibraries {
+ protected:
+  // An empty text: there is no such library.
+  void add(const std::string& library,
+           const std::string& coordinates = "vt 0 0\nvt 1 0\nvt 0 1\n") {
+    const std::string name = "m" + std::to_string(triangles_);
+    if (!library.empty()) write("in/" + name + ".mtl", library);
+    write("in/" + name + ".obj", (library.empty() ? std::string() : "mtllib " + name + ".mtl\n") +
+                                     "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + coordinates +
+                                     "usemtl one\nf 1/1 2/2 3/3\n");
+    ReadResult read = read_with_attributes(folder_.path() / ("in/" + name + ".obj"));
+    all_.soup.points = read.soup.points;
+    append_attributes(all_.attributes, triangles_++, std::move(read.attributes), 1);
+    all_.soup.triangles.push_back({0, 1, 2});
+  }
+
+  ReadResult written() {
+    const auto out = folder_.path() / "out/all.obj";
+    const Attributes held = held_by(SoupFormat::obj, all_.attributes);
+    write_soup(all_.soup, out, {.extras = {.attributes = &held}});
+    return read_with_attributes(out);
+  }
+
+  // Of the triangles, by name.
+  static std::vector<std::string> materials_of(const ReadResult& read) {
+    std::vector<std::string> names;
+    for (const std::uint32_t material : read.attributes.materials.of_triangle) {
+      names.push_back(read.attributes.materials.names.at(material));
+    }
+    return names;
+  }
+
+  [[nodiscard]] std::string library() const { return text_of(folder_.path() / "out/all.mtl"); }
+
+  using Names = std::vector<std::string>;
+
+  ReadResult all_;
+  std::size_t triangles_ = 0;
+};
+
+TEST_F(JoinedLibraries, SayNothingOfAMaterialThatTheFirstDoesNotDefine) {
+  add("newmtl two\nKd 0 1 0\n");
+  add("newmtl one\nKd 1 1 1\nNs 3\n");
+  EXPECT_EQ(materials_of(written()), (Names{"one", "one_2"}));
+  EXPECT_EQ(library(),
+            "newmtl two\nKd 0 1 0\nnewmtl one_2\nKd 1 1 1\nNs 3\nnewmtl one\nKd 1 1 1\n");
+}
+
+TEST_F(JoinedLibraries, SayNothingOfAMaterialThatTheSecondDoesNotDefine) {
+  add("newmtl one\nKd 1 1 1\nNs 3\n");
+  add("newmtl two\nKd 0 1 0\n");
+  add("");
+  EXPECT_EQ(materials_of(written()), (Names{"one", "one_2", "one_3"}));
+}
+
+TEST_F(JoinedLibraries, KeepAMaterialThatBothDefineAlike) {
+  add("newmtl one\nKd 1 0 0\nNs 3\nmap_Kd a.png\n");
+  add("# the same\nnewmtl one\n Kd 1 0 0\nNs 3\n\nmap_Kd a.png\nnewmtl two\nKd 0 1 0\n");
+  EXPECT_EQ(materials_of(written()), (Names{"one", "one"}));
+  EXPECT_EQ(library(),
+            "newmtl one\nKd 1 0 0\nNs 3\nmap_Kd ../in/a.png\n# the same\nnewmtl two\nKd 0 1 0\n");
+}
+
+TEST_F(JoinedLibraries, TellApartWhatDiffersInMoreThanColour) {
+  add("newmtl one\nKd 1 0 0\nNs 3\nnewmtl one_2\nKd 0 0 0\n");
+  add("newmtl one\nKd 1 0 0\nNs 4\n");
+  add("newmtl one\nKd 1 0 0\nNs 5\n");
+  EXPECT_EQ(materials_of(written()), (Names{"one", "one_3", "one_4"}));
+  EXPECT_NE(library().find("newmtl one_3\nKd 1 0 0\nNs 4\n"), std::string::npos);
+  EXPECT_NE(library().find("newmtl one_4\nKd 1 0 0\nNs 5\n"), std::string::npos);
+}
+
+// Coordinates of two and of three numbers are two sets, of which OBJ has one.
+TEST_F(JoinedLibraries, KeepCoordinatesOfEveryMesh) {
+  add("newmtl two\nmap_Kd a.png\n");
+  add("newmtl one\nmap_Kd a.png\n", "vt 0 0 0\nvt 0.25 0 0\nvt 0 1 0\n");
+  const ReadResult back = written();
+  const CornerAttribute* const places = find_kind(back.attributes, CornerAttribute::Kind::texture);
+  ASSERT_NE(places, nullptr);
+  ASSERT_NE(places->of_corner.at(4), kNone);
+  EXPECT_EQ(places->values.at(places->components * places->of_corner[4]), 0.25);
 }
 
 TEST_F(ObjLibraries, NamesOfPicturesElsewhereStay) {

@@ -1,0 +1,18 @@
+#include <cstdint>
+
+#include <mesh/append_soup.h>
+
+namespace meshrepair {
+
+void append_soup(TriangleSoup& all, const TriangleSoup& other, const Placement& placement) {
+  const auto first = static_cast<std::uint32_t>(all.points.size());
+  const bool is_moved = !placement.is_identity(), is_turned = placement.mirrors();
+  for (const Vec3d& point : other.points) {
+    all.points.push_back(is_moved ? placement.of(point) : point);
+  }
+  for (const auto& [a, b, c] : other.triangles) {
+    all.triangles.push_back({first + a, first + (is_turned ? c : b), first + (is_turned ? b : c)});
+  }
+}
+
+}  // namespace meshrepair
