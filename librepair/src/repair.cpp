@@ -167,7 +167,7 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   Surface surface = options.thicken.wanted() ? repair_with_walls(soup, options, report)
                                              : repair_solids(soup, options, report);
   if (options.seal.wanted()) {
-    surface = internal::seal_solid(soup, std::move(surface), options, report);
+    surface = internal::seal_solid(soup, std::move(surface), options, repair_solids, report);
   }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
   if (options.explain) report.explanation = explain_repair(soup, surface, options, report);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <base/progress.h>
-
 #include <check/nearest_triangle.h>
 
 namespace meshrepair::internal {

@@ -20,9 +20,9 @@
 #include <base/raw_vector.h>
 #include <base/shared_progress.h>
 #include <check/mesh_distance.h>
+#include <check/nearest_triangle.h>
 
 #include "distance_bound.h"
-#include <check/nearest_triangle.h>
 
 namespace meshrepair {
 namespace {

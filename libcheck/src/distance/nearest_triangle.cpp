@@ -1,10 +1,9 @@
-#include <check/nearest_triangle.h>
-
 #include <algorithm>
 
 #include <Eigen/Geometry>
 
 #include <base/parallel.h>
+#include <check/nearest_triangle.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -11,7 +11,7 @@
 #include <repair/chamber_graph.h>
 #include <repair/walk.h>
 
-#include "sheets/minimum_cut.h"
+#include "common/minimum_cut.h"
 
 namespace meshrepair::internal {
 namespace {

@@ -3,7 +3,7 @@
 // - A grid of cubes is laid around the surface, or around its narrow places, and a ball rolls
 //   through it: openings.h. That tells where openings are, as well as cubes can.
 // - There the faces of the cubes are added to the surface, and all is cut exactly. Of the faces the
-//   smallest are taken that part what is behind from what is before: close_openings.h. That closes
+//   smallest are taken that part what is behind from what is before: closed_openings.h. That closes
 //   what there is, whatever cubes have missed.
 #include "seal_solid.h"
 
@@ -14,36 +14,45 @@
 #include <vector>
 
 #include <base/error.h>
-#include <repair/repair.h>
 
 #include "again/second_repair.h"
-#include "close_openings.h"
+#include "arrange/chamber_surface.h"
+#include "closed_openings.h"
 #include "report/describe_result.h"
+#include "surface/make_surface.h"
 
 namespace meshrepair::internal {
 namespace {
 
-// Certified, where need be by repairing it once more.
-Surface extract_sealed(const ClosedOpenings& sealed, const RepairOptions& options,
-                       RepairReport& report) {
-  const std::vector<char>& solid = sealed.filled.solid;
-  RepairOptions again = options_for_second(sealed.second, options);
+// Nothing if it is to be certified and is not.
+std::optional<Surface> extract_sealed(const ClosedOpenings& sealed, const RepairOptions& options,
+                                      RepairReport& report) {
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("extract");
   std::optional<Surface> surface =
-      extract_mesh(sealed.soup, *sealed.arrangement, solid, again, report);
-  if (surface) {
-    refer_to_first(sealed.second, *surface);
-    return std::move(*surface);
-  }
-  again.certify.wanted = false;
-  again.slit_steps = 0;
-  again.simplify = 0;
-  report = {};
-  surface = extract_mesh(sealed.soup, *sealed.arrangement, solid, again, report);
-  if (!surface) throw InternalError("openings are sealed, but what is solid then has no boundary");
+      boundary_of_chambers(sealed.soup, *sealed.arrangement, sealed.filled.solid, options, report);
+  if (!surface) return std::nullopt;
+  surface = finish_surface(sealed.soup, std::move(*surface), options, report, meter);
+  if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
   refer_to_first(sealed.second, *surface);
+  return surface;
+}
+
+// Certified, where need be by repairing it once more.
+Surface surface_of(const ClosedOpenings& sealed, const RepairOptions& options,
+                   const RepairAgain& repair_again, RepairReport& report) {
+  RepairOptions second = options_for_second(sealed.second, options);
+  std::optional<Surface> surface = extract_sealed(sealed, second, report);
+  if (surface) return std::move(*surface);
+  second.certify.wanted = false;
+  second.slit_steps = 0;
+  second.simplify = 0;
+  report = {};
+  surface = extract_sealed(sealed, second, report);
+  if (!surface) throw InternalError("openings are sealed, but what is solid then has no boundary");
   const SecondSoup third(*surface);
   report = {};
-  Surface repaired = repair(third.soup, options_for_second(third, options), report);
+  Surface repaired = repair_again(third.soup, options_for_second(third, options), report);
   refer_to_first(third, repaired);
   return repaired;
 }
@@ -85,7 +94,7 @@ void note_fates(std::size_t triangles, const Surface& before, const Surface& aft
 }  // namespace
 
 Surface seal_solid(const TriangleSoup& soup, Surface solid, const RepairOptions& options,
-                   RepairReport& report) {
+                   const RepairAgain& repair_again, RepairReport& report) {
   std::unique_ptr<ClosedOpenings> sealed;
   {
     StageMeter meter(report.stages, options.progress);
@@ -94,7 +103,7 @@ Surface seal_solid(const TriangleSoup& soup, Surface solid, const RepairOptions&
   }
   if (!sealed) return solid;
   RepairReport second;
-  Surface surface = extract_sealed(*sealed, options, second);
+  Surface surface = surface_of(*sealed, options, repair_again, second);
   append_report(std::move(second), report);
   note_fates(soup.triangles.size(), solid, surface, report);
   describe_output(surface, report);

@@ -11,7 +11,7 @@
 #include <repair/thin_cells.h>
 
 #include "cell_widths.h"
-#include "minimum_cut.h"
+#include "common/minimum_cut.h"
 
 namespace meshrepair::internal {
 

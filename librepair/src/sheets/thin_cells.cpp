@@ -20,7 +20,7 @@
 
 #include <repair/thin_cells.h>
 
-#include "minimum_cut.h"
+#include "common/minimum_cut.h"
 #include "thin_cell_graph.h"
 
 namespace meshrepair {

@@ -1,4 +1,4 @@
-#include "sheets/minimum_cut.h"
+#include "common/minimum_cut.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,3 @@
-#include "close_openings.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <check/soup_rays.h>
 #include <mesh/topology.h>
 
+#include "closed_openings.h"
 #include "openings.h"
 #include "seal_lattice.h"
 
@@ -127,18 +126,3 @@ std::unique_ptr<ClosedOpenings> close_openings(const Surface& solid, const SealO
 }
 
 }  // namespace meshrepair::internal
-
-namespace meshrepair {
-
-SealReport propose_seal(const Surface& solid, std::size_t most_cubes, ProgressObserver* progress) {
-  SealOptions options;
-  options.automatic = true;
-  options.most_cubes = most_cubes;
-  SealReport report;
-  if (!solid.mesh.triangles.empty()) {
-    (void)internal::close_openings(solid, options, report, progress);
-  }
-  return report;
-}
-
-}  // namespace meshrepair
