@@ -13,6 +13,9 @@ constexpr double kMargin = 2;  // steps beyond the radius in which distances are
 // All space is looked at with up to this share of the cubes that there may be.
 constexpr std::size_t kShareOfWhole = 8;
 
+// Places of cubes are numbers of 21 bits.
+constexpr double kMostCubesAside = 1 << 20;
+
 // Cubes that a square has that is as large as the mesh, where only a larger ball is looked at.
 constexpr double kCoarseCubes = 1 << 14;
 
@@ -60,6 +63,7 @@ std::optional<SpaceGrid> Openings::narrow_grid(double size) const {
   std::optional<SpaceGrid> grid;
   for (const double steps : {kSomeSteps, kFewestSteps}) {
     const double step = size / steps;
+    if (extent_of(mesh_).maxCoeff() > kMostCubesAside * step) break;
     grid = SpaceGrid::of_narrow_places(mesh_, step, size / 2 + kMargin * step, size, most_cubes_,
                                        progress_);
     if (grid) break;
