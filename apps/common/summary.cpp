@@ -291,7 +291,7 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
 
 // The first of each kind.
 std::vector<std::string> left_out_parts(const KeepPartsReport& keep) {
-  constexpr std::size_t kMostLines = 3;
+  constexpr std::size_t kMostPartLines = 3;
   std::vector<std::string> texts;
   for (const bool is_void : {false, true}) {
     std::vector<const RemovedPart*> parts;
@@ -303,13 +303,13 @@ std::vector<std::string> left_out_parts(const KeepPartsReport& keep) {
         fmt::format("{} of {}{}:", grouped(parts.size()),
                     is_void ? number_of(keep.voids, "void") : number_of(keep.solids, "solid"),
                     is_void ? ", filled" : ""));
-    for (std::size_t i = 0; i < std::min(kMostLines, parts.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMostPartLines, parts.size()); ++i) {
       const RemovedPart& part = *parts[i];
       texts.push_back(fmt::format("  volume {:.4g} at {:.4g} {:.4g} {:.4g}", part.volume,
                                   part.centre.x(), part.centre.y(), part.centre.z()));
     }
-    if (parts.size() > kMostLines)
-      texts.push_back(fmt::format("  and {} more", grouped(parts.size() - kMostLines)));
+    if (parts.size() > kMostPartLines)
+      texts.push_back(fmt::format("  and {} more", grouped(parts.size() - kMostPartLines)));
   }
   return texts;
 }

@@ -12,11 +12,11 @@
 namespace meshrepair::internal {
 namespace {
 
-constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
 // In steps of the grid: how much farther than the ball's radius a centre may be from what the ball
 // touches, as centres are in places of the grid alone.
-constexpr double kRounding = 1;
+constexpr double kCentreRounding = 1;
 // In steps of the grid: how much nearer to walls a centre may be than the radius. The middle of a
 // cube is up to 0.87 steps away from a centre in it: so a ball that is half a step smaller passes
 // surely, and one that is so much larger surely does not.
@@ -28,18 +28,18 @@ constexpr double kDeep = 0.3;
 // And no place around it, so many steps away, is farther from all walls by more than this share of
 // the way: in a wedge of 60 degrees some are by a half, in a corner of three right angles by 0.58.
 // Places are up to 9 degrees beside the best way: so it is 0.36 at least in a wedge of 60 degrees.
-constexpr std::int32_t kAround = 3;
+constexpr std::int32_t kShell = 3;
 constexpr double kWidening = 0.35;
 // What is deeper by more than this share of the way is farther in.
 constexpr double kInward = 0.5;
 // In radii of the ball: nobody asks how deep it is there.
-constexpr double kFarthest = 4;
+constexpr double kFarthestDepth = 4;
 // In steps of the grid: how far behind what the ball reaches a way is closed off. There walls are
 // beside the way, not across it.
 constexpr double kBehind = 2;
 
-using Entry = std::pair<float, std::uint32_t>;
-using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+using CubeEntry = std::pair<float, std::uint32_t>;
+using CubeQueue = std::priority_queue<CubeEntry, std::vector<CubeEntry>, std::greater<>>;
 
 }  // namespace
 
@@ -120,7 +120,7 @@ void BallReach::spread_from(std::uint32_t first, ProgressObserver* progress) {
 void BallReach::roll(ProgressObserver* progress) {
   using Rolled = std::tuple<float, std::uint32_t, std::uint32_t>;  // distance, cube, centre
   std::priority_queue<Rolled, std::vector<Rolled>, std::greater<>> queue;
-  const double most = radius_ + kRounding * grid_.step();
+  const double most = radius_ + kCentreRounding * grid_.step();
   const auto push_around = [&](std::uint32_t cube, std::uint32_t from) {
     grid_.visit_neighbours(cube, [&](std::uint32_t next) {
       if (!grid_.is_cube(next) || reached_[next] != 0) return;
@@ -151,9 +151,9 @@ void BallReach::roll(ProgressObserver* progress) {
 // Daniel, Koenig and Felner 2007). Returns the cubes that have a depth, the least deep first.
 std::vector<std::uint32_t> BallReach::find_depths(ProgressObserver* progress) {
   std::vector<std::uint32_t> order;
-  depth_.assign(grid_.cubes(), kFar);
+  depth_.assign(grid_.cubes(), kNoDepth);
   std::vector<std::uint32_t> from(grid_.cubes(), kNone);  // the corner before
-  Queue queue;
+  CubeQueue queue;
   const auto go_to = [&](std::uint32_t next, std::uint32_t corner) {
     const double before = reached_[corner] != 0 ? 0 : static_cast<double>(depth_[corner]);
     const auto there =
@@ -181,7 +181,7 @@ std::vector<std::uint32_t> BallReach::find_depths(ProgressObserver* progress) {
     check.tick();
     if (depth > depth_[cube]) continue;
     order.push_back(cube);
-    if (static_cast<double>(depth) < kFarthest * radius_) go_on(cube, from[cube]);
+    if (static_cast<double>(depth) < kFarthestDepth * radius_) go_on(cube, from[cube]);
   }
   return order;
 }
@@ -199,7 +199,7 @@ bool BallReach::find_deep(const std::vector<std::uint32_t>& by_depth, ProgressOb
       const std::uint32_t cube = deep_[i];
       check.tick();
       visit_around(cube, [&](std::uint32_t next, double) {
-        const bool is_as_deep = depth_[next] < kFar && depth_[next] >= depth_[seed];
+        const bool is_as_deep = depth_[next] < kNoDepth && depth_[next] >= depth_[seed];
         if (is_found[next] != 0 || !is_as_deep || !is_free(cube, next)) return;
         is_found[next] = 1;
         deep_.push_back(next);
@@ -219,10 +219,10 @@ bool BallReach::widens(std::uint32_t cube) const {
   const CubePlace at = grid_.place_of(cube);
   const double here = grid_.clearance(cube);
   CubePlace by{};
-  for (by[2] = -kAround; by[2] <= kAround; ++by[2]) {
-    for (by[1] = -kAround; by[1] <= kAround; ++by[1]) {
-      const bool is_side = std::max(std::abs(by[1]), std::abs(by[2])) == kAround;
-      for (by[0] = -kAround; by[0] <= kAround; by[0] += is_side ? 1 : 2 * kAround) {
+  for (by[2] = -kShell; by[2] <= kShell; ++by[2]) {
+    for (by[1] = -kShell; by[1] <= kShell; ++by[1]) {
+      const bool is_side = std::max(std::abs(by[1]), std::abs(by[2])) == kShell;
+      for (by[0] = -kShell; by[0] <= kShell; by[0] += is_side ? 1 : 2 * kShell) {
         const std::uint32_t next = grid_.node_at({at[0] + by[0], at[1] + by[1], at[2] + by[2]});
         if (next == kNone || !grid_.is_cube(next)) continue;
         const double way = (grid_.centre(next) - grid_.centre(cube)).norm();
@@ -238,22 +238,23 @@ bool BallReach::widens(std::uint32_t cube) const {
 
 // From what is deep as far towards the ball as that is behind it.
 void BallReach::grow_back(ProgressObserver* progress) {
-  back_.assign(grid_.cubes(), kFar);
-  Queue queue;
+  back_.assign(grid_.cubes(), kNoDepth);
+  CubeQueue queue;
   for (const std::uint32_t cube : deep_) {
     back_[cube] = -depth_[cube];
     queue.emplace(back_[cube], cube);
   }
-  const double most = kRounding * grid_.step();
+  const double most = kCentreRounding * grid_.step();
   CancelCheck check(progress);
   while (!queue.empty()) {
-    const auto [distance, cube] = queue.top();
+    const float distance = queue.top().first;
+    const std::uint32_t cube = queue.top().second;
     queue.pop();
     check.tick();
     if (distance > back_[cube]) continue;
     visit_around(cube, [&](std::uint32_t next, double step) {
       const auto there = static_cast<float>(static_cast<double>(distance) + step);
-      const bool is_shallow = reached_[next] == 0 && depth_[next] < kFar;
+      const bool is_shallow = reached_[next] == 0 && depth_[next] < kNoDepth;
       if (!is_shallow || there >= back_[next] || static_cast<double>(there) > most) return;
       if (!is_free(cube, next)) return;
       back_[next] = there;
@@ -275,7 +276,7 @@ bool BallReach::find(ProgressObserver* progress) {
 }
 
 bool BallReach::is_behind(std::uint32_t cube) const {
-  return reached_[cube] == 0 && back_[cube] < kFar &&
+  return reached_[cube] == 0 && back_[cube] < kNoDepth &&
          static_cast<double>(depth_[cube]) >= kBehind * grid_.step();
 }
 
@@ -288,7 +289,7 @@ std::vector<BallReach::Face> BallReach::closed_faces(ProgressObserver* progress)
     grid_.visit_neighbours(c, [&](std::uint32_t next) {
       if (!grid_.is_cube(next) || is_behind(next)) return;
       // What was not reached from where the ball comes to lies deeper, or behind walls.
-      const bool is_before = reached_[next] != 0 || depth_[next] < kFar;
+      const bool is_before = reached_[next] != 0 || depth_[next] < kNoDepth;
       if (is_before && is_free(c, next)) faces.push_back({next, c});
     });
   }

@@ -1,3 +1,5 @@
+#include "closed_openings.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include <check/soup_rays.h>
 #include <mesh/topology.h>
 
-#include "closed_openings.h"
 #include "openings.h"
 #include "seal_lattice.h"
 
@@ -17,7 +18,7 @@ namespace meshrepair::internal {
 namespace {
 
 // How far around an opening space is divided, in cubes: farther where a way leads around that.
-constexpr std::array<std::int32_t, 3> kAround = {1, 2, 4};
+constexpr std::array<std::int32_t, 3> kLatticeWidths = {1, 2, 4};
 
 // What is tried where no size is given, as a share of the diagonal; each is twice the one before.
 constexpr double kSmallestTried = 1.0 / 1024, kLargestTried = 1.0 / 8;
@@ -73,7 +74,7 @@ class OpeningsCloser {
     report_.step = openings_.grid().step();
     if (found == Openings::Found::none) return nullptr;
     std::unique_ptr<ClosedOpenings> closed;
-    for (const std::int32_t around : kAround) {
+    for (const std::int32_t around : kLatticeWidths) {
       closed = cut(around);
       if (closed && closed->filled.leaks == 0) break;
     }

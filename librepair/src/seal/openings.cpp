@@ -7,7 +7,7 @@ namespace meshrepair::internal {
 namespace {
 
 // Of the grid across the ball's diameter. More than some only where that takes few cubes.
-constexpr double kFewestSteps = 6, kSomeSteps = 12, kMostSteps = 48;
+constexpr double kLeastSteps = 6, kSomeSteps = 12, kMostSteps = 48;
 constexpr double kMargin = 2;  // steps beyond the radius in which distances are known
 
 // All space is looked at with up to this share of the cubes that there may be.
@@ -61,7 +61,7 @@ std::optional<SpaceGrid> Openings::whole_grid(double size) const {
 
 std::optional<SpaceGrid> Openings::narrow_grid(double size) const {
   std::optional<SpaceGrid> grid;
-  for (const double steps : {kSomeSteps, kFewestSteps}) {
+  for (const double steps : {kSomeSteps, kLeastSteps}) {
     const double step = size / steps;
     if (extent_of(mesh_).maxCoeff() > kMostCubesAside * step) break;
     grid = SpaceGrid::of_narrow_places(mesh_, step, size / 2 + kMargin * step, size, most_cubes_,
@@ -73,9 +73,9 @@ std::optional<SpaceGrid> Openings::narrow_grid(double size) const {
 
 // The smallest one that is cheap.
 void Openings::roll_larger_ball(double size) {
-  double step = 2 * size / kFewestSteps;
+  double step = 2 * size / kLeastSteps;
   while (std::pow(extent_of(mesh_).maxCoeff() / step, 2) > kCoarseCubes) step *= 2;
-  const double radius = step * kFewestSteps / 2;
+  const double radius = step * kLeastSteps / 2;
   coarse_.emplace(mesh_, step, radius + kMargin * step, progress_);
   coarse_->measure(progress_);
   larger_.emplace(*coarse_, rays_, radius);

@@ -274,8 +274,8 @@ void SpaceGrid::measure_from(const CubePlace& place, std::uint32_t triangle) {
 
 // From near to far, as Dijkstra's algorithm does.
 void SpaceGrid::propagate(ProgressObserver* progress) {
-  using Entry = std::pair<float, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  using MeasuredCube = std::pair<float, std::uint32_t>;
+  std::priority_queue<MeasuredCube, std::vector<MeasuredCube>, std::greater<>> queue;
   for (std::uint32_t c = 0; c < squared_.size(); ++c) {
     if (nearest_[c] != kNone) queue.emplace(squared_[c], c);
   }

@@ -21,7 +21,7 @@ RepairReport report_by(const TriangleSoup& soup, InsideRule rule) {
   return repair(soup, options).report;
 }
 
-double volume_by(const TriangleSoup& soup, InsideRule rule) {
+double volume_read_by(const TriangleSoup& soup, InsideRule rule) {
   return report_by(soup, rule).output_volume;
 }
 
@@ -83,7 +83,7 @@ TEST(TurnParts, OneOfTwoOverlappingBodiesThatIsInsideOutIsTurned) {
   for (std::uint64_t seed = 0; tried < cases; ++seed) {
     Random random(seed);
     const TriangleSoup one = random_solid(random), other = random_solid(random);
-    const double united = volume_by(both_of(one, other), InsideRule::winding);
+    const double united = volume_read_by(both_of(one, other), InsideRule::winding);
     const double common = signed_volume(one) + signed_volume(other) - united;
     if (common < 1e-6 || common > 0.8 * std::min(signed_volume(one), signed_volume(other))) {
       continue;
@@ -106,7 +106,7 @@ TEST(TurnParts, OfABodyThatIsThereTwiceTheOneThatIsInsideOutIsTurned) {
     const TriangleSoup one = body.surface(400, 1, rough, random);
     const Vec3d by = random.real(0, 0.2) * Vec3d(random_rotation(random).col(0));
     const TriangleSoup other = moved(body.surface(400, 1, rough, random), by);
-    const double united = volume_by(both_of(one, other), InsideRule::winding);
+    const double united = volume_read_by(both_of(one, other), InsideRule::winding);
     const RepairReport report = report_by(both_of(one, flipped(other)), InsideRule::automatic);
     wrong += report.inside.turned_parts != 1 || std::abs(report.output_volume - united) > 1e-5;
   }
@@ -137,7 +137,7 @@ TEST(TurnParts, TheOtherReadingIsNamedWhereItIsNearlyAsLikely) {
     if (c.other == InsideRule::automatic) continue;
     // It is another solid indeed.
     const double sign = c.cavity ? 1 : -1;
-    EXPECT_GT(sign * (volume_by(soup, c.other) - report.output_volume), 0.2);
+    EXPECT_GT(sign * (volume_read_by(soup, c.other) - report.output_volume), 0.2);
   }
 }
 

@@ -119,7 +119,7 @@ TEST(SealOpenings, TurningAShapeChangesNoDecision) {
   Random random(5);
   const TriangleSoup shell = pierced_shell(0.1, 0.1, 48), bottle = revolved(kBottle, 32),
                      mug = revolved(kMug, 32);
-  const std::size_t turns = share_of_cases(4);
+  const std::size_t turns = share_of_cases(std::size_t{4});
   for (std::size_t i = 0; i < turns; ++i) {
     const Eigen::Matrix3d turn = random_rotation(random);
     const auto made = [&](const TriangleSoup& soup, double size) {
@@ -140,7 +140,7 @@ TEST(SealOpenings, TurningAShapeChangesNoDecision) {
 // Behind the front that cubes see, a wall may pass between their centres.
 TEST(SealOpenings, WallsAskewToTheGridLeakNothing) {
   Random random(17);
-  const std::size_t cases = share_of_cases(6);
+  const std::size_t cases = share_of_cases(std::size_t{6});
   for (std::size_t i = 0; i < cases; ++i) {
     const double wall = random.real(0.02, 0.12), hole = random.real(0.05, 0.15);
     const TriangleSoup shell = transformed(pierced_shell(hole, wall, 32), random_rotation(random));

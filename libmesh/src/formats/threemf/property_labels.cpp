@@ -90,16 +90,16 @@ class PropertyTables {
     const ModelPart& part = parts_[number];
     auto& tables = tables_[number];
     // Textures look for base materials of their name, layers for all others.
-    using Kind = PropertyGroup::Kind;
+    using GroupKind = PropertyGroup::Kind;
     for (const PropertyGroup& group : part.groups) {
-      if (group.kind == Kind::base) tables.try_emplace(group.id, table_of(part, group));
+      if (group.kind == GroupKind::base) tables.try_emplace(group.id, table_of(part, group));
     }
     for (const PropertyGroup& group : part.groups) {
-      if (group.kind == Kind::base || group.kind == Kind::multi) continue;
+      if (group.kind == GroupKind::base || group.kind == GroupKind::multi) continue;
       tables.try_emplace(group.id, table_of(part, group));
     }
     for (const PropertyGroup& group : part.groups) {
-      if (group.kind != Kind::multi) continue;
+      if (group.kind != GroupKind::multi) continue;
       tables.try_emplace(group.id, layered_table(static_cast<std::uint32_t>(number), group));
     }
   }
