@@ -2,6 +2,7 @@
 // one process.
 #include <base/error.h>
 
+#include "common/explanation_file.h"
 #include "common/picture_steps.h"
 #include "common/point_steps.h"
 #include "common/repair_options.h"
@@ -41,6 +42,7 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   format.extras.unit = findings.unit;
   keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
+  repair_options.explain = !options.explained.empty();
   if (!input.scene.meshes.empty()) {
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
@@ -49,6 +51,7 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   const Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
   write_mesh_stage(surface, attributes, format, options, run, findings);
+  write_explanation_stage(options.explained, {input.soup, {}}, {surface.mesh, {}}, run, findings);
   draw_picture_stage(options.picture, up_of(findings), {options.input},
                      {{input.soup, given}, {surface.mesh, attributes}}, run, findings);
 }
@@ -97,6 +100,7 @@ int main(int argc, char** argv) {
   add_attributes_options(app, options.assets);
   add_units_option(app, options.assets);
   add_certify_options(app, options.repair.certify, options.strict);
+  add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_point_repair_options(app, points);
   return run_steps(program, argc, argv, options,

@@ -12,6 +12,7 @@
 #include <base/atomic_file.h>
 #include <base/error.h>
 
+#include "common/explanation_file.h"
 #include "common/picture_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
@@ -312,6 +313,8 @@ int run_steps(Program& program, int argc, const char* const* argv, StepOptions& 
     check_staging(options);
     check_files(options.input, options.staging.empty() ? options.output : staged(options), run);
     check_picture(options.picture, {options.input, options.output}, run);
+    check_explanation(options.explained, {options.input, options.output, options.picture.path},
+                      run);
     options.repair.progress = &run.progress;
     return run_body(options, run, body);
   });

@@ -65,6 +65,7 @@ struct Findings {
   std::size_t output_points = 0;
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
   bool withheld = false;           // not written because of these
+  std::string explained;           // the file that says what became of the triangles; may be empty
   std::string summary;             // instead of that of summary_of(), if it is not empty
 };
 
@@ -78,6 +79,7 @@ struct StepOptions {
   bool strict = false;
   std::string staging;  // folder that OUT is written into first; empty: none
   PictureRequest picture;
+  std::string explained;  // file that is to say what became of the triangles; empty: none
   RepairOptions repair;
 };
 

@@ -9,6 +9,7 @@
 #include <base/error.h>
 #include <mesh/append_soup.h>
 
+#include "common/explanation_file.h"
 #include "common/picture_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
@@ -68,6 +69,7 @@ class SceneRepair {
       scene_.meshes[m].points = surface.mesh.points.size();
       scene_.meshes[m].triangles = surface.mesh.triangles.size();
       append(surface, first_, all_);
+      explain(meshes[m], surface);
       first_ += meshes[m].triangles.size();
     }
     report();
@@ -76,6 +78,8 @@ class SceneRepair {
     const Attributes attributes =
         transfer_attributes_stage(input_.soup, input_.attributes, all_, run_, findings_);
     if (!findings_.withheld) write(attributes);
+    write_explanation_stage(options_.explained, {input_.soup, input_.scene}, {all_.mesh, scene_},
+                            run_, findings_);
     draw(attributes);
     findings_.summary = summary();
   }
@@ -109,6 +113,21 @@ class SceneRepair {
       outcome.left_as_it_is = true;
       return as_given(soup);
     }
+  }
+
+  // What became of the last mesh, behind what is known of those before it.
+  void explain(const TriangleSoup& soup, const Surface& surface) {
+    if (options_.explained.empty() || soup.triangles.empty()) return;
+    RepairExplanation& all = findings_.repair.explanation;
+    const MeshOutcome& outcome = outcomes_.back();
+    if (outcome.left_as_it_is) {
+      all.fates.resize(all.fates.size() + soup.triangles.size(), TriangleFate::whole);
+      all.origins.resize(all.origins.size() + surface.source.size(), TriangleOrigin::whole);
+      return;
+    }
+    const RepairExplanation& one = outcome.findings.repair.explanation;
+    all.fates.insert(all.fates.end(), one.fates.begin(), one.fates.end());
+    all.origins.insert(all.origins.end(), one.origins.begin(), one.origins.end());
   }
 
   [[nodiscard]] RepairOptions options_of(const TriangleSoup& soup) const {
@@ -199,6 +218,9 @@ class SceneRepair {
     }
     if (outcomes_.size() > kMostLines) {
       text += fmt::format("{:<9} and {} more\n", "", outcomes_.size() - kMostLines);
+    }
+    for (const std::string& line : explanation_lines(findings_)) {
+      text += fmt::format("{:<9} {}\n", line == findings_.explained ? "explained" : "", line);
     }
     return text + fmt::format("written   {}: {}, {}, in {:.2f} s\n", findings_.written_name(),
                               meshes, number_of(all_.mesh.triangles.size(), "triangle"),

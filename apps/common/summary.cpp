@@ -4,6 +4,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "common/explanation_file.h"
 #include "common/logging.h"
 
 namespace meshrepair {
@@ -334,6 +335,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   lines.add("removed", removed);
   lines.add("left out", left_out_parts(repair.keep));
   lines.add("simpler", simplified(repair.simplify));
+  lines.add("explained", explanation_lines(findings));
   lines.add("checked",
             joined({output.closed() ? "closed" : "NOT CLOSED",
                     output.manifold() ? "manifold" : "NOT MANIFOLD",

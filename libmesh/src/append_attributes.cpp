@@ -9,7 +9,8 @@ namespace meshrepair {
 namespace {
 
 bool same_look(const Attributes& all, const Material& a, const Material& b) {
-  if (a.colour != b.colour || (a.image == kNone) != (b.image == kNone)) return false;
+  if (a.colour != b.colour || a.two_sided != b.two_sided) return false;
+  if ((a.image == kNone) != (b.image == kNone)) return false;
   if (a.image == kNone) return true;
   if (a.texture_set != b.texture_set || a.transform != b.transform) return false;
   if (a.sampling != b.sampling) return false;

@@ -166,11 +166,11 @@ void require_labels(const Tree& tree) {
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
   Surface surface = options.thicken.wanted() ? repair_with_walls(soup, options, report)
                                              : repair_solids(soup, options, report);
+  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
   if (options.seal.wanted()) {
     surface = internal::seal_solid(soup, std::move(surface), options, repair_solids, report);
   }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
-  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
   if (options.keep.wanted()) {
     StageMeter meter(report.stages, options.progress);
     meter.begin("keep");

@@ -92,6 +92,7 @@ struct Material {
   std::uint32_t texture_set = 0;    // of the attributes with texture coordinates: that of the image
   TextureTransform transform = {};  // of these coordinates
   TextureSampling sampling = {};    // of the image
+  bool two_sided = false;           // seen also from behind, where a format can say so
 };
 
 struct AppendedMaterials;

@@ -35,8 +35,9 @@ enum class TriangleOrigin : std::uint8_t {
   piece,  // lies in one of the input, or in several of one plane
   wall,   // of a sheet that was thickened
   patch,  // of no triangle of the input: it closes a hole or a gap
+  seal,   // the same, over an opening that was sealed
 };
-inline constexpr std::size_t kTriangleOrigins = 4;
+inline constexpr std::size_t kTriangleOrigins = 5;
 
 // "whole", "left_out".
 [[nodiscard]] std::string_view fate_name(TriangleFate fate);
@@ -48,9 +49,21 @@ struct RepairExplanation {
 };
 
 // Pre: `surface` and `report` are what repair() made of the soup with these options, which ask for
-// all parts. Cleans and sews the soup once more. n log n. Throws Cancelled.
+// all parts, and for no openings to be sealed. Cleans and sews the soup once more. n log n. Throws
+// Cancelled.
 [[nodiscard]] RepairExplanation explain_repair(const TriangleSoup& soup, const Surface& surface,
                                                const RepairOptions& options,
                                                const RepairReport& report);
+
+// Of the triangles of a surface that was made of such a soup, where what became of it is known: no
+// seal among them. Linear.
+[[nodiscard]] std::vector<TriangleOrigin> find_origins(const TriangleSoup& soup,
+                                                       const std::vector<TriangleFate>& fates,
+                                                       const Surface& surface);
+
+// Where only some triangles of that surface are to stay: nothing if it is not explained. Pre:
+// `surface` has them all yet. Linear.
+void leave_out(const Surface& surface, const std::vector<char>& stays,
+               RepairExplanation& explanation);
 
 }  // namespace meshrepair

@@ -1,6 +1,7 @@
 // A repair of what another one made, with triangles that were added to it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,11 +18,15 @@ struct SecondSoup {
   // Of triangles and points, as Surface has them, of the soup that was given first.
   std::vector<std::uint32_t> source;
   std::vector<char> input_point;
+  std::size_t first_added = 0;  // triangles from this one on are no result of the first repair
 
   SecondSoup() = default;
   // A result of the first repair.
   explicit SecondSoup(const Surface& surface)
-      : soup(surface.mesh), source(surface.source), input_point(surface.input_point) {}
+      : soup(surface.mesh),
+        source(surface.source),
+        input_point(surface.input_point),
+        first_added(surface.source.size()) {}
 
   // More triangles, each with its source.
   void append(const TriangleSoup& added, const std::vector<std::uint32_t>& sources);

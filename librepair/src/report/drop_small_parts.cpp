@@ -4,8 +4,10 @@
 #include <mesh/mesh_parts.h>
 #include <mesh/topology.h>
 #include <repair/drop_small_parts.h>
+#include <repair/explain_repair.h>
 
 namespace meshrepair {
+
 std::size_t drop_small_parts(Surface& surface, std::size_t fewest, RepairReport& report) {
   const MeshParts parts = find_parts(surface.mesh);
   std::vector<std::size_t> triangles(parts.count, 0);
@@ -16,6 +18,7 @@ std::size_t drop_small_parts(Surface& surface, std::size_t fewest, RepairReport&
   std::vector<char> keep;
   keep.reserve(parts.of_triangle.size());
   for (const std::uint32_t part : parts.of_triangle) keep.push_back(triangles[part] >= fewest);
+  leave_out(surface, keep, report.explanation);
   keep_triangles(surface, keep);
   report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
   report.output_volume = signed_volume(surface.mesh);

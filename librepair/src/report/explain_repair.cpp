@@ -14,6 +14,7 @@
 #include <repair/repair_report.h>
 
 #include "prepare/prepare.h"
+#include "whole_triangle.h"
 
 namespace meshrepair {
 namespace {
@@ -22,7 +23,7 @@ constexpr std::array<std::string_view, kTriangleFates> kFateNames = {
     "left_out", "thickened", "turned",    "whole",   "cut",
     "moved",    "inside",    "duplicate", "dropped", "outside"};
 constexpr std::array<std::string_view, kTriangleOrigins> kOriginNames = {"whole", "piece", "wall",
-                                                                         "patch"};
+                                                                         "patch", "seal"};
 
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -48,9 +49,7 @@ class Explainer {
     find_duplicates();
     RepairExplanation explanation;
     for (const Known& known : known_) explanation.fates.push_back(fate_of(known));
-    for (std::size_t t = 0; t < surface_.source.size(); ++t) {
-      explanation.origins.push_back(origin_of(t));
-    }
+    explanation.origins = find_origins(soup_, explanation.fates, surface_);
     return explanation;
   }
 
@@ -101,19 +100,9 @@ class Explainer {
       if (source == Surface::kNoSource) continue;
       Known& known = known_[source];
       known.is_in_result = true;
-      known.is_whole |= is_whole(t);
+      known.is_whole |= internal::has_corners_of_source(soup_, surface_, t);
       known.is_turned |= normal_of(surface_.mesh, t).dot(normal_of(soup_, source)) < 0;
     }
-  }
-
-  [[nodiscard]] bool is_whole(std::size_t t) const {
-    const Corners& from = soup_.triangles[surface_.source[t]];
-    const Corners& to = surface_.mesh.triangles[t];
-    return std::all_of(from.begin(), from.end(), [&](std::uint32_t p) {
-      return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
-        return surface_.mesh.points[q] == soup_.points[p];
-      });
-    });
   }
 
   void find_duplicates() {
@@ -151,13 +140,6 @@ class Explainer {
     return known.places == kInside ? TriangleFate::inside : TriangleFate::outside;
   }
 
-  [[nodiscard]] TriangleOrigin origin_of(std::size_t t) const {
-    const std::uint32_t source = surface_.source[t];
-    if (source == Surface::kNoSource) return TriangleOrigin::patch;
-    if ((known_[source].places & kThickened) != 0) return TriangleOrigin::wall;
-    return is_whole(t) ? TriangleOrigin::whole : TriangleOrigin::piece;
-  }
-
   const TriangleSoup& soup_;
   const Surface& surface_;
   const RepairReport& report_;
@@ -171,6 +153,41 @@ std::string_view fate_name(TriangleFate fate) { return kFateNames[static_cast<st
 
 std::string_view origin_name(TriangleOrigin origin) {
   return kOriginNames[static_cast<std::size_t>(origin)];
+}
+
+std::vector<TriangleOrigin> find_origins(const TriangleSoup& soup,
+                                         const std::vector<TriangleFate>& fates,
+                                         const Surface& surface) {
+  std::vector<TriangleOrigin> origins(surface.source.size(), TriangleOrigin::patch);
+  for (std::size_t t = 0; t < origins.size(); ++t) {
+    const std::uint32_t source = surface.source[t];
+    if (source == Surface::kNoSource) continue;
+    if (fates[source] == TriangleFate::thickened) {
+      origins[t] = TriangleOrigin::wall;
+    } else {
+      origins[t] = internal::has_corners_of_source(soup, surface, t) ? TriangleOrigin::whole
+                                                                     : TriangleOrigin::piece;
+    }
+  }
+  return origins;
+}
+
+void leave_out(const Surface& surface, const std::vector<char>& stays,
+               RepairExplanation& explanation) {
+  std::vector<TriangleOrigin>& origins = explanation.origins;
+  if (origins.empty()) return;
+  std::vector<char> is_left(explanation.fates.size(), 0);
+  std::size_t left = 0;
+  for (std::size_t t = 0; t < stays.size(); ++t) {
+    if (stays[t] == 0) continue;
+    origins[left++] = origins[t];
+    if (surface.source[t] != Surface::kNoSource) is_left[surface.source[t]] = 1;
+  }
+  origins.resize(left);
+  for (const std::uint32_t source : surface.source) {
+    if (source == Surface::kNoSource || is_left[source] != 0) continue;
+    explanation.fates[source] = TriangleFate::left_out;
+  }
 }
 
 RepairExplanation explain_repair(const TriangleSoup& soup, const Surface& surface,

@@ -13,10 +13,12 @@
 #include <check/box_tree.h>
 #include <check/part_orientation.h>
 #include <mesh/mesh_parts.h>
+#include <repair/explain_repair.h>
 #include <repair/keep_parts.h>
 #include <repair/repair_report.h>
 
 #include "describe_result.h"
+#include "whole_triangle.h"
 
 namespace meshrepair {
 namespace {
@@ -147,21 +149,11 @@ class PartKeeper {
     stays.reserve(found_.part_of.size());
     for (const std::uint32_t part : found_.part_of) stays.push_back(shells_[part].stays ? 1 : 0);
     forget_triangles(stays);
-    forget_origins(stays);
+    leave_out(surface_, stays, report_.explanation);
     keep_triangles(surface_, stays);
     internal::describe_output(surface_, report_);
     // Less is left than was given.
     if (std::exchange(report_.kept_valid, false)) report_.spared_cells = true;
-  }
-
-  void forget_origins(const std::vector<char>& stays) {
-    std::vector<TriangleOrigin>& origins = report_.explanation.origins;
-    if (origins.empty()) return;
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < stays.size(); ++t) {
-      if (stays[t] != 0) origins[kept++] = origins[t];
-    }
-    origins.resize(kept);
   }
 
   // Of the input's triangles in the result, those that are in none of what stays.
@@ -173,27 +165,14 @@ class PartKeeper {
       if (source == Surface::kNoSource) continue;
       if (stays[t] != 0) fate[source] = left;
       if (fate[source] == absent) fate[source] = goes;
-      if (is_whole(t)) whole[source] = 1;
+      if (internal::has_corners_of_source(input_, surface_, t)) whole[source] = 1;
     }
     TriangleFates& fates = report_.triangles;
     for (std::size_t t = 0; t < fate.size(); ++t) {
       std::size_t& count = whole[t] != 0 ? fates.untouched : fates.cut;
       if (fate[t] != goes) continue;
       if (count > 0) --count;
-      if (!report_.explanation.fates.empty()) {
-        report_.explanation.fates[t] = TriangleFate::left_out;
-      }
     }
-  }
-
-  [[nodiscard]] bool is_whole(std::size_t t) const {
-    const auto& from = input_.triangles[surface_.source[t]];
-    const auto& to = surface_.mesh.triangles[t];
-    return std::all_of(from.begin(), from.end(), [&](std::uint32_t p) {
-      return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
-        return surface_.mesh.points[q] == input_.points[p];
-      });
-    });
   }
 
   const TriangleSoup& input_;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <repair/explain_repair.h>
 
 #include "again/second_repair.h"
 #include "arrange/chamber_surface.h"
@@ -24,9 +25,23 @@
 namespace meshrepair::internal {
 namespace {
 
+struct Sealed {
+  Surface surface;
+  std::vector<char> is_patch;  // of its triangles: over an opening
+};
+
+// Pre: what became of the second soup has not been referred to the first yet.
+std::vector<char> patches_of(const SecondSoup& second, const Surface& surface) {
+  std::vector<char> is_patch;
+  for (const std::uint32_t source : surface.source) {
+    is_patch.push_back(source != Surface::kNoSource && source >= second.first_added ? 1 : 0);
+  }
+  return is_patch;
+}
+
 // Nothing if it is to be certified and is not.
-std::optional<Surface> extract_sealed(const ClosedOpenings& sealed, const RepairOptions& options,
-                                      RepairReport& report) {
+std::optional<Sealed> extract_sealed(const ClosedOpenings& sealed, const RepairOptions& options,
+                                     RepairReport& report) {
   StageMeter meter(report.stages, options.progress);
   meter.begin("extract");
   std::optional<Surface> surface =
@@ -34,27 +49,32 @@ std::optional<Surface> extract_sealed(const ClosedOpenings& sealed, const Repair
   if (!surface) return std::nullopt;
   surface = finish_surface(sealed.soup, std::move(*surface), options, report, meter);
   if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
+  std::vector<char> is_patch = patches_of(sealed.second, *surface);
   refer_to_first(sealed.second, *surface);
-  return surface;
+  return Sealed{std::move(*surface), std::move(is_patch)};
 }
 
 // Certified, where need be by repairing it once more.
-Surface surface_of(const ClosedOpenings& sealed, const RepairOptions& options,
-                   const RepairAgain& repair_again, RepairReport& report) {
+Sealed solid_of(const ClosedOpenings& sealed, const RepairOptions& options,
+                const RepairAgain& repair_again, RepairReport& report) {
   RepairOptions second = options_for_second(sealed.second, options);
-  std::optional<Surface> surface = extract_sealed(sealed, second, report);
-  if (surface) return std::move(*surface);
+  std::optional<Sealed> solid = extract_sealed(sealed, second, report);
+  if (solid) return std::move(*solid);
   second.certify.wanted = false;
   second.slit_steps = 0;
   second.simplify = 0;
   report = {};
-  surface = extract_sealed(sealed, second, report);
-  if (!surface) throw InternalError("openings are sealed, but what is solid then has no boundary");
-  const SecondSoup third(*surface);
+  solid = extract_sealed(sealed, second, report);
+  if (!solid) throw InternalError("openings are sealed, but what is solid then has no boundary");
+  const SecondSoup third(solid->surface);
   report = {};
   Surface repaired = repair_again(third.soup, options_for_second(third, options), report);
+  std::vector<char> is_patch;
+  for (const std::uint32_t source : repaired.source) {
+    is_patch.push_back(source == Surface::kNoSource ? char{0} : solid->is_patch[source]);
+  }
   refer_to_first(third, repaired);
-  return repaired;
+  return {std::move(repaired), std::move(is_patch)};
 }
 
 // How many pieces of each triangle of the soup a surface has, and whether they have only corners of
@@ -91,6 +111,24 @@ void note_fates(std::size_t triangles, const Surface& before, const Surface& aft
   report.parts.places.clear();
 }
 
+void explain_seals(const TriangleSoup& soup, const Surface& before, const Sealed& after,
+                   RepairExplanation& explanation) {
+  const std::size_t triangles = soup.triangles.size();
+  const Pieces had(triangles, before), has(triangles, after.surface);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    if (had.count[t] == 0 || explanation.fates[t] == TriangleFate::thickened) continue;
+    if (has.count[t] == 0) {
+      explanation.fates[t] = TriangleFate::inside;
+    } else if (explanation.fates[t] == TriangleFate::whole && has.is_whole[t] == 0) {
+      explanation.fates[t] = TriangleFate::cut;
+    }
+  }
+  explanation.origins = find_origins(soup, explanation.fates, after.surface);
+  for (std::size_t t = 0; t < after.is_patch.size(); ++t) {
+    if (after.is_patch[t] != 0) explanation.origins[t] = TriangleOrigin::seal;
+  }
+}
+
 }  // namespace
 
 Surface seal_solid(const TriangleSoup& soup, Surface solid, const RepairOptions& options,
@@ -103,11 +141,12 @@ Surface seal_solid(const TriangleSoup& soup, Surface solid, const RepairOptions&
   }
   if (!sealed) return solid;
   RepairReport second;
-  Surface surface = surface_of(*sealed, options, repair_again, second);
+  Sealed result = solid_of(*sealed, options, repair_again, second);
   append_report(std::move(second), report);
-  note_fates(soup.triangles.size(), solid, surface, report);
-  describe_output(surface, report);
-  return surface;
+  note_fates(soup.triangles.size(), solid, result.surface, report);
+  if (options.explain) explain_seals(soup, solid, result, report.explanation);
+  describe_output(result.surface, report);
+  return std::move(result.surface);
 }
 
 }  // namespace meshrepair::internal

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,62 @@ TEST(ExplainRepair, CornersThatWereSewnAreTold) {
   EXPECT_GT(one.report.sew.sewn_edges, 0u);
   EXPECT_GE(one.count(TriangleFate::moved), 1u);
   EXPECT_GE(one.count(TriangleFate::whole), soup.triangles.size() - 10);
+}
+
+// What can be written in single precision alone is still the triangle that it was.
+TEST(ExplainRepair, RoundingCutsNothing) {
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  const Explained one = explained(scaled(cube(), 0.1), options);
+  EXPECT_EQ(one.count(TriangleFate::whole), 12u);
+  EXPECT_EQ(one.count(TriangleOrigin::whole), 12u);
+}
+
+TEST(ExplainRepair, SealsAreTold) {
+  TriangleSoup soup = sphere(2000);
+  append(soup, flipped(scaled(sphere(2000), 0.8)));
+  const std::size_t walls = soup.triangles.size();
+  // A way in: a tube with sides of its own, from the triangle at the top of the one to that of the
+  // other.
+  const auto top = [&](std::size_t first) {
+    std::size_t best = first;
+    const auto height = [&](std::size_t t) {
+      double lowest = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t p : soup.triangles[t]) {
+        lowest = std::min(lowest, soup.points[p].dot(Vec3d(0.3, 0.5, 1)));
+      }
+      return lowest;
+    };
+    for (std::size_t t = first; t < first + walls / 2; ++t) {
+      if (height(t) > height(best)) best = t;
+    }
+    return best;
+  };
+  const std::size_t outer = top(0), inner = top(walls / 2);
+  const auto a = soup.triangles[outer], b = soup.triangles[inner];
+  ASSERT_EQ(inner - outer, walls / 2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    // The inner one is flipped: two of its corners have changed places.
+    const auto match = [&](std::uint32_t p) {
+      const auto nearest = std::min_element(b.begin(), b.end(), [&](auto q, auto r) {
+        return (soup.points[q] - soup.points[p]).norm() < (soup.points[r] - soup.points[p]).norm();
+      });
+      return *nearest;
+    };
+    soup.triangles.push_back({a[k], a[next], match(a[next])});
+    soup.triangles.push_back({a[k], match(a[next]), match(a[k])});
+  }
+  soup.triangles.erase(soup.triangles.begin() + static_cast<std::ptrdiff_t>(inner));
+  soup.triangles.erase(soup.triangles.begin() + static_cast<std::ptrdiff_t>(outer));
+  RepairOptions options;
+  options.seal.size = 0.4;
+  const Explained one = explained(soup, options);
+  ASSERT_EQ(one.report.seal.openings, 1u);
+  EXPECT_GT(one.count(TriangleOrigin::seal), 0u);
+  EXPECT_EQ(one.count(TriangleOrigin::patch), 0u);
+  EXPECT_GE(one.count(TriangleFate::whole), walls / 2 - 1);
+  EXPECT_GE(one.count(TriangleFate::inside), walls / 2 - 1);
 }
 
 TEST(ExplainRepair, SolidsThatGoAreLeftOut) {

@@ -255,6 +255,7 @@ class GltfWriter {
     }
     material["pbrMetallicRoughness"] = std::move(shading);
     if (colour[3] < 1) material["alphaMode"] = "BLEND";
+    if (look.two_sided) material["doubleSided"] = true;
   }
 
   GltfJson placed_texture(const Material& look) {

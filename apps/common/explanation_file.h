@@ -1,0 +1,36 @@
+// --explain: what was read and what was made of it beside each other, each triangle in the colour
+// of what became of it, or of where it comes from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include <mesh/scene.h>
+#include <mesh/soup.h>
+
+#include "common/repair_steps.h"
+
+namespace meshrepair {
+
+// The help names the colours.
+void add_explain_option(CLI::App& app, std::string& path);
+
+// Before hours of work, as check_files(): throws UsageError where the file is no PLY or GLB, or
+// another one of the run, OutputError where it cannot be written. An empty path asks for nothing.
+void check_explanation(const std::string& path, const std::vector<std::string>& files, Run& run);
+
+struct ExplainedMesh {
+  const TriangleSoup& soup;  // as RepairReport::explanation has it
+  const Scene& scene;        // whose meshes it is made of; without meshes: as it is
+};
+
+// Stage "explain", where it is asked for. Of `findings` it takes what became of the triangles.
+void write_explanation_stage(const std::string& path, const ExplainedMesh& input,
+                             const ExplainedMesh& result, Run& run, Findings& findings);
+
+// For the summary; empty where nothing was explained.
+[[nodiscard]] std::vector<std::string> explanation_lines(const Findings& findings);
+
+}  // namespace meshrepair
