@@ -5,6 +5,7 @@
 #include "common/explanation_file.h"
 #include "common/picture_steps.h"
 #include "common/point_steps.h"
+#include "common/purposes.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
 #include "common/scene_steps.h"
@@ -23,6 +24,13 @@ Surface repair_or_advise(const AnySoup& input, const PointOptions& points,
   }
 }
 
+// Those that are in the units of IN.
+void scale_lengths(double factor, RepairOptions& options) {
+  options.sew.distance *= factor;
+  if (!options.seal.is_share) options.seal.size *= factor;
+  if (!options.thicken.is_share) options.thicken.thickness *= factor;
+}
+
 void repair_input(const StepOptions& options, const PointOptions& points, bool always, Run& run,
                   Findings& findings) {
   WriteOptions format = mesh_format(options);
@@ -34,14 +42,12 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   const Attributes given = options.picture.wanted() ? input.attributes : Attributes();
   input.attributes = chosen_for(*format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
-  if (!repair_options.thicken.is_share) {
-    repair_options.thicken.thickness *=
-        scale_to_unit(*format.format, options.assets, findings.unit);
-  }
+  scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options);
   findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
+  if (findings.point_soup) repair_options.thicken.automatic = false;  // a scan of one side is none
   repair_options.explain = !options.explained.empty();
   if (!input.scene.meshes.empty()) {
     return repair_scene(input, given, repair_options, format, options, run, findings);
@@ -67,6 +73,7 @@ int main(int argc, char** argv) {
   Program program(
       "meshrepair", "Turns any triangle mesh or point cloud into the boundary of a solid.",
       "  meshrepair broken.stl repaired.stl\n"
+      "  meshrepair --for print broken.obj part.stl\n"
       "  meshrepair --inside solidity --report report.json broken.obj repaired.ply\n"
       "  meshrepair scan.xyz solid.obj\n"
       "  curl https://example.org/mesh.stl | meshrepair --format stl - - > repaired.stl\n");
@@ -78,6 +85,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")
       ->required();
+  add_purpose_option(app, options.purpose);
   add_inside_options(app, options.repair.inside);
   add_sew_option(app, options.repair.sew);
   add_seal_option(app, options.repair.seal);

@@ -103,6 +103,11 @@ std::string why_no_length(const std::string& word) {
                          : word + " is no length: a number above 0, or one with a % behind it";
 }
 
+// The same, or auto, or none.
+std::string why_no_size_or_word(const std::string& word) {
+  return word == "auto" || word == "none" ? std::string() : why_no_length(word);
+}
+
 // For CLI11: an empty text where the word is a tolerance.
 std::string why_no_epsilon(const std::string& word) {
   double value = 0;
@@ -163,9 +168,7 @@ void add_seal_option(CLI::App& app, SealOptions& seal) {
          "Close openings that a ball of this diameter cannot pass, and fill what is behind:\n"
          "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
          "auto: those of the narrowest opening that leads into a far wider space")
-      ->check([](const std::string& word) {
-        return word == "auto" || word == "none" ? std::string() : why_no_length(word);
-      })
+      ->check(why_no_size_or_word)
       ->type_name("auto|none|X|X%")
       ->default_str("none")
       ->group("Repair");
@@ -200,16 +203,20 @@ void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOpti
   app.add_option_function<std::string>(
          "--thicken",
          [&thicken, &max_hole](const std::string& word) {
-           std::tie(thicken.thickness, thicken.is_share) = *length_in(word);
+           thicken.automatic = word == "auto";
+           std::tie(thicken.thickness, thicken.is_share) =
+               length_in(word).value_or(std::pair(0.0, false));
            if (max_hole.count() > 0) {
              thicken.largest_hole_share = std::numeric_limits<double>::infinity();
            }
          },
          "Make walls of open sheets, which enclose nothing and are dropped else: so thick,\n"
          "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
+         "auto: a thickness that fits, where nothing encloses anything, or more than half\n"
+         "of the area is of parts that do not.\n"
          "Only holes up to SHARE 0.25 are closed then, unless --max-hole is given")
-      ->check(why_no_length)
-      ->type_name("X|X%")
+      ->check(why_no_size_or_word)
+      ->type_name("auto|none|X|X%")
       ->default_str("none")
       ->group("Repair");
   add_choice(

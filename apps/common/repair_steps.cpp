@@ -133,6 +133,7 @@ void run_named(const std::string& name, const std::function<void()>& work) {
 
 ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   Findings findings(options.input, options.output);
+  findings.purpose = options.purpose;
   (void)with_findings(run, findings, [&] {
     body(options, run, findings);
     return ExitCode::done;

@@ -21,6 +21,7 @@
 #include "common/asset_options.h"
 #include "common/picture_request.h"
 #include "common/program.h"
+#include "common/purposes.h"
 
 namespace meshrepair {
 
@@ -65,8 +66,9 @@ struct Findings {
   std::size_t output_points = 0;
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
   bool withheld = false;           // not written because of these
-  std::string explained;           // the file that says what became of the triangles; may be empty
-  std::string summary;             // instead of that of summary_of(), if it is not empty
+  Purpose purpose;
+  std::string explained;  // the file that says what became of the triangles; may be empty
+  std::string summary;    // instead of that of summary_of(), if it is not empty
 };
 
 // What the command line of such a program says; not every program has all of it.
@@ -80,6 +82,7 @@ struct StepOptions {
   std::string staging;  // folder that OUT is written into first; empty: none
   PictureRequest picture;
   std::string explained;  // file that is to say what became of the triangles; empty: none
+  Purpose purpose;
   RepairOptions repair;
 };
 

@@ -143,6 +143,7 @@ Json section_of(const SealReport& seal) {
 
 Json section_of(const ThickenReport& thicken) {
   return {{"thickness", thicken.thickness},
+          {"automatic", thicken.automatic},
           {"side", thicken_side_name(thicken.side)},
           {"triangles", thicken.triangles},
           {"sheets", thicken.sheets},
@@ -336,6 +337,11 @@ Json stages_section(const std::vector<StageReport>& reports) {
 
 void add_sections(const Findings& findings, JsonReport& report) {
   const RepairReport& repair = findings.repair;
+  if (const Purpose& purpose = findings.purpose; !purpose.name.empty()) {
+    report.set_section(
+        "purpose",
+        {{"name", purpose.name}, {"options", purpose.options}, {"overridden", purpose.overridden}});
+  }
   if (findings.mesh_read) report.set_section("read", section_of(*findings.mesh_read));
   if (findings.points_read) report.set_section("read", section_of(*findings.points_read));
   if (findings.point_soup) {

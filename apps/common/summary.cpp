@@ -226,15 +226,26 @@ void describe_seals(const SealReport& seal, Lines& lines) {
 void describe_walls(const ThickenReport& thicken, Lines& lines) {
   if (thicken.triangles == 0) return;
   std::vector<std::string> texts = {fmt::format(
-      "{} of {}, area {:.6g}, to walls of {:.6g}{}", number_of(thicken.triangles, "triangle"),
+      "{} of {}, area {:.6g}, to walls of {:.6g}{}{}", number_of(thicken.triangles, "triangle"),
       number_of(thicken.sheets, "sheet"), thicken.area, thicken.thickness,
       thicken.side == ThickenSide::middle
           ? std::string()
-          : fmt::format(" {} of them", thicken_side_name(thicken.side)))};
+          : fmt::format(" {} of them", thicken_side_name(thicken.side)),
+      thicken.automatic ? ", which fits" : "")};
   if (thicken.solid_volume > 0) {
     texts.push_back(fmt::format("besides what is solid, volume {:.6g}", thicken.solid_volume));
   }
   lines.add("thickened", texts);
+}
+
+void describe_purpose(const Purpose& purpose, Lines& lines) {
+  if (purpose.name.empty()) return;
+  std::vector<std::string> texts = {
+      fmt::format("{}: {}", purpose.name, fmt::join(purpose.options, " "))};
+  if (!purpose.overridden.empty()) {
+    texts.push_back(fmt::format("not set, as given: {}", fmt::join(purpose.overridden, " ")));
+  }
+  lines.add("for", texts);
 }
 
 // Loose points are the rule with floating predicates, not worth telling.
@@ -405,6 +416,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   if (!findings.summary.empty()) return findings.summary;
   Lines lines;
   describe_input(findings, lines);
+  describe_purpose(findings.purpose, lines);
   describe_sewing(findings.repair.sew, lines);
   describe_holes(findings.repair, lines);
   describe_seals(findings.repair.seal, lines);

@@ -102,6 +102,11 @@ std::optional<Surface> first_way(Job& job) {
   return surface;
 }
 
+double fitting_thickness_of(const TriangleSoup& soup, const RepairOptions& options) {
+  CleanReport again;
+  return internal::thickness_that_fits(clean_soup(soup, again, options.progress));
+}
+
 // Whoever meant sheets by what encloses nothing can be told a thickness for them.
 Surface repair_solids(const TriangleSoup& soup, const RepairOptions& options,
                       RepairReport& report) {
@@ -109,9 +114,7 @@ Surface repair_solids(const TriangleSoup& soup, const RepairOptions& options,
   try {
     return *first_way(job);
   } catch (const NoSolidError&) {
-    CleanReport again;
-    report.thicken.fitting =
-        internal::thickness_that_fits(clean_soup(soup, again, options.progress));
+    report.thicken.fitting = fitting_thickness_of(soup, options);
     throw;
   }
 }
@@ -141,6 +144,40 @@ Surface repair_with_walls(const TriangleSoup& soup, const RepairOptions& options
   return surface;
 }
 
+bool is_mostly_sheets(const RepairReport& report) {
+  constexpr double kMostArea = 0.5;
+  return report.parts.enclosing_nothing.area > kMostArea * report.input_area;
+}
+
+// Whether there are to be walls is known once the soup is repaired without any.
+Surface repair_with_fitting_walls(const TriangleSoup& soup, RepairOptions options,
+                                  RepairReport& report) {
+  RepairOptions without = options;
+  without.thicken = {};
+  try {
+    Surface surface = repair_solids(soup, without, report);
+    if (!is_mostly_sheets(report)) return surface;
+    report.thicken.fitting = fitting_thickness_of(soup, options);
+  } catch (const NoSolidError&) {
+    if (report.thicken.fitting == 0) throw;
+  }
+  options.thicken.automatic = options.thicken.is_share = false;
+  options.thicken.thickness = report.thicken.fitting;
+  std::vector<StageReport> stages = std::move(report.stages);
+  report = {};
+  report.stages = std::move(stages);
+  Surface surface = repair_with_walls(soup, options, report);
+  report.thicken.automatic = true;
+  return surface;
+}
+
+Surface repair_what_is_there(const TriangleSoup& soup, const RepairOptions& options,
+                             RepairReport& report) {
+  if (options.thicken.automatic) return repair_with_fitting_walls(soup, options, report);
+  return options.thicken.wanted() ? repair_with_walls(soup, options, report)
+                                  : repair_solids(soup, options, report);
+}
+
 std::vector<char> solid_cells(const Tree& tree, const CellComplex& complex) {
   std::vector<char> solid;
   solid.reserve(complex.cells.size());
@@ -164,8 +201,7 @@ void require_labels(const Tree& tree) {
 }  // namespace
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
-  Surface surface = options.thicken.wanted() ? repair_with_walls(soup, options, report)
-                                             : repair_solids(soup, options, report);
+  Surface surface = repair_what_is_there(soup, options, report);
   if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
   if (options.seal.wanted()) {
     surface = internal::seal_solid(soup, std::move(surface), options, repair_solids, report);

@@ -17,6 +17,9 @@ struct ExtractOptions {
   // Whether what is cut of several triangles in one plane may become one triangle; else each one
   // lies in its source.
   bool merges_triangles = true;
+  // Of an arrangement: whether edges may have four triangles, where parts of one surface touch, in
+  // what is to be repaired once more.
+  bool may_touch_itself = false;
   ProgressObserver* progress = nullptr;
   // Of each triangle of the soup, whether it is not cut, though only a part of it may be among the
   // cells' facets: nothing is merged with it. Empty: what is cut is seen there.

@@ -139,14 +139,13 @@ class ChamberFinder {
     return facing_up(sheets_.triangle[f]) > 0 ? front(f) : behind(f);
   }
 
-  // Nothing if there are two where the ray starts.
+  // Nothing if there are two in one plane.
   [[nodiscard]] std::optional<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& above,
                                                         const CornerRay& ray) const {
-    const GridPoint& at = start_of(ray);
     std::uint32_t nearest = above[0];
     bool alone = true;
     for (std::size_t i = 1; i < above.size(); ++i) {
-      const int order = compare_heights(above[i], nearest, at);
+      const int order = compare_heights(above[i], nearest, ray);
       if (order == 0) alone = false;
       if (order >= 0) continue;
       nearest = above[i];
@@ -155,7 +154,17 @@ class ChamberFinder {
     return alone ? std::optional(nearest) : std::nullopt;
   }
 
-  // Of the planes of two triangles over a point. With normals below 2^54, offsets below 2^81 and
+  // Of the planes of two triangles over a ray: where both meet over the corner that it starts from,
+  // one is higher on the way into the triangle.
+  [[nodiscard]] int compare_heights(std::uint32_t t, std::uint32_t u, const CornerRay& ray) const {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const int order = compare_heights(t, u, corner_of(ray, k));
+      if (order != 0) return order;
+    }
+    return 0;
+  }
+
+  // The same over a point. With normals below 2^54, offsets below 2^81 and
   // coordinates below 2^25 the height of a plane is a fraction of 2^82 by 2^54.
   [[nodiscard]] int compare_heights(std::uint32_t t, std::uint32_t u, const GridPoint& at) const {
     const auto height = [&](std::uint32_t triangle, Int128& over, Int128& under) {
@@ -172,35 +181,56 @@ class ChamberFinder {
     return (Int256::product(over_t, under_u) + -Int256::product(over_u, under_t)).sign();
   }
 
-  // The facet of a triangle right above a point; kNone if that is at an edge of it.
+  // The facet of a triangle that a ray passes; kNone where that is hard to tell.
   [[nodiscard]] std::uint32_t facet_above(std::uint32_t t, const CornerRay& ray) {
     const std::uint32_t first = sheets_.first[t], last = sheets_.first[t + 1];
     if (last - first == 1) return first;
-    const GridPoint& at = start_of(ray);
     if (planes_.size() == 0) planes_ = cut_.planes();
-    const auto plane_at = [&](std::size_t axis) {
-      std::array<std::int64_t, 3> normal{};
-      normal[axis] = 1;
-      return planes_.append(make_plane(normal, -Int128{coordinate(at, axis)}));
-    };
     const PlaneId own = cut_.plane(cut_.number_of(t));
-    const PlaneId x = plane_at((axis_ + 1) % 3), y = plane_at((axis_ + 2) % 3);
-    const Point place = meet(planes_, own, x, y, {});
+    const std::array<Point, 3> over = {place_over(corner_of(ray, 0), own),
+                                       place_over(corner_of(ray, 1), own),
+                                       place_over(corner_of(ray, 2), own)};
+    if (std::any_of(over.begin(), over.end(), [](const Point& p) { return p.is_loose(); })) {
+      return kNone;
+    }
     const int left = corner_side(soup_, t);
     for (std::uint32_t f = first; f < last; ++f) {
       const auto& c = sheets_.corners[f];
       bool inside = true;
       for (std::size_t k = 0; k < 3 && inside; ++k) {
-        const Point a = points_.at(c[k]), b = points_.at(c[(k + 1) % 3]);
-        inside = turn(a, b, place, own, planes_) == left;
+        inside = side_of_ray(points_.at(c[k]), points_.at(c[(k + 1) % 3]), over, own) == left;
       }
       if (inside) return f;
     }
     return kNone;
   }
 
-  [[nodiscard]] const GridPoint& start_of(const CornerRay& ray) const {
-    return soup_.grid_points[soup_.triangles[TriangleId(ray.triangle)].corners[ray.corner]];
+  // In a plane, straight above a point or below it.
+  [[nodiscard]] Point place_over(const GridPoint& at, PlaneId plane) {
+    const auto upright = [&](std::size_t axis) {
+      std::array<std::int64_t, 3> normal{};
+      normal[axis] = 1;
+      return planes_.append(make_plane(normal, -Int128{coordinate(at, axis)}));
+    };
+    const PlaneId x = upright((axis_ + 1) % 3), y = upright((axis_ + 2) % 3);
+    return meet(planes_, plane, x, y, {});
+  }
+
+  // Where the line through a and b has the ray: the first of its three places decides that the line
+  // does not pass through. The two that come later lead from the first one into the triangle.
+  [[nodiscard]] int side_of_ray(const Point& a, const Point& b, const std::array<Point, 3>& over,
+                                PlaneId plane) const {
+    for (const Point& place : over) {
+      const int side = turn(a, b, place, plane, planes_);
+      if (side != 0) return side;
+    }
+    return 0;
+  }
+
+  // The corner that a ray starts from, and the next ones of its triangle.
+  [[nodiscard]] const GridPoint& corner_of(const CornerRay& ray, std::uint32_t k) const {
+    const auto& corners = soup_.triangles[TriangleId(ray.triangle)].corners;
+    return soup_.grid_points[corners[(ray.corner + k) % 3]];
   }
 
   static std::int32_t coordinate(const GridPoint& p, std::size_t axis) {

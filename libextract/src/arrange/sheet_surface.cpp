@@ -176,15 +176,16 @@ class RegionMaker {
 class SheetSurfaceMaker {
  public:
   SheetSurfaceMaker(const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets,
-                    const KeptFacets& kept, SheetRegions regions, ArrangeReport& report,
-                    ProgressObserver* progress)
+                    const KeptFacets& kept, SheetRegions regions, const ExtractOptions& options,
+                    ArrangeReport& report)
       : cut_(cut),
         points_(points),
         sheets_(sheets),
         kept_(kept),
         regions_(std::move(regions)),
         report_(report),
-        quiet_(progress) {}
+        may_touch_itself_(options.may_touch_itself),
+        quiet_(options.progress) {}
 
   std::optional<Surface> run() {
     find_fans();
@@ -192,7 +193,7 @@ class SheetSurfaceMaker {
     if (!make_regions()) return std::nullopt;
     number_points();
     place_points();
-    if (!is_manifold()) return std::nullopt;
+    if (!may_touch_itself_ && !is_manifold()) return std::nullopt;
     return std::move(surface_);
   }
 
@@ -321,6 +322,7 @@ class SheetSurfaceMaker {
   const KeptFacets& kept_;
   const SheetRegions regions_;
   ArrangeReport& report_;
+  bool may_touch_itself_;
   CancelOnly quiet_;
   std::vector<std::uint32_t> fan_;    // of each slot the lowest one of its fan
   std::vector<std::uint32_t> order_;  // facets by their regions
@@ -340,8 +342,7 @@ std::optional<Surface> make_sheet_surface(const CutSet& cut, const ArrangedPoint
     SheetRegions regions = merge_sheets(cut, points, sheets, edges, kept,
                                         {releases_touching, options.merges_triangles});
     std::optional<Surface> surface =
-        SheetSurfaceMaker(cut, points, sheets, kept, std::move(regions), report, options.progress)
-            .run();
+        SheetSurfaceMaker(cut, points, sheets, kept, std::move(regions), options, report).run();
     if (surface || kept.singular_edges == 0) return surface;
   }
   return std::nullopt;

@@ -20,16 +20,20 @@ enum class ThickenSide { middle, outside, inside };
 struct ThickenOptions {
   double thickness = 0;   // of walls, in the soup's unit; 0: sheets stay what they are
   bool is_share = false;  // it is a share of the diagonal of the soup's bounding box instead
+  // A thickness that fits instead, where nothing is solid, or more than half of the area is of
+  // parts that enclose nothing.
+  bool automatic = false;
   ThickenSide side = ThickenSide::middle;
   // Holes of a larger share of their part are the rim of a sheet, whatever HoleOptions says:
   // whoever asks for walls has sheets. A box without a lid has 1/5, a half-ball 1/2.
   double largest_hole_share = 0.25;
 
-  [[nodiscard]] bool wanted() const { return thickness > 0; }
+  [[nodiscard]] bool wanted() const { return automatic || thickness > 0; }
 };
 
 struct ThickenReport {
-  double thickness = 0;  // in the soup's unit; 0: nothing was thickened
+  double thickness = 0;    // in the soup's unit; 0: nothing was thickened
+  bool automatic = false;  // it was found, not given
   ThickenSide side = ThickenSide::middle;
   std::size_t triangles = 0;       // of sheets
   std::size_t sheets = 0;          // connected through edges

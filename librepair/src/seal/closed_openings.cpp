@@ -13,6 +13,7 @@
 
 #include "openings.h"
 #include "seal_lattice.h"
+#include "wide_spaces.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -22,6 +23,9 @@ constexpr std::array<std::int32_t, 3> kLatticeWidths = {1, 2, 4};
 
 // What is tried where no size is given, as a share of the diagonal; each is twice the one before.
 constexpr double kSmallestTried = 1.0 / 1024, kLargestTried = 1.0 / 8;
+
+// Where many sizes are tried, each is to be found soon.
+constexpr std::size_t kMostCubesOfMany = std::size_t{1} << 20;
 
 // Openings whose area is less than this share of what a face of a cube has that is as large as what
 // is behind: mouths of vessels have more.
@@ -38,7 +42,10 @@ class OpeningsCloser {
         diagonal_(extent_of(solid.mesh).norm()),
         no_winding_(solid.mesh.triangles.size(), 0),
         rays_(solid.mesh, no_winding_),
-        openings_(solid.mesh, rays_, options.most_cubes, progress) {}
+        openings_(
+            solid.mesh, rays_,
+            options.automatic ? std::min(options.most_cubes, kMostCubesOfMany) : options.most_cubes,
+            progress) {}
 
   std::unique_ptr<ClosedOpenings> run() {
     if (options_.automatic) return close_smallest();
@@ -53,7 +60,9 @@ class OpeningsCloser {
   // Those that hold a good part of what the solid does.
   std::unique_ptr<ClosedOpenings> close_smallest() {
     const double volume = std::abs(signed_volume(solid_.mesh));
+    const WideSpaces spaces(solid_.mesh, progress_);
     for (double share = kSmallestTried; share <= kLargestTried; share *= 2) {
+      if (!spaces.lie_behind(share * diagonal_)) continue;
       std::unique_ptr<ClosedOpenings> closed = close(share * diagonal_);
       const bool is_worth =
           closed && report_.filled_volume >= kWorthSealing * volume &&

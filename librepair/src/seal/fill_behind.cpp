@@ -36,13 +36,9 @@ class BehindFinder {
   std::optional<FilledChambers> run(ProgressObserver* progress) {
     const CellGraph graph = graph_of_chambers(arrangement_, soup_, orientation());
     const Walk walk = walk_winding(graph, progress);
-    const auto winds_once = [](std::int32_t winding) { return winding == 0 || winding == 1; };
-    if (!walk.consistent() || !std::all_of(walk.value.begin(), walk.value.end(), winds_once)) {
-      return std::nullopt;
-    }
-    for (const std::int32_t winding : walk.value) {
-      filled_.solid.push_back(static_cast<char>(winding));
-    }
+    if (!walk.consistent()) return std::nullopt;
+    // On the working grid, walls that nearly touch may have crossed.
+    for (const std::int32_t winding : walk.value) filled_.solid.push_back(winding > 0 ? 1 : 0);
     join_marked(graph);
     set_sides(graph);
     fill(minimum_cut(nodes_, edges_of(graph)));

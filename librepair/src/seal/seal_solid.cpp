@@ -63,6 +63,7 @@ Sealed solid_of(const ClosedOpenings& sealed, const RepairOptions& options,
   second.certify.wanted = false;
   second.slit_steps = 0;
   second.simplify = 0;
+  second.extract.may_touch_itself = true;
   report = {};
   solid = extract_sealed(sealed, second, report);
   if (!solid) throw InternalError("openings are sealed, but what is solid then has no boundary");

@@ -231,5 +231,32 @@ TEST(SealOpenings, TooManyCubesAreRefused) {
   EXPECT_THROW((void)repair(pierced_shell(0.01, 0.1, 48), options), UsageError);
 }
 
+// Between many bodies there are crevices of all widths, patches that lie above each other, and
+// patches that touch each other along edges.
+TEST(SealOpenings, CrevicesOfAnyKindAreSealed) {
+  std::size_t openings = 0;
+  const std::size_t cases = share_of_cases(8);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const TriangleSoup soup = i % 2 == 0 ? random_cubes(40, i) : random_grid_boxes(30, 12, i);
+    const RepairResult open = sealed(soup, 0);
+    for (const double share : {0.06, 0.15}) {
+      RepairOptions options;
+      options.keep_valid = true;
+      options.seal = {.size = share, .is_share = true, .most_cubes = std::size_t{1} << 20};
+      const RepairResult result = repair(open.surface.mesh, options);
+      const SealReport& seal = result.report.seal;
+      EXPECT_TRUE(result.report.certify.passed() || result.report.kept_valid) << i;
+      EXPECT_TRUE(result.report.output.closed() && result.report.output.manifold()) << i;
+      EXPECT_NEAR(result.report.output_volume, open.report.output_volume + seal.filled_volume,
+                  1e-4 * open.report.output_volume)
+          << i << " " << share;
+      openings += seal.openings;
+    }
+  }
+  if (cases >= 8) {
+    EXPECT_GT(openings, 8u);
+  }
+}
+
 }  // namespace
 }  // namespace meshrepair

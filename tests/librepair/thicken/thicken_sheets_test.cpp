@@ -247,6 +247,26 @@ TEST(ThickenSheets, WhereNothingIsSolidAThicknessIsNamed) {
   EXPECT_EQ(report.thicken.fitting, 0);
 }
 
+TEST(ThickenSheets, AFittingThicknessWhereMostIsSheet) {
+  RepairOptions options;
+  options.keep_valid = true;
+  options.thicken.automatic = true;
+  TriangleSoup soup = cube();
+  EXPECT_EQ(repair(soup, options).report.thicken.triangles, 0u);
+  soup.points.insert(soup.points.end(), {{3, 0, 0}, {4, 0, 0}, {3, 1, 0}});
+  soup.triangles.push_back({8, 9, 10});
+  const RepairResult mostly_solid = repair(soup, options);
+  EXPECT_EQ(mostly_solid.report.thicken.triangles, 0u);
+  EXPECT_EQ(mostly_solid.surface.mesh.triangles.size(), 12u);
+  soup.points[9] = {30, 0, 0};
+  const RepairResult mostly_sheet = repair(soup, options);
+  EXPECT_EQ(mostly_sheet.report.thicken.triangles, 1u);
+  EXPECT_TRUE(mostly_sheet.report.thicken.automatic);
+  EXPECT_GT(mostly_sheet.report.thicken.thickness, 0);
+  EXPECT_EQ(mostly_sheet.report.output.parts, 2u);
+  EXPECT_TRUE(mostly_sheet.report.certify.passed());
+}
+
 TEST(ThickenSheets, TheSameForSinglePrecision) {
   Random random(7);
   RepairOptions options = walls_of(0.02);

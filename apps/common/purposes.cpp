@@ -1,0 +1,88 @@
+#include "common/purposes.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+
+#include <CLI/Validators.hpp>
+#include <spdlog/fmt/fmt.h>
+
+namespace meshrepair {
+namespace {
+
+struct Setting {
+  std::string_view option;
+  std::string_view value;
+};
+
+// Nothing that can be seen from outside needs to be hollow, and crumbs do not print.
+constexpr std::array kPrint = {Setting{"--sew", "auto"}, Setting{"--seal", "auto"},
+                               Setting{"--thicken", "auto"}, Setting{"--cavities", "fill"},
+                               Setting{"--min-part", "1e-6"}};
+// A void is part of a body that bears a load; crumbs make elements that are far too small.
+constexpr std::array kSimulation = {Setting{"--sew", "auto"}, Setting{"--cavities", "keep"},
+                                    Setting{"--min-part", "1e-6"}};
+// What nobody sees goes, and what is seen stays where it is.
+constexpr std::array kRender = {Setting{"--sew", "auto"}, Setting{"--thicken", "auto"},
+                                Setting{"--only", "outer"}, Setting{"--simplify", "0"}};
+// An operand is to be what it was.
+constexpr std::array kBoolean = {Setting{"--sew", "auto"}, Setting{"--cavities", "keep"},
+                                 Setting{"--keep", "all"}, Setting{"--simplify", "0"}};
+
+struct Bundle {
+  std::string_view name;
+  std::span<const Setting> settings;
+};
+
+constexpr std::array<Bundle, 4> kBundles = {
+    {{"print", kPrint}, {"simulation", kSimulation}, {"render", kRender}, {"boolean", kBoolean}}};
+
+std::string text_of(const Setting& setting) {
+  return fmt::format("{} {}", setting.option, setting.value);
+}
+
+std::string help_text() {
+  std::string text =
+      "Set options that belong together for what the solid is for; those that are given\n"
+      "as well go first:";
+  for (const Bundle& bundle : kBundles) {
+    std::vector<std::string> words;
+    for (const Setting& setting : bundle.settings) words.push_back(text_of(setting));
+    text += fmt::format("\n  {:<10}  {}", bundle.name, fmt::join(words, " "));
+  }
+  return text;
+}
+
+void apply(const Bundle& bundle, CLI::App& app, Purpose& purpose) {
+  purpose.name = bundle.name;
+  for (const Setting& setting : bundle.settings) {
+    CLI::Option& option = *app.get_option(std::string(setting.option));
+    if (option.count() > 0) {
+      purpose.overridden.emplace_back(setting.option);
+      continue;
+    }
+    option.add_result(std::string(setting.value));
+    purpose.options.push_back(text_of(setting));
+  }
+}
+
+}  // namespace
+
+void add_purpose_option(CLI::App& app, Purpose& purpose) {
+  std::vector<std::string> names;
+  for (const Bundle& bundle : kBundles) names.emplace_back(bundle.name);
+  app.add_option_function<std::string>(
+         "--for",
+         [&app, &purpose](const std::string& word) {
+           apply(*std::find_if(kBundles.begin(), kBundles.end(),
+                               [&](const Bundle& bundle) { return bundle.name == word; }),
+                 app, purpose);
+         },
+         help_text())
+      ->check(CLI::IsMember(names))
+      ->type_name("NAME")
+      ->group("Repair");
+}
+
+}  // namespace meshrepair
