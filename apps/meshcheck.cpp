@@ -1,5 +1,6 @@
 // meshcheck IN: what is wrong with a mesh, and whether it is the boundary of a solid.
 #include <iostream>
+#include <numeric>
 #include <string>
 
 #include <spdlog/fmt/fmt.h>
@@ -7,6 +8,7 @@
 #include <base/atomic_file.h>
 #include <base/error.h>
 #include <check/check_surface.h>
+#include <repair/seal_openings.h>
 
 #include "common/attribute_report.h"
 #include "common/check_report.h"
@@ -23,6 +25,7 @@ struct Options {
   AssetOptions assets;
   std::string marked;  // empty: no such file
   bool json = false;
+  bool openings = false;  // look for narrow ones, too
   PictureRequest picture;
   CheckOptions check;
 };
@@ -52,13 +55,42 @@ struct Verdict {
   std::string table;
 };
 
+// What meshrepair --seal auto would close of a solid.
+SealReport narrow_openings(const TriangleSoup& soup, const Options& options) {
+  Surface solid{soup, std::vector<std::uint32_t>(soup.triangles.size()),
+                std::vector<char>(soup.points.size(), 1)};
+  std::iota(solid.source.begin(), solid.source.end(), 0);
+  return propose_seal(solid, SealOptions().most_cubes, options.check.progress);
+}
+
+// Words for the table, and the same in the section; nothing if they are not asked for.
+std::string openings_of(const TriangleSoup& soup, const SurfaceCheck& check, Json& section,
+                        const Options& options) {
+  if (!options.openings) return {};
+  section["openings"] = nullptr;
+  if (!check.valid_solid()) return "openings  are looked for in valid solids\n";
+  const SealReport seal = narrow_openings(soup, options);
+  const double volume = check.volume + seal.filled_volume;
+  section["openings"] = {{"count", seal.openings},
+                         {"size", seal.size},
+                         {"filled_volume", seal.filled_volume},
+                         {"volume", volume}};
+  if (seal.openings == 0) return "openings  none is narrow and leads into a far wider space\n";
+  return fmt::format(
+      "openings  encloses {:.6g} if {} below {:.4g} {} closed: meshrepair --seal {:.4g}\n", volume,
+      number_of(seal.openings, "opening"), seal.size, seal.openings == 1 ? "is" : "are", seal.size);
+}
+
 Verdict check_one(const ReadResult& input, const Options& options, Run& run,
                   const Findings& findings) {
   const SurfaceCheck check = check_surface(input.soup, options.check);
-  run.report.set_section("check", check_section(check));
+  Json section = check_section(check);
+  const std::string openings = openings_of(input.soup, check, section, options);
+  run.report.set_section("check", std::move(section));
   return {check.valid_solid(), defect_colours(check),
           check_table(check, what_was_read(findings, input.soup),
-                      attribute_words(input.soup, input.attributes), findings.unit)};
+                      attribute_words(input.soup, input.attributes), findings.unit) +
+              openings};
 }
 
 // A line for each mesh, and a table for one that is no solid.
@@ -72,7 +104,9 @@ Verdict check_each(const ReadResult& input, const Options& options, Run& run,
     const SurfaceCheck check = check_surface(meshes[m], options.check);
     const std::string name = mesh_name(input.scene, m);
     solids += check.valid_solid() ? 1 : 0;
-    sections.push_back({{"name", name}, {"check", check_section(check)}});
+    Json section = check_section(check);
+    const std::string openings = openings_of(meshes[m], check, section, options);
+    sections.push_back({{"name", name}, {"check", std::move(section)}});
     const std::vector<Colour> colours = defect_colours(check);
     all.colours.insert(all.colours.end(), colours.begin(), colours.end());
     const std::string what =
@@ -80,6 +114,7 @@ Verdict check_each(const ReadResult& input, const Options& options, Run& run,
                     number_of(meshes[m].points.size(), "point"));
     all.table += check.valid_solid() ? what + ", a valid solid\n"
                                      : check_table(check, what, {}, findings.unit);
+    all.table += openings;
   }
   run.report.set_section("meshes", std::move(sections));
   all.is_valid = solids == meshes.size();
@@ -152,6 +187,10 @@ int main(int argc, char** argv) {
       ->type_name("N")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str()
+      ->group("Check");
+  app.add_flag("--openings", options.openings,
+               "Look for narrow openings that lead into a far wider space, and say what a solid\n"
+               "encloses once they are closed: meshrepair --seal does that")
       ->group("Check");
   app.add_option("--mark", options.marked, mark_help())->type_name("FILE")->group("Output");
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")

@@ -83,10 +83,9 @@ def scene() -> bytes:
     return f"o open\n{first}o whole\n{second}o sheet\n{sheet}".encode()
 
 
-def mug() -> bytes:
-    """A solid with a wall of 0.1 around a hollow that is 1.8 wide and 1.9 deep."""
+def revolved(profile: list[tuple[float, float]]) -> bytes:
+    """Quadrilaterals around the z axis, from radii and heights."""
     sides = 24
-    profile = [(0, 0), (1, 0), (1, 2), (0.9, 2), (0.9, 0.1), (0, 0.1)]
     angles = [2 * math.pi * i / sides for i in range(sides)]
     points = [(r * math.cos(a), r * math.sin(a), z) for r, z in profile for a in angles]
     lines = ["v %r %r %r" % point for point in points]
@@ -95,6 +94,16 @@ def mug() -> bytes:
             a, b = k * sides + i + 1, k * sides + (i + 1) % sides + 1
             lines += [f"f {a} {a + sides} {b + sides} {b}"]
     return "\n".join(lines + [""]).encode()
+
+
+def mug() -> bytes:
+    """A solid with a wall of 0.1 around a hollow that is 1.8 wide and 1.9 deep."""
+    return revolved([(0, 0), (1, 0), (1, 2), (0.9, 2), (0.9, 0.1), (0, 0.1)])
+
+
+def pierced_can() -> bytes:
+    """A can with a hole of 0.1 in its lid and another in its bottom. Points are there twice where it begins and ends."""
+    return revolved([(0.05, 0), (0.05, 0.1), (0.9, 0.1), (0.9, 1.9), (0.05, 1.9), (0.05, 2), (1, 2), (1, 0), (0.05, 0)])
 
 
 def painted_picture():
@@ -271,6 +280,7 @@ def main():
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
         "mug.obj": mug(),
+        "pierced_can.obj": pierced_can(),
         "undefined.obj": b"mtllib textured.mtl\nusemtl tin\n" + tetrahedron(f1="f 1 3 2\nusemtl wood"),
         "coloured_sides.stl": coloured_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
