@@ -15,7 +15,7 @@ import sys
 import time
 
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
-                     print_to, say, text, value_of)
+                     names_of, print_to, say, text, value_of)
 from .inputs import Job, find_meshes, name_outputs
 from .out_folder import Journal, key_of
 from .summary import Progress, as_csv, as_json, table, totals_of
@@ -171,12 +171,15 @@ class FolderRun:
             self.queue.append(job)
             return shutil.rmtree(worker.folder, ignore_errors=True)
         row = job.row(code, error, report)
+        job.note_needs(names_of(report, "files") + names_of(report, "pictures"))
         if code in WRITTEN and os.path.isfile(worker.mesh):
             row = self.take_output(worker, row, report)
         row["seconds"] = round(time.monotonic() - worker.started, 3)
         row["peak_memory_bytes"] = value_of(report, "peak_memory_bytes") or worker.peak_memory
         shutil.rmtree(worker.folder, ignore_errors=True)
-        self.settle(job, row, final=row["exit_code"] in FINAL)
+        # What cannot be read may lack a buffer; which one, no report says.
+        lacks_others = row["exit_code"] == INPUT and job.reads_others
+        self.settle(job, row, final=row["exit_code"] in FINAL and not lacks_others)
 
     def take_output(self, worker, row, report):
         """The row with what is known of the output."""

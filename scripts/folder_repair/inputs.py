@@ -4,12 +4,15 @@ import collections
 import errno
 import os
 import stat
+import time
 import zipfile
 
 from .basics import (ARCHIVE, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, MEASURED, PACKINGS,
-                     SAME_IN_EACH_RUN, text, value_of)
+                     READS_OTHERS, SAME_IN_EACH_RUN, text, value_of)
 
 STATE = b".repair_folder"  # of a run, in its OUT_DIR; folders of this name are no input
+UNKNOWN = "unknown"  # how a file was when it was read; it is like no other
+CLOCK_STEP_NS = 20_000_000  # times of files are those of the last tick of the system's clock
 
 
 def identity(path):
@@ -147,9 +150,11 @@ class Job:
         self.target = os.path.join(options.out_dir, output)
         self.format = options.format or FORMAT_OF_EXTENSION[mesh]
         self.packing = split_name(output)[2]  # the program packs what has such a name
-        self.size = self.mtime_ns = None
+        self.size = self.mtime_ns = self.looked_at = None
+        self.reads_others = mesh in READS_OTHERS
         self.trials = 0
         self.beside = {}  # what its output needs beside it, relative to OUT_DIR: name -> size
+        self.needs = {}  # other files that it names, from its folder: name -> as state_of() has it, or UNKNOWN
 
     def look(self):
         """Notes what the file is like now; OSError if it cannot be opened. Never waits."""
@@ -161,6 +166,27 @@ class Job:
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "is no regular file")
         self.size, self.mtime_ns = status.st_size, status.st_mtime_ns
+        self.looked_at = time.time_ns()
+
+    def state_of(self, name):
+        """Size and time of a file that it names, as a list; None if it is not there."""
+        try:
+            status = os.stat(os.path.join(os.path.dirname(self.source), os.fsencode(name)))
+        except (OSError, ValueError):
+            return None
+        return [status.st_size, status.st_mtime_ns]
+
+    def note_needs(self, names):
+        """What it named when it was read."""
+        self.needs = {name: UNKNOWN if self.may_have_changed(name) else self.state_of(name) for name in names}
+
+    def may_have_changed(self, name):
+        """Since the look at the mesh. Of a name that was no UTF-8 the report has not all."""
+        try:
+            status = os.stat(os.path.join(os.path.dirname(self.source), os.fsencode(name)))
+        except (OSError, ValueError):
+            return "\ufffd" in name
+        return status.st_ctime_ns >= self.looked_at - CLOCK_STEP_NS
 
     def row(self, code, error, report=None):
         """For the summary, as if nothing was written; what is not known is None."""

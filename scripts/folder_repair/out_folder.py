@@ -112,10 +112,11 @@ class Journal:
     """OUT_DIR/.repair_folder/journal.jsonl: what is finished, one JSON object in each line.
 
     Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `beside`: names of the files that the output
-    needs beside it, and their sizes, if there are any; `size` and `mtime_ns` of the input; `settings`: version of
-    the program, first digits of its SHA-256, --format, options after --; `final`: not to be tried again; `row`:
-    as in the summary. The last line of a path counts. A line that is not whole counts for nothing; at the end
-    of the file it is cut off before the next one is written.
+    needs beside it, and their sizes, if there are any; `size` and `mtime_ns` of the input; `needs`: names of other
+    files that it names, from its folder, with [size, mtime_ns] of each, null where there is none, or "unknown";
+    `settings`: version of the program, first digits of its SHA-256, --format, options after --; `final`: not to
+    be tried again; `row`: as in the summary. The last line of a path counts. A line that is not whole counts for
+    nothing; at the end of the file it is cut off before the next one is written.
     """
 
     def __init__(self, path, settings, anew):
@@ -139,6 +140,7 @@ class Journal:
                 folder = os.path.dirname(entry["output"])
                 beside = entry.get("beside", {}).items()
                 entry["beside"] = {name: size for name, size in beside if os.path.dirname(name) == folder}
+                entry["needs"] = dict(entry.get("needs", {}))
                 self.keep(entry)
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             pass
@@ -155,7 +157,8 @@ class Journal:
         entry = self.entries.get(key_of(job.name))
         if entry is None or not entry.get("final") or entry.get("settings") != self.settings or \
            entry.get("output") != key_of(job.output) or \
-           (entry.get("size"), entry.get("mtime_ns")) != (job.size, job.mtime_ns):
+           (entry.get("size"), entry.get("mtime_ns")) != (job.size, job.mtime_ns) or \
+           any(job.state_of(name) != state for name, state in entry.get("needs", {}).items()):
             return None
         promised = entry["row"]["bytes_out"]
         is_whole = promised is None or self.is_there(job.target, promised) and all(
@@ -191,6 +194,8 @@ class Journal:
                  "mtime_ns": job.mtime_ns, "settings": self.settings, "final": final, "row": row}
         if row["output"] and job.beside:
             entry["beside"] = {key_of(name): size for name, size in job.beside.items()}
+        if job.needs:
+            entry["needs"] = job.needs
         data = json.dumps(entry).encode() + b"\n"
         written = os.write(self.descriptor, data)
         while written < len(data):  # the disk is full, and the next call says so

@@ -15,10 +15,12 @@ import json
 import os
 import pathlib
 import py_compile
+import re
 import resource
 import shutil
 import signal
 import stat
+import struct
 import subprocess
 import sys
 import tempfile
@@ -518,6 +520,21 @@ def painted(library):
     return b"mtllib " + library + b"\n" + TETRAHEDRON.split(b"f ")[0] + b"vt 0 0\nvt 1 0\nvt 0 1\n" + faces
 
 
+def cube_as_gltf(uri="a.bin"):
+    """The text, and the bytes of its buffer."""
+    points = [float(i >> axis & 1) for i in range(8) for axis in range(3)]
+    quads = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    corners = [corner for a, b, c, d in quads for corner in (a, b, c, a, c, d)]
+    text = {
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"uri": uri, "byteLength": 168}],
+        "bufferViews": [{"buffer": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 72}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"}]}
+    return json.dumps(text).encode(), struct.pack("<24f36H", *points, *corners)
+
+
 class FilesBeside(FolderTest):
     """Meshes that need others beside them."""
 
@@ -563,6 +580,42 @@ class FilesBeside(FolderTest):
         write_files(self.source, {"a.obj": FLAT})
         self.run_script(program=MESHREPAIR, code=1)
         self.assertEqual(names_in(self.out), set())
+
+    def test_who_names_a_file_that_has_changed_is_done_again(self):
+        write_files(self.source, {
+            "sub/a.obj": painted(b"wood.mtl"), "sub/wood.mtl": b"newmtl wood\nKd 1 0 0\n",
+            "sub/b.obj": painted(b"late.mtl"), "c.obj": painted(b"own.mtl"), "own.mtl": b"newmtl wood\nKd 0 1 0\n"})
+        self.run_script(program=MESHREPAIR)
+
+        def finished_before():
+            said = re.search(r"(\d+) of 3 files were finished before", self.run_script(program=MESHREPAIR).stderr)
+            return int(said[1]) if said else 0
+
+        self.assertEqual(finished_before(), 3)
+        write_files(self.source, {"sub/wood.mtl": b"newmtl wood\nKd 0 0 1\n"})
+        os.utime(self.source / "sub" / "wood.mtl", (1, 1))
+        self.assertEqual(finished_before(), 2)
+        self.assertIn("Kd 0 0 1", self.text_of("sub/a.mtl"))
+        write_files(self.source, {"sub/late.mtl": b"newmtl wood\nKd 0 1 1\n"})
+        self.assertEqual(finished_before(), 2)
+        self.assertIn("Kd 0 1 1", self.text_of("sub/b.mtl"))
+        (self.source / "own.mtl").unlink()
+        self.assertEqual(finished_before(), 2)
+        self.assertNotIn("Kd 0 1 0", self.text_of("c.mtl"))
+        self.assertEqual(finished_before(), 3)
+
+    def test_a_buffer_that_comes_late_or_changes_counts(self):
+        gltf, buffer = cube_as_gltf()
+        write_files(self.source, {"a.gltf": gltf})
+        self.run_script(program=MESHREPAIR, code=1)
+        self.assertEqual(self.codes(), {"a.gltf": 3})
+        write_files(self.source, {"a.bin": buffer})
+        self.run_script(program=MESHREPAIR)
+        small = (self.out / "a.gltf").read_bytes()
+        write_files(self.source, {"a.bin": struct.pack("<24f", *(2 * x for x in struct.unpack("<24f", buffer[:96])))
+                                  + buffer[96:]})
+        self.run_script(program=MESHREPAIR)
+        self.assertNotEqual((self.out / "a.gltf").read_bytes(), small)
 
     def test_a_library_is_of_one_output(self):
         for packed, codes in ((b"newmtl wood\nKd 0 1 0\n", [0, 6]), (b"newmtl wood\nKd 1 0 0\n", [0, 0])):

@@ -54,7 +54,7 @@ class LibraryMover {
   }
 
  private:
-  // What is no way within the library's folder stays: nobody knows what it means elsewhere.
+  // What leads farther than it may stays: nobody knows what it means elsewhere.
   [[nodiscard]] std::string moved_name(std::string_view name) const {
     if (library_.is_packed) {
       const auto picture = library_.pictures.find(name);
@@ -62,7 +62,7 @@ class LibraryMover {
       return name_of_packed_(name, picture->second);
     }
     const std::string path = with_slashes(name);
-    if (!stays_within(path)) return std::string(name);
+    if (!stays_within(path, library_.levels_up)) return std::string(name);
     return name_seen_from(folder_, library_.folder / fs::path(path).lexically_normal());
   }
 
@@ -104,19 +104,18 @@ std::string without_repeats(std::string_view text) {
 // Makes the files of one mesh.
 class MaterialFiles {
  public:
-  MaterialFiles(const fs::path& path, const Attributes& attributes)
-      : path_(path), attributes_(attributes) {}
+  MaterialFiles(const fs::path& path, const fs::path& names_from, const Attributes& attributes)
+      : path_(path), names_from_(names_from), attributes_(attributes) {}
 
   std::vector<SideFile> run() {
     const auto* const known = dynamic_cast<const MaterialLibraries*>(attributes_.keepsake.get());
     std::string text;
     if (known != nullptr) {
       for (const MaterialLibraries::Library& library : known->libraries) {
-        text += LibraryMover(library, path_.parent_path(),
-                             [this](std::string_view name, const auto& bytes) {
-                               return name_of_packed(name, bytes);
-                             })
-                    .run();
+        text +=
+            LibraryMover(library, names_from_, [this](std::string_view name, const auto& bytes) {
+              return name_of_packed(name, bytes);
+            }).run();
         if (!text.empty() && text.back() != '\n') text += '\n';
       }
     }
@@ -156,7 +155,7 @@ class MaterialFiles {
     const Image& image = attributes_.images[number];
     if (!image.bytes && image.path.empty()) return image.name;
     if (!image.bytes) {
-      return name_seen_from(path_.parent_path(), image.path);
+      return name_seen_from(names_from_, image.path);
     }
     return written_picture(number, extension_of(image), *image.bytes);
   }
@@ -206,7 +205,7 @@ class MaterialFiles {
     return path;
   }
 
-  const fs::path& path_;
+  const fs::path &path_, &names_from_;
   const Attributes& attributes_;
   std::vector<SideFile> files_;
   std::unordered_set<std::size_t> written_;                 // pictures, by their numbers
@@ -215,8 +214,9 @@ class MaterialFiles {
 
 }  // namespace
 
-std::vector<SideFile> material_files(const fs::path& path, const Attributes& attributes) {
-  return MaterialFiles(path, attributes).run();
+std::vector<SideFile> material_files(const fs::path& path, const fs::path& names_from,
+                                     const Attributes& attributes) {
+  return MaterialFiles(path, names_from, attributes).run();
 }
 
 std::unordered_set<std::string> library_materials(const Attributes& attributes) {

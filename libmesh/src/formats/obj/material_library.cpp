@@ -39,6 +39,16 @@ std::string name_beside(const MaterialLibraries::Library& library, const std::st
   return (fs::path(with_slashes(library.name)).parent_path() / name).generic_string();
 }
 
+// How many folders up from that of the library a name may lead.
+std::size_t levels_up_from(const MeshSource& source, const MaterialLibraries::Library& library) {
+  std::size_t levels = source.levels_up;
+  for (const fs::path& part :
+       fs::path(with_slashes(library.name)).lexically_normal().parent_path()) {
+    levels = part == ".." ? levels - 1 : levels + 1;
+  }
+  return levels;
+}
+
 // Reads one library.
 class LibraryReader {
  public:
@@ -105,7 +115,8 @@ class LibraryReader {
   Material* look_ = nullptr;
 };
 
-void take_packed_pictures(const MeshSource& source, MaterialLibraries::Library& library) {
+// Notes their names, and takes those that are packed.
+void look_at_pictures(const MeshSource& source, MaterialLibraries::Library& library) {
   visit_mtl_lines(library.text, [&](std::string_view text) {
     const MtlLine line = split_mtl_line(text);
     if (!names_picture(line.key)) return;
@@ -124,7 +135,8 @@ MaterialLibraries::Library read_library(const MeshSource& source, const std::str
     library.path = file->path;
     library.folder = file->path.parent_path();
     library.is_packed = source.beside != nullptr;
-    if (library.is_packed) take_packed_pictures(source, library);
+    if (!library.is_packed) library.levels_up = levels_up_from(source, library);
+    look_at_pictures(source, library);
   } else {
     const bool has_place = source.folder || source.beside != nullptr;
     std::string warning = "the library of materials " + printable(name) + " is not ";

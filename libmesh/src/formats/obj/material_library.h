@@ -1,6 +1,7 @@
 // The .mtl files that an OBJ file names.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -22,6 +23,7 @@ struct MaterialLibraries final : Keepsake {
     std::string name;              // as the OBJ file has it
     std::filesystem::path path;    // empty: it was not found, or in an archive
     std::filesystem::path folder;  // which names of pictures are relative to
+    std::size_t levels_up = 0;     // from there, that they may lead
     std::string text;
     bool is_packed = false;  // it was in an archive
     // Those of the archive, by the names that the text has for them.
@@ -39,16 +41,17 @@ struct MaterialLibraries final : Keepsake {
       const Keepsake* first, AppendedMaterials& materials) const override;
 };
 
-// Reads the libraries that these lines name, as far as they lie in the source's folder or below it:
+// Reads the libraries that these lines name, as far as they lie where names may lead:
 // the looks of the attributes' materials, their images, and the keepsake. Warns of others.
 void read_material_libraries(const MeshSource& source, const std::vector<std::string>& lines,
                              Attributes& attributes, ReadReport& report);
 
 // What a mesh at `path` that is written as OBJ needs beside it: one library for all materials, in
-// which names of pictures are relative to its folder, and the pictures that are no files yet. The
-// library comes last. Nothing where nothing is known of the materials. No file that the libraries
-// were read from is among them, unless its text stays as it is.
+// which names of pictures are relative to another folder, and the pictures that are no files yet.
+// The library comes last. Nothing where nothing is known of the materials. No file that the
+// libraries were read from is among them, unless its text stays as it is.
 [[nodiscard]] std::vector<SideFile> material_files(const std::filesystem::path& path,
+                                                   const std::filesystem::path& names_from,
                                                    const Attributes& attributes);
 
 // Lines that name libraries that could not be read, as they were.

@@ -140,7 +140,7 @@ std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras) {
 std::vector<SideFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
                                 const std::filesystem::path& path) {
   std::vector<SideFile> files;
-  if (extras.attributes != nullptr) files = material_files(path, *extras.attributes);
+  if (extras.attributes != nullptr) files = material_files(path, extras.folder, *extras.attributes);
   const std::string library = files.empty() ? "" : files.back().path.filename().string();
   files.push_back({path, text_of_obj(soup, extras, library)});
   return files;

@@ -77,10 +77,11 @@ TEST_F(ObjLibraries, AreWrittenBesideTheMeshWithNamesOfPicturesFromThere) {
   const auto out = folder_.path() / "out/deep/cube.obj";
   write_soup(result.soup, out, {.extras = {.attributes = &result.attributes}});
   EXPECT_TRUE(text_of(out).starts_with("mtllib cube.mtl\n"));
-  EXPECT_EQ(text_of(folder_.path() / "out/deep/cube.mtl"),
-            "# of cubes\nnewmtl wood\n  Kd 0.5 0.25 0.125\nd 0.5\n"
-            "map_Kd -s 1 1 1 -o 0.5 ../../in/lib/textures/wood grain.png\nbump ../secret.png\n"
-            "newmtl steel plate\nmap_Bump -bm 0.5 ../../in/lib/bump.png\n");
+  EXPECT_EQ(
+      text_of(folder_.path() / "out/deep/cube.mtl"),
+      "# of cubes\nnewmtl wood\n  Kd 0.5 0.25 0.125\nd 0.5\n"
+      "map_Kd -s 1 1 1 -o 0.5 ../../in/lib/textures/wood grain.png\nbump ../../in/secret.png\n"
+      "newmtl steel plate\nmap_Bump -bm 0.5 ../../in/lib/bump.png\n");
 }
 
 TEST_F(ObjLibraries, OfTheInputAreNotWrittenOver) {
