@@ -18,6 +18,7 @@ from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED,
                      names_of, print_to, say, text, value_of)
 from .inputs import Job, find_meshes, name_outputs
 from .out_folder import Journal, key_of
+from .pictures import pictures_of
 from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
@@ -48,6 +49,8 @@ class FolderRun:
         threads = max(1, len(os.sched_getaffinity(0)) // options.jobs)
         command = [program.path, "--quiet", "--threads", str(threads),
                    "--time-limit", f"{options.timeout:.10g}", *options.passed]
+        if program.knows_roots:
+            command += ["--root", options.in_dir]
         if program.limits_memory:
             command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M" if options.max_memory else "0"]
         return command
@@ -187,6 +190,7 @@ class FolderRun:
         try:
             size = os.path.getsize(worker.mesh)
             self.take_files_beside(worker)
+            self.take_pictures(job, report)
             self.out.take(worker.mesh, job.target)
         except OSError as error:
             return job.row(OUTPUT, f"{text(job.output)}: cannot be written: {error.strerror}")
@@ -206,9 +210,23 @@ class FolderRun:
                 self.out.take(made, target)
             job.beside[name] = os.path.getsize(target)
 
-    def is_of_another(self, name, target, job):
-        """Of an output of this run, or not from this script."""
-        if self.journal.others_with(name, job) & self.keys_of_jobs:
+    def take_pictures(self, job, report):
+        """Those that lie in IN_DIR; names of others are said."""
+        pictures, outside = pictures_of(job, self.options.in_dir, report)
+        for place, path in pictures.items():
+            target = os.path.join(self.out.path, place)
+            if not self.out.holds_same(path, target):
+                if self.is_of_another(place, target, job, of_pictures=False):
+                    raise OSError(errno.EEXIST, f"{text(place)}, which it names, is of another")
+                self.out.take_copy(path, target)
+            job.pictures[place] = os.path.getsize(target)
+        if outside and not self.options.quiet:
+            more = f" and {len(outside) - 1:,} more" if len(outside) > 1 else ""
+            say(f"{text(job.name)}: warning: names {outside[0]}{more}, outside of IN_DIR: does not come along")
+
+    def is_of_another(self, name, target, job, of_pictures=True):
+        """Of an output of this run, or not from this script. A picture may be of several outputs."""
+        if self.journal.others_with(name, job, of_pictures) & self.keys_of_jobs:
             return True
         is_known = key_of(name) in self.journal.owners
         return self.out.is_new and not self.options.restart and not is_known and os.path.lexists(target)
@@ -229,8 +247,8 @@ class FolderRun:
 
     def remove_old(self, job, is_written):
         """What an earlier run has made and this one has not."""
-        old = self.journal.files_beside(job)
-        old = old - job.beside.keys() if is_written else old | job.beside.keys()
+        old, new = self.journal.files_beside(job), job.beside.keys() | job.pictures.keys()
+        old = old - new if is_written else old | new
         for name in old:
             if not self.journal.others_with(name, job):
                 self.out.remove(os.path.join(self.out.path, name))

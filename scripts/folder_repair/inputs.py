@@ -154,6 +154,7 @@ class Job:
         self.reads_others = mesh in READS_OTHERS
         self.trials = 0
         self.beside = {}  # what its output needs beside it, relative to OUT_DIR: name -> size
+        self.pictures = {}  # that it names, the same
         self.needs = {}  # other files that it names, from its folder: name -> as state_of() has it, or UNKNOWN
 
     def look(self):

@@ -50,6 +50,8 @@ import json, os, signal, sys, time
 arguments = sys.argv[1:]
 if arguments == ["--version"]:
     sys.exit(print("meshrepair 9.9.9"))
+if arguments == ["--help"] and os.environ.get("FAKE_HELP") == "killed":
+    os.kill(os.getpid(), signal.SIGKILL)
 if arguments == ["--help"]:
     sys.exit(print(os.environ.get("FAKE_HELP", "no options")))
 if "--bogus" in arguments:
@@ -541,17 +543,74 @@ class FilesBeside(FolderTest):
     def text_of(self, name):
         return (self.out / name).read_text()
 
-    def test_libraries_come_along_and_name_pictures_from_their_place(self):
+    def test_libraries_and_pictures_come_along(self):
         write_files(self.source, {
             "sub/a.obj": painted(b"wood.mtl"), "sub/wood.mtl": b"newmtl wood\nmap_Kd pictures/grain.png\n",
             "sub/pictures/grain.png": b"picture"})
         self.run_script(program=MESHREPAIR)
-        self.assertEqual(names_in(self.out), {"sub/a.obj", "sub/a.mtl"})
+        self.assertEqual(names_in(self.out), {"sub/a.obj", "sub/a.mtl", "sub/pictures/grain.png"})
         self.assertIn("mtllib a.mtl\n", self.text_of("sub/a.obj"))
-        self.assertEqual(self.text_of("sub/a.mtl"), "newmtl wood\nmap_Kd ../../in/sub/pictures/grain.png\n")
+        self.assertEqual(self.text_of("sub/a.mtl"), "newmtl wood\nmap_Kd pictures/grain.png\n")
+        self.assertEqual(self.text_of("sub/pictures/grain.png"), "picture")
         self.run_script("--format", "gltf", program=MESHREPAIR)
         image = json.loads(self.text_of("sub/a.gltf"))["images"][0]
-        self.assertEqual(image["uri"], "../../in/sub/pictures/grain.png")
+        self.assertEqual(image["uri"], "pictures/grain.png")
+        self.run_script("--format", "3mf", program=MESHREPAIR)
+        self.assertNotIn("sub/pictures/grain.png", names_in(self.out))
+
+    def test_what_lies_elsewhere_in_the_input_folder_is_found_and_comes_along(self):
+        gltf, buffer = cube_as_gltf("../a.bin")
+        gltf = json.dumps({**json.loads(gltf), "images": [{"uri": "../../b%20c.png"}]}).encode()
+        write_files(self.source, {
+            "sub/deep/a.obj": painted(b"../wood.mtl"), "sub/b.obj": painted(b"wood.mtl"),
+            "sub/wood.mtl": b"newmtl wood\nmap_Kd ../shared.png\nmap_Bump bump.png\n", "shared.png": b"shared",
+            "sub/bump.png": b"bump", "sub/deep/c.gltf": gltf, "sub/a.bin": buffer, "b c.png": b"of c"})
+        self.run_script(program=MESHREPAIR)
+        pictures = {"shared.png": "shared", "sub/bump.png": "bump", "b c.png": "of c"}
+        meshes = {"sub/deep/a.obj", "sub/deep/a.mtl", "sub/b.obj", "sub/b.mtl", "sub/deep/c.gltf"}
+        self.assertEqual(names_in(self.out), meshes | pictures.keys())
+        for name, text in pictures.items():
+            self.assertEqual(self.text_of(name), text)
+        self.assertEqual(self.text_of("sub/deep/a.mtl"), "newmtl wood\nmap_Kd ../../shared.png\nmap_Bump ../bump.png\n")
+        self.assertEqual(self.text_of("sub/b.mtl"), "newmtl wood\nmap_Kd ../shared.png\nmap_Bump bump.png\n")
+        self.assertEqual(json.loads(self.text_of("sub/deep/c.gltf"))["images"][0]["uri"], "../../b%20c.png")
+        (self.out / "shared.png").unlink()
+        write_files(self.source, {"b c.png": b"another"})
+        self.run_script(program=MESHREPAIR)
+        self.assertEqual(self.text_of("shared.png") + self.text_of("b c.png"), "sharedanother")
+        write_files(self.source, {"sub/deep/a.obj": FLAT, "sub/deep/c.gltf": b"{}"})
+        self.run_script(program=MESHREPAIR, code=1)
+        self.assertEqual(names_in(self.out), {"sub/b.obj", "sub/b.mtl", "shared.png", "sub/bump.png"})
+
+    def test_what_lies_outside_of_the_input_folder_is_not_touched_but_said(self):
+        write_files(self.folder, {"secret.png": b"secret", "secret.mtl": b"newmtl wood\nKd 0.125 0 0\n"})
+        write_files(self.source, {
+            "a.obj": painted(b"a.mtl"), "a.mtl": b"newmtl wood\nmap_Kd ../secret.png\nbump link.png\n",
+            "b.obj": painted(b"../secret.mtl")})
+        (self.source / "link.png").symlink_to("../secret.png")
+        result = self.run_script(program=MESHREPAIR)
+        self.assertEqual(names_in(self.out), {"a.obj", "a.mtl", "b.obj", "b.mtl"})
+        self.assertIn("a.obj: warning: names ../secret.png and 1 more, outside of IN_DIR", result.stderr)
+        self.assertIn("b.obj: warning: names ../secret.mtl, outside of IN_DIR", result.stderr)
+        self.assertNotIn("0.125", self.text_of("b.mtl"))
+
+    def test_names_of_pictures_lead_to_nothing_that_is_made_there(self):
+        names = (b"b.obj", b"b.mtl", b"summary.json", b".repair_folder/journal.jsonl", b"gone.png", b"folder")
+        library = b"newmtl wood\n" + b"".join(b"map_Kd " + name + b"\n" for name in names)
+        write_files(self.source, {
+            "a.obj": painted(b"a.mtl"), "a.mtl": library, "b.obj": TETRAHEDRON, "b.mtl": b"x",
+            "summary.json": b"x", ".repair_folder/journal.jsonl": b"x", "folder/x": b"x"})
+        self.run_script(program=MESHREPAIR)
+        self.assertEqual(names_in(self.out), {"a.obj", "a.mtl", "b.obj"})
+        self.assertEqual(self.codes(), {"a.obj": 0, "b.obj": 0})
+
+    def test_pictures_that_are_not_from_here_stay(self):
+        write_files(self.source, {"a.obj": painted(b"a.mtl"), "a.mtl": b"newmtl wood\nmap_Kd a.png\n", "a.png": b"x"})
+        write_files(self.out, {"a.png": b"mine"})
+        self.run_script(program=MESHREPAIR, code=1)
+        self.assertIn("a.png, which it names, is of another", self.rows()["a.obj"]["error"])
+        self.assertEqual(names_in(self.out), {"a.png"})
+        self.assertEqual(self.text_of("a.png"), "mine")
 
     def test_pictures_of_archives_come_along(self):
         data = io.BytesIO()
@@ -692,6 +751,12 @@ class CommandLine(FolderTest):
         self.run_script(program="/bin/true", code=2)
         self.run_script(out=self.false, code=2)
         self.assertFalse(self.out.exists())
+
+    def test_a_program_that_is_killed_while_it_is_asked_is_not_used(self):
+        write_files(self.source, {"good.stl": b"x"})
+        self.environment["FAKE_HELP"] = "killed"
+        self.assertIn("cannot be asked for --help", self.run_script(code=2).stderr)
+        self.assertEqual(self.calls(), [])
 
     def test_nobody_needs_to_listen(self):
         write_files(self.source, {"good.stl": b"x", "code.stl": b"5"})
