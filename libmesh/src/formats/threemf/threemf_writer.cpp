@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "formats/common/text_writer.h"
 #include "kept_parts.h"
 #include "package_parts.h"
+#include "package_writer.h"
 #include "threemf_io.h"
 #include "written_properties.h"
 #include "xml_text.h"
@@ -25,7 +25,6 @@ constexpr std::string_view kMaterialSpace =
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 constexpr std::string_view kProductionSpace =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
-constexpr std::string_view kXmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 constexpr std::string_view kDescription = "Description";
 
 void require_writable(const TriangleSoup& soup) {
@@ -279,7 +278,7 @@ class ModelWriter {
     if (!name.empty()) append_xml_attribute(xml_, "name", name);
     if (marks == nullptr) return id;
     if (is_kept_part(marks->thumbnail)) {
-      append_xml_attribute(xml_, "thumbnail", "/" + percent_encoded(marks->thumbnail));
+      append_xml_attribute(xml_, "thumbnail", uri_of_part(marks->thumbnail));
     }
     append_marks(*marks, true);
     return id;
@@ -362,93 +361,6 @@ class ModelWriter {
   WrittenProperties properties_;
   std::unordered_set<std::string> declared_;
   std::string xml_;
-};
-
-// As types of content and relationships name a part.
-std::string uri_of(std::string_view part) {
-  std::string uri(1, '/');
-  return uri += percent_encoded(part);
-}
-
-// The types of content, and the relationships of the package and of the model.
-class PackageWriter {
- public:
-  PackageWriter(const KeptPackage* kept, const std::vector<WrittenPicture>& pictures)
-      : kept_(kept), pictures_(pictures) {}
-
-  [[nodiscard]] std::string content_types() const {
-    std::map<std::string, std::string> of_extension = {{"model", std::string(kModelType)},
-                                                       {"rels", std::string(kRelationshipsType)}};
-    for (const WrittenPicture& picture : pictures_) {
-      of_extension.emplace(extension_of_part(picture.name), picture.media_type);
-    }
-    std::string overrides;
-    if (kept_ != nullptr) {
-      for (const KeptPackage::Part& part : kept_->parts) {
-        const std::string type =
-            part.media_type.empty() ? "application/octet-stream" : part.media_type;
-        const std::string extension = extension_of_part(part.name);
-        if (!extension.empty() && of_extension.emplace(extension, type).first->second == type) {
-          continue;
-        }
-        overrides += "<Override";
-        append_xml_attribute(overrides, "PartName", uri_of(part.name));
-        append_xml_attribute(overrides, "ContentType", type);
-        overrides += "/>\n";
-      }
-    }
-    std::string xml(kXmlDeclaration);
-    xml += "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n";
-    for (const auto& [extension, type] : of_extension) {
-      xml += "<Default";
-      append_xml_attribute(xml, "Extension", extension);
-      append_xml_attribute(xml, "ContentType", type);
-      xml += "/>\n";
-    }
-    return xml + overrides + "</Types>\n";
-  }
-
-  [[nodiscard]] std::string of_package() {
-    begin();
-    add(kModelRelationship, kUsualModelPart);
-    if (kept_ != nullptr) {
-      for (const auto& one : kept_->of_package) add(one.type, one.target);
-    }
-    return end();
-  }
-
-  // Empty if there are none.
-  [[nodiscard]] std::string of_model() {
-    begin();
-    for (const WrittenPicture& picture : pictures_) add(kTextureRelationship, picture.name);
-    if (kept_ != nullptr) {
-      for (const auto& one : kept_->of_model) add(one.type, one.target);
-    }
-    return next_ == 0 ? std::string() : end();
-  }
-
- private:
-  void begin() {
-    next_ = 0;
-    xml_ = kXmlDeclaration;
-    xml_ +=
-        "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n";
-  }
-
-  void add(std::string_view type, std::string_view target) {
-    xml_ += "<Relationship";
-    append_xml_attribute(xml_, "Target", uri_of(target));
-    append_xml_attribute(xml_, "Id", "rel" + std::to_string(next_++));
-    append_xml_attribute(xml_, "Type", type);
-    xml_ += "/>\n";
-  }
-
-  std::string end() { return std::move(xml_) + "</Relationships>\n"; }
-
-  const KeptPackage* kept_;
-  const std::vector<WrittenPicture>& pictures_;
-  std::string xml_;
-  std::size_t next_ = 0;
 };
 
 bool is_packed_already(std::string_view part) {
