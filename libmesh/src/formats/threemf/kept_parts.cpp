@@ -212,7 +212,13 @@ void keep_parts(const MeshSource& source, ZipReader& archive, const ContentTypes
 std::vector<std::string> KeptPackage::lost_in(SoupFormat format) const {
   std::vector<std::string> lost;
   if (format == SoupFormat::threemf) return lost;
-  if (!metadata.empty()) lost.emplace_back("metadata");
+  const auto has_metadata = [](const auto& one) {
+    return one.marks && !one.marks->metadata.empty();
+  };
+  const bool has_some =
+      graph && (std::any_of(graph->objects.begin(), graph->objects.end(), has_metadata) ||
+                std::any_of(graph->items.begin(), graph->items.end(), has_metadata));
+  if (!metadata.empty() || has_some) lost.emplace_back("metadata");
   if (!parts.empty()) lost.emplace_back("other parts of the package");
   return lost;
 }

@@ -1,6 +1,7 @@
 #include "package_writer.h"
 
 #include <map>
+#include <unordered_set>
 #include <utility>
 
 #include "formats/common/part_names.h"
@@ -55,11 +56,18 @@ std::string PackageWriter::of_package() {
   return end();
 }
 
-std::string PackageWriter::of_model() {
+std::string PackageWriter::of_model(const std::vector<std::string>& thumbnails) {
   begin();
   for (const WrittenPicture& picture : pictures_) add(kTextureRelationship, picture.name);
+  std::unordered_set<std::string> known;
   if (kept_ != nullptr) {
-    for (const auto& one : kept_->of_model) add(one.type, one.target);
+    for (const auto& one : kept_->of_model) {
+      add(one.type, one.target);
+      known.insert(part_key(one.target));
+    }
+  }
+  for (const std::string& name : thumbnails) {
+    if (known.insert(part_key(name)).second) add(kThumbnailRelationship, name);
   }
   return next_ == 0 ? std::string() : end();
 }

@@ -23,8 +23,8 @@ class PackageWriter {
 
   [[nodiscard]] std::string content_types() const;
   [[nodiscard]] std::string of_package();
-  // Empty if there are none.
-  [[nodiscard]] std::string of_model();
+  // Empty if there are none. Thumbnails of objects are among them.
+  [[nodiscard]] std::string of_model(const std::vector<std::string>& thumbnails);
 
  private:
   void begin();

@@ -164,9 +164,20 @@ class ThreemfReader {
     warn_if(oddities_.unknown_groups, "group",
             " of properties left out: mixtures of materials, or too many layers");
     ModelPart& first = parts_.front();
-    kept.namespaces = std::move(first.namespaces);
+    for (const ModelPart& part : parts_) add_namespaces(part.namespaces, kept.namespaces);
     kept.metadata = std::move(first.metadata);
     keep_parts(source_, archive_, types_, first.name, taken, kept, result_.report);
+  }
+
+  // A prefix means what it meant first.
+  static void add_namespaces(const std::vector<ModelNamespace>& from,
+                             std::vector<ModelNamespace>& to) {
+    for (const ModelNamespace& one : from) {
+      const bool is_known = std::any_of(to.begin(), to.end(), [&](const ModelNamespace& known) {
+        return known.prefix == one.prefix;
+      });
+      if (!is_known) to.push_back(one);
+    }
   }
 
   std::optional<Image> picture_of(const ModelPart& part, const ModelTexture& texture,

@@ -42,10 +42,21 @@ TEST(PackageWriter, RelationshipsNameTheModelFirst) {
 
 TEST(PackageWriter, AModelWithoutRelationshipsHasNoPartForThem) {
   std::vector<WrittenPicture> pictures;
-  EXPECT_EQ(PackageWriter(nullptr, pictures).of_model(), "");
+  EXPECT_EQ(PackageWriter(nullptr, pictures).of_model({}), "");
   pictures = {{"3D/Textures/0.png", "image/png", nullptr, 0}};
   PackageWriter writer(nullptr, pictures);
-  EXPECT_THAT(writer.of_model(), HasSubstr("Target=\"/3D/Textures/0.png\" Id=\"rel0\""));
+  EXPECT_THAT(writer.of_model({}), HasSubstr("Target=\"/3D/Textures/0.png\" Id=\"rel0\""));
+}
+
+TEST(PackageWriter, ThumbnailsOfObjectsAreNamedOnce) {
+  KeptPackage kept;
+  kept.of_model = {{"of a kind", "a.png"}};
+  const std::vector<WrittenPicture> pictures;
+  PackageWriter writer(&kept, pictures);
+  const std::string links = writer.of_model({"A.png", "b.png", "b.png"});
+  EXPECT_THAT(links,
+              HasSubstr("Target=\"/b.png\" Id=\"rel1\" Type=\"http://schemas.openxmlformats"));
+  EXPECT_THAT(links, Not(HasSubstr("rel2")));
 }
 
 }  // namespace
