@@ -220,9 +220,14 @@ class FolderRun:
                     raise OSError(errno.EEXIST, f"{text(place)}, which it names, is of another")
                 self.out.take_copy(path, target)
             job.pictures[place] = os.path.getsize(target)
-        if outside and not self.options.quiet:
-            more = f" and {len(outside) - 1:,} more" if len(outside) > 1 else ""
-            say(f"{text(job.name)}: warning: names {outside[0]}{more}, outside of IN_DIR: does not come along")
+        self.warn(job, outside, "outside of IN_DIR: does not come along")
+        self.warn(job, job.missing(), "which is not there")
+
+    def warn(self, job, names, why):
+        if names and not self.options.quiet:
+            more = f" and {len(names) - 1:,} more" if len(names) > 1 else ""
+            self.progress.clear()
+            say(f"{text(job.name)}: warning: names {names[0]}{more}, {why}")
 
     def is_of_another(self, name, target, job, of_pictures=True):
         """Of an output of this run, or not from this script. A picture may be of several outputs."""

@@ -169,10 +169,22 @@ class Job:
         self.size, self.mtime_ns = status.st_size, status.st_mtime_ns
         self.looked_at = time.time_ns()
 
+    def path_of(self, name):
+        """Of a file that it names. Reports have U+FFFD for what is no UTF-8: then it is the file that is meant."""
+        path = os.path.join(os.path.dirname(self.source), os.fsencode(name))
+        if "\ufffd" not in os.path.basename(name):
+            return path
+        try:
+            names = os.listdir(os.path.dirname(path))
+        except OSError:
+            return path
+        meant = [one for one in names if one.decode("utf-8", "replace") == os.path.basename(name)]
+        return os.path.join(os.path.dirname(path), meant[0]) if len(meant) == 1 else path
+
     def state_of(self, name):
         """Size and time of a file that it names, as a list; None if it is not there."""
         try:
-            status = os.stat(os.path.join(os.path.dirname(self.source), os.fsencode(name)))
+            status = os.stat(self.path_of(name))
         except (OSError, ValueError):
             return None
         return [status.st_size, status.st_mtime_ns]
@@ -182,12 +194,15 @@ class Job:
         self.needs = {name: UNKNOWN if self.may_have_changed(name) else self.state_of(name) for name in names}
 
     def may_have_changed(self, name):
-        """Since the look at the mesh. Of a name that was no UTF-8 the report has not all."""
+        """Since the look at the mesh."""
         try:
-            status = os.stat(os.path.join(os.path.dirname(self.source), os.fsencode(name)))
+            return os.stat(self.path_of(name)).st_ctime_ns >= self.looked_at - CLOCK_STEP_NS
         except (OSError, ValueError):
-            return "\ufffd" in name
-        return status.st_ctime_ns >= self.looked_at - CLOCK_STEP_NS
+            return "\ufffd" in name  # several may be meant
+
+    def missing(self):
+        """Names of files that were not there."""
+        return sorted(name for name, state in self.needs.items() if state is None)
 
     def row(self, code, error, report=None):
         """For the summary, as if nothing was written; what is not known is None."""

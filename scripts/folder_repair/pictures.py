@@ -38,7 +38,7 @@ def pictures_of(job, in_dir, report):
     if job.format not in NAME_PICTURES:
         return pictures, []
     for name in names_of(report, "pictures"):
-        path = os.path.join(os.path.dirname(job.source), os.fsencode(name))
+        path = job.path_of(name)
         place = place_of(path, in_dir)
         if place is None:
             outside.add(name)

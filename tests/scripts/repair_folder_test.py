@@ -594,6 +594,17 @@ class FilesBeside(FolderTest):
         self.assertIn("b.obj: warning: names ../secret.mtl, outside of IN_DIR", result.stderr)
         self.assertNotIn("0.125", self.text_of("b.mtl"))
 
+    def test_names_that_are_no_utf8_and_names_of_nothing(self):
+        write_files(self.source, {
+            "a.obj": painted(b"h\xf6lz.mtl"), b"h\xf6lz.mtl": b"newmtl wood\nmap_Kd w\xe4.png\n", b"w\xe4.png": b"x",
+            "b.obj": painted(b"gone.mtl"), "c.obj": painted(b"c.mtl"), "c.mtl": b"newmtl wood\nmap_Kd gone.png\n"})
+        result = self.run_script(program=MESHREPAIR)
+        self.assertIn(os.fsdecode(b"w\xe4.png"), names_in(self.out))
+        self.assertIn("b.obj: warning: names gone.mtl, which is not there", result.stderr)
+        self.assertIn("c.obj: warning: names gone.png, which is not there", result.stderr)
+        self.assertEqual(result.stderr.count("warning"), 2)
+        self.assertIn("3 of 3 files were finished before", self.run_script(program=MESHREPAIR).stderr)
+
     def test_names_of_pictures_lead_to_nothing_that_is_made_there(self):
         names = (b"b.obj", b"b.mtl", b"summary.json", b".repair_folder/journal.jsonl", b"gone.png", b"folder")
         library = b"newmtl wood\n" + b"".join(b"map_Kd " + name + b"\n" for name in names)

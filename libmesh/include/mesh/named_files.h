@@ -31,6 +31,14 @@ namespace meshrepair {
 [[nodiscard]] std::optional<std::filesystem::path> find_named(const MeshSource& source,
                                                               std::string_view name);
 
+// The name that find_named() knows the file by that is meant: on other machines '\' stands between
+// folders, and small letters are large ones. Some put names between quotes. The name itself where
+// there is no such file, or several.
+[[nodiscard]] std::string name_as_found(const MeshSource& source, std::string_view name);
+
+// Whether read_named() finds a file.
+[[nodiscard]] bool has_named(const MeshSource& source, std::string_view name);
+
 // Whether there is a file that can be read again and again, and no link to it leads out of the
 // folder; both as this process finds them.
 [[nodiscard]] bool is_file_within(const std::filesystem::path& folder,
@@ -42,11 +50,8 @@ struct NamedFile {
   std::filesystem::path path;  // empty: it is in the archive of the source
 };
 
-// Notes a picture among the names of the source; picture_named() does so by itself.
-void note_picture(const MeshSource& source, std::string_view name);
-
-// What is in a file that find_named() finds, or that lies beside the source in its archive. Nothing
-// if there is none. Throws InputError when it cannot be read.
+// What is in a file that is found by name_as_found(), or that lies beside the source in its
+// archive. Nothing if there is none. Throws InputError when it cannot be read.
 [[nodiscard]] std::optional<NamedFile> read_named(const MeshSource& source, std::string_view name);
 
 // Words for messages on files that are not there: "its folder", "its archive".

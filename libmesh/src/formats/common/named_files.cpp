@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <base/error.h>
@@ -14,6 +15,56 @@ namespace fs = std::filesystem;
 
 bool leads_out(const fs::path& path) {
   return path.empty() || path.has_root_path() || *path.begin() == "..";
+}
+
+// As Windows separates folders.
+std::string with_slashes(std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+// Windows has no names with such.
+std::string without_quotes(std::string name) {
+  std::erase(name, '"');
+  return name;
+}
+
+bool is_same_but_for_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+// The only entry of a folder that has this name in small or large letters.
+std::optional<fs::path> entry_in_other_case(const fs::path& folder, const std::string& name) {
+  std::optional<fs::path> found;
+  std::error_code error;
+  fs::directory_iterator entries(folder.empty() ? "." : folder, error), end;
+  for (; !error && entries != end; entries.increment(error)) {
+    fs::path entry = entries->path().filename();
+    if (!is_same_but_for_case(entry.native(), name)) continue;
+    if (found) return std::nullopt;
+    found = std::move(entry);
+  }
+  return found;
+}
+
+// Pre: it stays within.
+std::optional<std::string> name_in_other_case(const MeshSource& source, const std::string& name) {
+  fs::path found;
+  for (const fs::path& part : fs::path(name).lexically_normal()) {
+    std::error_code error;
+    const fs::path folder = *source.folder / found;
+    if (part == ".." || fs::exists(folder / part, error)) {
+      found /= part;
+    } else if (const auto entry = entry_in_other_case(folder, part.string())) {
+      found /= *entry;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return find_named(source, found.generic_string()) ? std::optional(found.generic_string())
+                                                    : std::nullopt;
 }
 
 void note_name(const MeshSource& source, std::string_view name,
@@ -58,10 +109,22 @@ std::optional<fs::path> path_of_named(const MeshSource& source, std::string_view
 std::optional<fs::path> find_named(const MeshSource& source, std::string_view name) {
   std::optional<fs::path> path = path_of_named(source, name);
   if (!path) return std::nullopt;
-  fs::path root = source.folder->empty() ? "." : *source.folder;
-  for (std::size_t i = 0; i < source.levels_up; ++i) root /= "..";
+  const fs::path& root = source.levels_up > 0 ? source.options.within : *source.folder;
   if (!is_file_within(root, *path)) return std::nullopt;
   return path;
+}
+
+std::string name_as_found(const MeshSource& source, std::string_view given) {
+  std::string name(given);
+  const std::string meant = without_quotes(with_slashes(name));
+  if (!path_of_named(source, meant) || find_named(source, name)) return name;
+  if (find_named(source, meant)) return meant;
+  return name_in_other_case(source, meant).value_or(name);
+}
+
+bool has_named(const MeshSource& source, std::string_view name) {
+  if (source.beside != nullptr) return source.beside->bytes_of(name) != nullptr;
+  return find_named(source, name_as_found(source, name)).has_value();
 }
 
 bool is_file_within(const fs::path& folder, const fs::path& path) {
@@ -79,8 +142,9 @@ std::optional<NamedFile> read_named(const MeshSource& source, std::string_view n
     if (!bytes) return std::nullopt;
     return NamedFile{*bytes, bytes, {}};
   }
-  note_name(source, name, &NamesInFile::files);
-  const std::optional<fs::path> path = find_named(source, name);
+  const std::string found = name_as_found(source, name);
+  note_name(source, found, &NamesInFile::files);
+  const std::optional<fs::path> path = find_named(source, found);
   if (!path) return std::nullopt;
   const auto file = std::make_shared<const FileBytes>(*path, source.options.progress);
   return NamedFile{file->bytes(), file, *path};
@@ -90,16 +154,17 @@ std::string_view place_of_named(const MeshSource& source) {
   return source.beside != nullptr ? "its archive" : "its folder";
 }
 
-void note_picture(const MeshSource& source, std::string_view name) {
-  note_name(source, name, &NamesInFile::pictures);
-}
-
 Image picture_named(const MeshSource& source, std::string_view name) {
+  const std::string found = name_as_found(source, name);
+  note_name(source, found, &NamesInFile::pictures);
   Image image;
-  image.name = fs::path(name).filename().string();
-  note_picture(source, name);
+  image.name = fs::path(found).filename().string();
   if (source.beside == nullptr) {
-    if (const auto path = path_of_named(source, name)) image.path = path->string();
+    if (const auto path = path_of_named(source, found)) {
+      std::error_code error;
+      image.path = path->string();
+      image.is_elsewhere = fs::exists(*path, error) && !find_named(source, found);
+    }
   } else {
     try {
       image.bytes = source.beside->bytes_of(name);

@@ -37,7 +37,8 @@ class LibraryMover {
       : library_(library), folder_(full(folder)), name_of_packed_(std::move(name_of_packed)) {}
 
   std::string run() {
-    if (!library_.is_packed && full(library_.folder) == folder_) return library_.text;
+    const bool is_right = library_.real_names.empty() && full(library_.folder) == folder_;
+    if (!library_.is_packed && is_right) return library_.text;
     std::string moved;
     visit_mtl_lines(library_.text, [&](std::string_view text) {
       const MtlLine line = split_mtl_line(text);
@@ -61,6 +62,8 @@ class LibraryMover {
       if (picture == library_.pictures.end()) return std::string(name);
       return name_of_packed_(name, picture->second);
     }
+    const auto real = library_.real_names.find(name);
+    if (real != library_.real_names.end()) return name_seen_from(folder_, real->second);
     const std::string path = with_slashes(name);
     if (!stays_within(path, library_.levels_up)) return std::string(name);
     return name_seen_from(folder_, library_.folder / fs::path(path).lexically_normal());
@@ -101,6 +104,12 @@ std::string without_repeats(std::string_view text) {
   return once;
 }
 
+void append_library(std::string_view library, std::string& text) {
+  const bool has_mark = library.starts_with(kByteOrderMark);
+  text += has_mark && !text.empty() ? library.substr(kByteOrderMark.size()) : library;
+  if (!text.empty() && text.back() != '\n') text += '\n';
+}
+
 // Makes the files of one mesh.
 class MaterialFiles {
  public:
@@ -112,11 +121,10 @@ class MaterialFiles {
     std::string text;
     if (known != nullptr) {
       for (const MaterialLibraries::Library& library : known->libraries) {
-        text +=
-            LibraryMover(library, names_from_, [this](std::string_view name, const auto& bytes) {
-              return name_of_packed(name, bytes);
-            }).run();
-        if (!text.empty() && text.back() != '\n') text += '\n';
+        const auto name = [this](std::string_view picture, const auto& bytes) {
+          return name_of_packed(picture, bytes);
+        };
+        append_library(LibraryMover(library, names_from_, name).run(), text);
       }
     }
     if (known != nullptr && known->libraries.size() > 1) text = without_repeats(text);

@@ -97,8 +97,7 @@ class LibraryReader {
     const std::string beside = name_beside(library_, name);
     Image image = picture_named(source_, beside);
     if (image.path.empty() && !image.bytes) image.name = name;
-    std::error_code error;
-    if (fs::exists(image.path, error) && !find_named(source_, beside)) return kNone;
+    if (image.is_elsewhere) return kNone;
     const auto same =
         std::find_if(attributes_.images.begin(), attributes_.images.end(), [&](const Image& known) {
           return known.path == image.path && known.bytes == image.bytes && known.name == image.name;
@@ -121,8 +120,11 @@ void look_at_pictures(const MeshSource& source, MaterialLibraries::Library& libr
     const MtlLine line = split_mtl_line(text);
     if (!names_picture(line.key)) return;
     const std::string_view name = picture_of(line.rest);
-    const Image image = picture_named(source, name_beside(library, with_slashes(name)));
+    const std::string beside = name_beside(library, with_slashes(name));
+    const Image image = picture_named(source, beside);
     if (image.bytes) library.pictures.emplace(name, image.bytes);
+    const std::string found = name_as_found(source, beside);
+    if (found != beside) library.real_names.emplace(name, *source.folder / found);
   });
 }
 
@@ -131,6 +133,7 @@ MaterialLibraries::Library read_library(const MeshSource& source, const std::str
   MaterialLibraries::Library library;
   library.name = name;
   if (const auto file = read_named(source, with_slashes(name))) {
+    if (source.beside == nullptr) library.name = name_as_found(source, with_slashes(name));
     library.text = file->bytes;
     library.path = file->path;
     library.folder = file->path.parent_path();
@@ -159,7 +162,7 @@ bool is_in_looks(std::string_view key) {
 std::vector<std::string_view> names_in(const MeshSource& source, std::string_view line) {
   constexpr std::string_view kExtension = ".mtl";
   std::vector<std::string_view> names;
-  if (read_named(source, with_slashes(line))) return {line};
+  if (has_named(source, with_slashes(line))) return {line};
   while (!line.empty()) {
     std::size_t end = find_ignoring_case(line, kExtension);
     end = end == std::string_view::npos ? line.size() : end + kExtension.size();

@@ -20,7 +20,7 @@ namespace meshrepair {
 // Their text, for other OBJ files.
 struct MaterialLibraries final : Keepsake {
   struct Library {
-    std::string name;              // as the OBJ file has it
+    std::string name;              // as the OBJ file has it, or as it was found
     std::filesystem::path path;    // empty: it was not found, or in an archive
     std::filesystem::path folder;  // which names of pictures are relative to
     std::size_t levels_up = 0;     // from there, that they may lead
@@ -28,6 +28,8 @@ struct MaterialLibraries final : Keepsake {
     bool is_packed = false;  // it was in an archive
     // Those of the archive, by the names that the text has for them.
     std::map<std::string, std::shared_ptr<const std::string>, std::less<>> pictures;
+    // Where pictures lie whose names the text has in another form.
+    std::map<std::string, std::filesystem::path, std::less<>> real_names;
 
     // Says the same.
     [[nodiscard]] bool is_like(const Library& other) const;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -110,6 +111,7 @@ struct ModelOddities {
   std::size_t painted = 0;         // triangles with attributes of other programs
   std::size_t unknown_groups = 0;  // compositematerials, and layers beyond those that are read
   std::vector<std::string> unknown_extensions;
+  std::set<std::string> unknown_elements;  // the first few, in places that are known
   std::string unknown_unit;
 };
 

@@ -61,6 +61,9 @@ constexpr std::string_view kUuidAttribute =
 // Beyond these, layers of properties are passed over: there is one of each kind at most.
 constexpr std::size_t kMostLayers = 8;
 
+// Of elements that are told as unknown.
+constexpr std::size_t kMostNames = 8;
+
 struct KnownElement {
   Element parent;
   std::string_view name;
@@ -96,6 +99,12 @@ constexpr std::array<KnownElement, 26> kElements = {{
     {Element::mesh, "vertices", Element::vertices},
     {Element::mesh, "triangles", Element::triangles},
 }};
+
+// What stands in others is told in other ways, or no loss.
+bool is_known_place(Element parent) {
+  return parent != Element::none && parent != Element::ignored && parent != Element::metadata &&
+         parent != Element::compositematerials;
+}
 
 bool is_known_space(std::string_view space) {
   return space.empty() || space.starts_with(kCorePrefix) || space.starts_with(kMaterialPrefix);
@@ -158,6 +167,10 @@ void ModelReader::start(std::string_view space, std::string_view name,
           return candidate.parent == parent && candidate.name == name;
         });
     if (known != kElements.end()) element = known->element;
+  }
+  if (element == Element::ignored && is_known_place(parent) &&
+      oddities_.unknown_elements.size() < kMostNames) {
+    oddities_.unknown_elements.emplace(name);
   }
   open_.push_back(element);
   open(element, attributes);

@@ -132,6 +132,13 @@ class ThreemfReader {
       warn("the unit " + printable(oddities_.unknown_unit) +
            " is not known: taken for millimeters");
     }
+    if (!oddities_.unknown_elements.empty()) {
+      std::string names;
+      for (const std::string& name : oddities_.unknown_elements) {
+        names += (names.empty() ? "" : ", ") + printable(name);
+      }
+      warn("what is not known here is left out: " + names);
+    }
     for (const std::string& extension : oddities_.unknown_extensions) {
       warn("the file needs the extension " + printable(extension) + ", which is not known here");
     }

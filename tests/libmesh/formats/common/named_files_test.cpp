@@ -111,6 +111,56 @@ TEST_F(NamedFilesOfMeshes, NoLinkLeadsOutOfTheFolderThatIsTrusted) {
   EXPECT_TRUE(read("in/sub/b.obj", ".").report.warnings.empty());
 }
 
+TEST_F(NamedFilesOfMeshes, NamesOfOtherMachinesAreUnderstood) {
+  std::filesystem::create_directories(folder_.path() / "in/Tex");
+  write("in/Tex/Oak.PNG", "picture");
+  write("in/Wood.MTL",
+        "\xEF\xBB\xBFnewmtl wood\r\nmap_Kd \"tex\\OAK.png\"\r\nmap_Bump -bm 1 TEX/oak.png\r\n");
+  for (const char* name : {"wood.mtl", "Wood.MTL", "\"Wood.mtl\"", ".\\WOOD.mtl"}) {
+    write_painted("in/a.obj", name);
+    const ReadResult result = read("in/a.obj", "");
+    EXPECT_TRUE(result.report.warnings.empty()) << name;
+    EXPECT_EQ(result.report.names.files, Names{"Wood.MTL"});
+    EXPECT_EQ(result.report.names.pictures, Names{"Tex/Oak.PNG"});
+    EXPECT_EQ(result.attributes.images.at(0).path, (folder_.path() / "in/Tex/Oak.PNG").string());
+    write_soup(result.soup, folder_.path() / "a.obj",
+               {.extras = {.attributes = &result.attributes}});
+    std::ifstream file(folder_.path() / "a.mtl");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
+              "newmtl wood\r\nmap_Kd in/Tex/Oak.PNG\nmap_Bump -bm 1 in/Tex/Oak.PNG\n");
+  }
+}
+
+TEST_F(NamedFilesOfMeshes, SeveralThatDifferInCaseAreNotGuessedAt) {
+  write("in/oak.png", "one");
+  write("in/OAK.png", "other");
+  const MeshSource source{{}, "a.obj", {}, folder_.path() / "in"};
+  EXPECT_EQ(name_as_found(source, "Oak.png"), "Oak.png");
+  EXPECT_EQ(name_as_found(source, "OAK.png"), "OAK.png");
+  EXPECT_EQ(name_as_found(source, "..\\secret.MTL"), "..\\secret.MTL");
+  EXPECT_EQ(name_as_found(source, "SUB\\..\\Shared.mtl"), "shared.mtl");
+  EXPECT_TRUE(has_named(source, "SHARED.mtl"));
+  EXPECT_FALSE(has_named(source, "Oak.png"));
+}
+
+// 3MF would hold them.
+TEST_F(NamedFilesOfMeshes, PicturesBehindLinksThatLeadOutAreNotOpened) {
+  write("secret.png", "\x89PNG\r\n\x1A\n");
+  std::filesystem::create_directory_symlink("..", folder_.path() / "in/up");
+  const std::string tail =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1\n";
+  const auto package = [&](const std::string& picture) {
+    write("in/a.ply", "ply\nformat ascii 1.0\ncomment TextureFile " + picture + "\n" + tail);
+    const ReadResult result = read("in/a.ply", "");
+    return format_soup(result.soup, SoupFormat::threemf, {.attributes = &result.attributes});
+  };
+  EXPECT_EQ(package("up/secret.png").find("Textures/"), std::string::npos);
+  std::filesystem::copy_file(folder_.path() / "secret.png", folder_.path() / "in/own.png");
+  EXPECT_NE(package("own.png").find("Textures/"), std::string::npos);
+}
+
 TEST_F(NamedFilesOfMeshes, BuffersAreAmongThem) {
   write("in/sub/a.gltf",
         R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
