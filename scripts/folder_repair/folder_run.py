@@ -18,7 +18,7 @@ from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED,
                      names_of, print_to, say, text, value_of)
 from .inputs import Job, find_meshes, name_outputs
 from .out_folder import Journal, key_of
-from .pictures import pictures_of
+from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
 from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
@@ -212,6 +212,8 @@ class FolderRun:
 
     def take_pictures(self, job, report):
         """Those that lie in IN_DIR; names of others are said."""
+        if job.format not in NAME_PICTURES + HOLD_PICTURES:
+            return
         pictures, outside = pictures_of(job, self.options.in_dir, report)
         for place, path in pictures.items():
             target = os.path.join(self.out.path, place)

@@ -5,7 +5,8 @@ import os
 from .basics import FORMAT_OF_EXTENSION, names_of
 from .inputs import STATE, split_name
 
-NAME_PICTURES = ("obj", "ply", "ply-ascii", "glb", "gltf")  # formats; 3MF holds its own, others have none
+NAME_PICTURES = ("obj", "ply", "ply-ascii", "glb", "gltf")  # formats
+HOLD_PICTURES = ("3mf",)  # others have none
 NO_PICTURES = {b".mtl", *FORMAT_OF_EXTENSION}  # extensions of what is made here
 
 
@@ -35,13 +36,11 @@ def pictures_of(job, in_dir, report):
     """Of the mesh that a report is of: place -> path of those that are to lie in OUT_DIR, at their place in IN_DIR;
     and names, sorted, of all files that it names outside of IN_DIR."""
     pictures, outside = {}, set(names_of(report, "outside"))
-    if job.format not in NAME_PICTURES:
-        return pictures, []
     for name in names_of(report, "pictures"):
         path = job.path_of(name)
         place = place_of(path, in_dir)
         if place is None:
             outside.add(name)
-        elif os.path.isfile(path) and may_be_written(place):
+        elif job.format in NAME_PICTURES and os.path.isfile(path) and may_be_written(place):
             pictures[place] = path
     return pictures, sorted(outside)

@@ -593,6 +593,9 @@ class FilesBeside(FolderTest):
         self.assertIn("a.obj: warning: names ../secret.png and 1 more, outside of IN_DIR", result.stderr)
         self.assertIn("b.obj: warning: names ../secret.mtl, outside of IN_DIR", result.stderr)
         self.assertNotIn("0.125", self.text_of("b.mtl"))
+        for extension, warnings in (("3mf", 2), ("stl", 0)):
+            result = self.run_script("--format", extension, program=MESHREPAIR)
+            self.assertEqual(result.stderr.count("outside of IN_DIR"), warnings)
 
     def test_names_that_are_no_utf8_and_names_of_nothing(self):
         write_files(self.source, {

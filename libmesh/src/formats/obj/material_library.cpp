@@ -49,23 +49,31 @@ std::size_t levels_up_from(const MeshSource& source, const MaterialLibraries::Li
   return levels;
 }
 
-// Reads one library.
+// Reads one library. Of several, the first that defines a material counts, as in what is written.
 class LibraryReader {
  public:
   LibraryReader(const MeshSource& source,
                 const std::unordered_map<std::string_view, std::uint32_t>& numbers,
-                const MaterialLibraries::Library& library, Attributes& attributes)
-      : source_(source), numbers_(numbers), library_(library), attributes_(attributes) {}
+                const MaterialLibraries::Library& library, Attributes& attributes,
+                std::unordered_set<std::uint32_t>& defined)
+      : source_(source),
+        numbers_(numbers),
+        library_(library),
+        attributes_(attributes),
+        defined_(defined) {}
 
   void run() {
     visit_mtl_lines(library_.text, [&](std::string_view text) { read(split_mtl_line(text)); });
+    defined_.insert(own_.begin(), own_.end());
   }
 
  private:
   void read(const MtlLine& line) {
     if (line.key == "newmtl") {
       const auto found = numbers_.find(line.rest);
-      look_ = found == numbers_.end() ? nullptr : &attributes_.looks[found->second];
+      const bool is_own = found != numbers_.end() && !defined_.contains(found->second);
+      look_ = is_own ? &attributes_.looks[found->second] : nullptr;
+      if (is_own) own_.insert(found->second);
     } else if (look_ == nullptr) {
       return;
     } else if (line.key == "Kd") {
@@ -111,6 +119,8 @@ class LibraryReader {
   const std::unordered_map<std::string_view, std::uint32_t>& numbers_;
   const MaterialLibraries::Library& library_;
   Attributes& attributes_;
+  std::unordered_set<std::uint32_t>& defined_;  // by those before
+  std::unordered_set<std::uint32_t> own_;
   Material* look_ = nullptr;
 };
 
@@ -247,8 +257,9 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
     numbers.emplace(attributes.materials.names[m], m);
   }
   attributes.looks.resize(attributes.materials.names.size());
+  std::unordered_set<std::uint32_t> defined;
   for (const MaterialLibraries::Library& library : kept->libraries) {
-    LibraryReader(source, numbers, library, attributes).run();
+    LibraryReader(source, numbers, library, attributes, defined).run();
   }
   warn_of_undefined(*kept, attributes.materials.names, report);
   attributes.keepsake = std::move(kept);
