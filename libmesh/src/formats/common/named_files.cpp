@@ -18,7 +18,7 @@ bool leads_out(const fs::path& path) {
 }
 
 // As Windows separates folders.
-std::string with_slashes(std::string name) {
+std::string with_usual_slashes(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   return name;
 }
@@ -116,7 +116,7 @@ std::optional<fs::path> find_named(const MeshSource& source, std::string_view na
 
 std::string name_as_found(const MeshSource& source, std::string_view given) {
   std::string name(given);
-  const std::string meant = without_quotes(with_slashes(name));
+  std::string meant = without_quotes(with_usual_slashes(name));
   if (!path_of_named(source, meant) || find_named(source, name)) return name;
   if (find_named(source, meant)) return meant;
   return name_in_other_case(source, meant).value_or(name);
