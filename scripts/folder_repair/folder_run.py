@@ -23,6 +23,7 @@ from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
 TICK_SECONDS = 0.25  # how often limits are looked at
+LONGEST_NAME = 200  # that is said of a file that a mesh names
 SECONDS_TO_END = 0.3  # from a signal to this script until its workers are killed
 MEMORY_SLACK = 1.25  # a worker that keeps to its limit itself is killed only beyond this
 
@@ -229,7 +230,8 @@ class FolderRun:
         if names and not self.options.quiet:
             more = f" and {len(names) - 1:,} more" if len(names) > 1 else ""
             self.progress.clear()
-            say(f"{text(job.name)}: warning: names {names[0]}{more}, {why}")
+            first = names[0] if len(names[0]) <= LONGEST_NAME else names[0][:LONGEST_NAME] + "..."
+            say(f"{text(job.name)}: warning: names {first}{more}, {why}")
 
     def is_of_another(self, name, target, job, of_pictures=True):
         """Of an output of this run, or not from this script. A picture may be of several outputs."""

@@ -36,6 +36,10 @@ def pictures_of(job, in_dir, report):
     """Of the mesh that a report is of: place -> path of those that are to lie in OUT_DIR, at their place in IN_DIR;
     and names, sorted, of all files that it names outside of IN_DIR."""
     pictures, outside = {}, set(names_of(report, "outside"))
+    for name in names_of(report, "files"):
+        path = job.path_of(name)
+        if os.path.isfile(path) and place_of(path, in_dir) is None:
+            outside.add(name)
     for name in names_of(report, "pictures"):
         path = job.path_of(name)
         place = place_of(path, in_dir)

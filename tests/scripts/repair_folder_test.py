@@ -586,14 +586,16 @@ class FilesBeside(FolderTest):
         write_files(self.folder, {"secret.png": b"secret", "secret.mtl": b"newmtl wood\nKd 0.125 0 0\n"})
         write_files(self.source, {
             "a.obj": painted(b"a.mtl"), "a.mtl": b"newmtl wood\nmap_Kd ../secret.png\nbump link.png\n",
-            "b.obj": painted(b"../secret.mtl")})
+            "b.obj": painted(b"../secret.mtl"), "c.obj": painted(b"link.mtl")})
         (self.source / "link.png").symlink_to("../secret.png")
+        (self.source / "link.mtl").symlink_to("../secret.mtl")
         result = self.run_script(program=MESHREPAIR)
-        self.assertEqual(names_in(self.out), {"a.obj", "a.mtl", "b.obj", "b.mtl"})
+        self.assertEqual(names_in(self.out), {f"{name}.{end}" for name in "abc" for end in ("obj", "mtl")})
+        self.assertIn("c.obj: warning: names link.mtl, outside of IN_DIR", result.stderr)
         self.assertIn("a.obj: warning: names ../secret.png and 1 more, outside of IN_DIR", result.stderr)
         self.assertIn("b.obj: warning: names ../secret.mtl, outside of IN_DIR", result.stderr)
-        self.assertNotIn("0.125", self.text_of("b.mtl"))
-        for extension, warnings in (("3mf", 2), ("stl", 0)):
+        self.assertNotIn("0.125", self.text_of("b.mtl") + self.text_of("c.mtl"))
+        for extension, warnings in (("3mf", 3), ("stl", 0)):
             result = self.run_script("--format", extension, program=MESHREPAIR)
             self.assertEqual(result.stderr.count("outside of IN_DIR"), warnings)
 
