@@ -117,14 +117,19 @@ std::optional<fs::path> find_named(const MeshSource& source, std::string_view na
 std::string name_as_found(const MeshSource& source, std::string_view given) {
   std::string name(given);
   std::string meant = without_quotes(with_usual_slashes(name));
+  if (source.beside != nullptr) {
+    const bool is_other = meant != name && source.beside->bytes_of(name) == nullptr;
+    return is_other && source.beside->bytes_of(meant) != nullptr ? meant : name;
+  }
   if (!path_of_named(source, meant) || find_named(source, name)) return name;
   if (find_named(source, meant)) return meant;
   return name_in_other_case(source, meant).value_or(name);
 }
 
 bool has_named(const MeshSource& source, std::string_view name) {
-  if (source.beside != nullptr) return source.beside->bytes_of(name) != nullptr;
-  return find_named(source, name_as_found(source, name)).has_value();
+  const std::string found = name_as_found(source, name);
+  if (source.beside != nullptr) return source.beside->bytes_of(found) != nullptr;
+  return find_named(source, found).has_value();
 }
 
 bool is_file_within(const fs::path& folder, const fs::path& path) {
@@ -137,12 +142,12 @@ bool is_file_within(const fs::path& folder, const fs::path& path) {
 }
 
 std::optional<NamedFile> read_named(const MeshSource& source, std::string_view name) {
+  const std::string found = name_as_found(source, name);
   if (source.beside != nullptr) {
-    const auto bytes = source.beside->bytes_of(name);
+    const auto bytes = source.beside->bytes_of(found);
     if (!bytes) return std::nullopt;
     return NamedFile{*bytes, bytes, {}};
   }
-  const std::string found = name_as_found(source, name);
   note_name(source, found, &NamesInFile::files);
   const std::optional<fs::path> path = find_named(source, found);
   if (!path) return std::nullopt;
@@ -155,23 +160,21 @@ std::string_view place_of_named(const MeshSource& source) {
 }
 
 Image picture_named(const MeshSource& source, std::string_view name) {
-  const std::string found = name_as_found(source, name);
-  note_name(source, found, &NamesInFile::pictures);
   Image image;
-  image.name = fs::path(found).filename().string();
-  if (source.beside == nullptr) {
-    if (const auto path = path_of_named(source, found)) {
-      std::error_code error;
-      image.path = path->string();
-      image.is_elsewhere = fs::exists(*path, error) && !find_named(source, found);
-    }
-  } else {
-    try {
-      image.bytes = source.beside->bytes_of(name);
-    } catch (const InputError&) {  // a picture less is no reason to refuse the mesh
-    }
+  std::string found(name);
+  try {
+    found = name_as_found(source, name);
+    if (source.beside != nullptr) image.bytes = source.beside->bytes_of(found);
+  } catch (const InputError&) {  // a picture less is no reason to refuse the mesh
   }
-  if (image.path.empty() && !image.bytes) image.name = name;
+  note_name(source, found, &NamesInFile::pictures);
+  if (const auto path = path_of_named(source, found)) {
+    std::error_code error;
+    image.path = path->string();
+    image.is_elsewhere = fs::exists(*path, error) && !find_named(source, found);
+  }
+  const bool is_known = !image.path.empty() || image.bytes != nullptr;
+  image.name = is_known ? fs::path(found).filename().string() : std::string(name);
   return image;
 }
 

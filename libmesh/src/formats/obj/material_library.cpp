@@ -133,7 +133,7 @@ void look_at_pictures(const MeshSource& source, MaterialLibraries::Library& libr
     const std::string beside = name_beside(library, with_slashes(name));
     const Image image = picture_named(source, beside);
     if (image.bytes) library.pictures.emplace(name, image.bytes);
-    const std::string found = name_as_found(source, beside);
+    const std::string found = library.is_packed ? beside : name_as_found(source, beside);
     if (found != beside) library.real_names.emplace(name, *source.folder / found);
   });
 }
@@ -143,7 +143,7 @@ MaterialLibraries::Library read_library(const MeshSource& source, const std::str
   MaterialLibraries::Library library;
   library.name = name;
   if (const auto file = read_named(source, with_slashes(name))) {
-    if (source.beside == nullptr) library.name = name_as_found(source, with_slashes(name));
+    library.name = name_as_found(source, with_slashes(name));
     library.text = file->bytes;
     library.path = file->path;
     library.folder = file->path.parent_path();

@@ -218,7 +218,13 @@ std::vector<std::string> KeptPackage::lost_in(SoupFormat format) const {
   const bool has_some =
       graph && (std::any_of(graph->objects.begin(), graph->objects.end(), has_metadata) ||
                 std::any_of(graph->items.begin(), graph->items.end(), has_metadata));
+  const auto is_not_printed = [](const KeptReference& one) {
+    return one.marks && (one.marks->printable == "0" || one.marks->printable == "false");
+  };
   if (!metadata.empty() || has_some) lost.emplace_back("metadata");
+  if (graph && std::any_of(graph->items.begin(), graph->items.end(), is_not_printed)) {
+    lost.emplace_back("what is not to be printed");
+  }
   if (!parts.empty()) lost.emplace_back("other parts of the package");
   return lost;
 }

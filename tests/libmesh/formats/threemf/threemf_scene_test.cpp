@@ -145,7 +145,8 @@ TEST(ThreemfScene, MetadataOfObjectsAndItemsStay) {
   EXPECT_THAT(model, HasSubstr("<item objectid=\"2\" printable=\"0\"" + group + "</item>"));
   EXPECT_THAT(model, HasSubstr("<item objectid=\"1\"/>\n<item objectid=\"1\"/>"));
   EXPECT_THAT(model, HasSubstr("xmlns:x=\"urn:x\""));
-  EXPECT_THAT(read.attributes.keepsake->lost_in(SoupFormat::glb), ::testing::Contains("metadata"));
+  EXPECT_THAT(read.attributes.keepsake->lost_in(SoupFormat::glb),
+              ::testing::ElementsAre("metadata", "what is not to be printed"));
 }
 
 TEST(ThreemfScene, PrefixesOfOtherPartsMeanWhatTheyMeant) {
