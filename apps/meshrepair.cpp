@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
   add_staging_option(app, options.staging);
+  add_root_option(app, options.assets);
   add_attributes_options(app, options.assets);
   add_units_option(app, options.assets);
   add_certify_options(app, options.repair.certify, options.strict);

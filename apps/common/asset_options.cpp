@@ -97,8 +97,18 @@ void add_units_option(CLI::App& app, AssetOptions& options) {
       ->group("Output");
 }
 
+void add_root_option(CLI::App& app, AssetOptions& options) {
+  app.add_option(
+         "--root", options.root,
+         "IN lies in this folder of meshes, and OUT at its place in a copy of it: names of\n"
+         "files may lead anywhere in this folder, and names of pictures stay as they are")
+      ->type_name("FOLDER")
+      ->group("Output");
+}
+
 ReadOptions reading_for(SoupFormat format, const AssetOptions& assets, ReadOptions options) {
   options.attributes = assets.attributes && holds_attributes(format);
+  options.within = assets.root;
   options.by_mesh = assets.by_mesh;
   return options;
 }

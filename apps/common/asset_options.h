@@ -19,6 +19,7 @@ struct AssetOptions {
   std::vector<std::string> drops;  // kinds of them that do not come along
   bool by_mesh = false;            // each mesh of a scene by itself
   std::optional<LengthUnit> units;  // of numbers in files that do not say
+  std::string root;                 // of a folder of meshes that has a copy; empty: there is none
 };
 
 // --attributes and --drop.
@@ -27,6 +28,9 @@ void add_attributes_options(CLI::App& app, AssetOptions& options);
 void add_scene_option(CLI::App& app, AssetOptions& options, const std::string& group = "Repair");
 // --units.
 void add_units_option(CLI::App& app, AssetOptions& options);
+
+// --root.
+void add_root_option(CLI::App& app, AssetOptions& options);
 
 // What is to be read for a file of this format.
 [[nodiscard]] ReadOptions reading_for(SoupFormat format, const AssetOptions& assets,

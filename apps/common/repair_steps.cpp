@@ -288,6 +288,7 @@ WriteOptions mesh_format(const StepOptions& options) {
   }
   check_format(*format.format, options.assets);
   format.staging = options.staging;
+  if (!options.assets.root.empty()) format.names_from = fs::path(options.input).parent_path();
   return format;
 }
 

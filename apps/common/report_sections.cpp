@@ -21,6 +21,10 @@ Json packed_of(const PackedFile& packed) {
           {"entry", packed.entry.empty() ? Json() : Json(packed.entry)}};
 }
 
+Json names_of(const NamesInFile& names) {
+  return {{"files", names.files}, {"pictures", names.pictures}, {"outside", names.outside}};
+}
+
 Json section_of(const ReadReport& read) {
   return {{"format", format_name(read.format)},
           {"bytes", read.bytes},
@@ -32,6 +36,7 @@ Json section_of(const ReadReport& read) {
           {"bad_points", read.bad_points},
           {"missing_faces", read.missing_faces},
           {"trailing_bytes", read.trailing_bytes},
+          {"names", names_of(read.names)},
           {"warnings", read.warnings}};
 }
 

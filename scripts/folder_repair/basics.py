@@ -9,6 +9,7 @@ FORMAT_OF_EXTENSION = {b".stl": "stl", b".obj": "obj", b".off": "off", b".ply": 
                        b".gltf": "gltf", b".3mf": "3mf"}
 EXTENSION_OF_FORMAT = {"obj": b".obj", "stl": b".stl", "stl-ascii": b".stl", "off": b".off",
                        "ply": b".ply", "ply-ascii": b".ply", "glb": b".glb", "gltf": b".gltf", "3mf": b".3mf"}
+READS_OTHERS = (b".obj", b".gltf", b".glb")  # their libraries and buffers are read, too
 PACKINGS = (b".gz", b".zst")  # that may stand behind these
 ARCHIVE = b".zip"
 
@@ -63,3 +64,11 @@ def value_of(report, *keys):
     for key in keys:
         report = report.get(key) if isinstance(report, dict) else None
     return report if isinstance(report, (int, float, str)) else None
+
+
+def names_of(report, kind):
+    """Names of other files that the mesh has, as the report has them: "files", "pictures", "outside"."""
+    names = report.get("read") if isinstance(report, dict) else None
+    names = names.get("names") if isinstance(names, dict) else None
+    names = names.get(kind) if isinstance(names, dict) else None
+    return [name for name in names if isinstance(name, str)] if isinstance(names, list) else []

@@ -15,13 +15,15 @@ import sys
 import time
 
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
-                     print_to, say, text, value_of)
+                     names_of, print_to, say, text, value_of)
 from .inputs import Job, find_meshes, name_outputs
 from .out_folder import Journal, key_of
+from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
 from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
 TICK_SECONDS = 0.25  # how often limits are looked at
+LONGEST_NAME = 200  # that is said of a file that a mesh names
 SECONDS_TO_END = 0.3  # from a signal to this script until its workers are killed
 MEMORY_SLACK = 1.25  # a worker that keeps to its limit itself is killed only beyond this
 
@@ -48,6 +50,8 @@ class FolderRun:
         threads = max(1, len(os.sched_getaffinity(0)) // options.jobs)
         command = [program.path, "--quiet", "--threads", str(threads),
                    "--time-limit", f"{options.timeout:.10g}", *options.passed]
+        if program.knows_roots:
+            command += ["--root", options.in_dir]
         if program.limits_memory:
             command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M" if options.max_memory else "0"]
         return command
@@ -171,12 +175,15 @@ class FolderRun:
             self.queue.append(job)
             return shutil.rmtree(worker.folder, ignore_errors=True)
         row = job.row(code, error, report)
+        job.note_needs(names_of(report, "files") + names_of(report, "pictures"))
         if code in WRITTEN and os.path.isfile(worker.mesh):
             row = self.take_output(worker, row, report)
         row["seconds"] = round(time.monotonic() - worker.started, 3)
         row["peak_memory_bytes"] = value_of(report, "peak_memory_bytes") or worker.peak_memory
         shutil.rmtree(worker.folder, ignore_errors=True)
-        self.settle(job, row, final=row["exit_code"] in FINAL)
+        # What cannot be read may lack a buffer; which one, no report says.
+        lacks_others = row["exit_code"] == INPUT and job.reads_others
+        self.settle(job, row, final=row["exit_code"] in FINAL and not lacks_others)
 
     def take_output(self, worker, row, report):
         """The row with what is known of the output."""
@@ -184,6 +191,7 @@ class FolderRun:
         try:
             size = os.path.getsize(worker.mesh)
             self.take_files_beside(worker)
+            self.take_pictures(job, report)
             self.out.take(worker.mesh, job.target)
         except OSError as error:
             return job.row(OUTPUT, f"{text(job.output)}: cannot be written: {error.strerror}")
@@ -203,9 +211,31 @@ class FolderRun:
                 self.out.take(made, target)
             job.beside[name] = os.path.getsize(target)
 
-    def is_of_another(self, name, target, job):
-        """Of an output of this run, or not from this script."""
-        if self.journal.others_with(name, job) & self.keys_of_jobs:
+    def take_pictures(self, job, report):
+        """Those that lie in IN_DIR; names of others are said."""
+        if job.format not in NAME_PICTURES + HOLD_PICTURES:
+            return
+        pictures, outside = pictures_of(job, self.options.in_dir, report)
+        for place, path in pictures.items():
+            target = os.path.join(self.out.path, place)
+            if not self.out.holds_same(path, target):
+                if self.is_of_another(place, target, job, of_pictures=False):
+                    raise OSError(errno.EEXIST, f"{text(place)}, which it names, is of another")
+                self.out.take_copy(path, target)
+            job.pictures[place] = os.path.getsize(target)
+        self.warn(job, outside, "outside of IN_DIR: does not come along")
+        self.warn(job, job.missing(), "which is not there")
+
+    def warn(self, job, names, why):
+        if names and not self.options.quiet:
+            more = f" and {len(names) - 1:,} more" if len(names) > 1 else ""
+            self.progress.clear()
+            first = names[0] if len(names[0]) <= LONGEST_NAME else names[0][:LONGEST_NAME] + "..."
+            say(f"{text(job.name)}: warning: names {first}{more}, {why}")
+
+    def is_of_another(self, name, target, job, of_pictures=True):
+        """Of an output of this run, or not from this script. A picture may be of several outputs."""
+        if self.journal.others_with(name, job, of_pictures) & self.keys_of_jobs:
             return True
         is_known = key_of(name) in self.journal.owners
         return self.out.is_new and not self.options.restart and not is_known and os.path.lexists(target)
@@ -226,8 +256,8 @@ class FolderRun:
 
     def remove_old(self, job, is_written):
         """What an earlier run has made and this one has not."""
-        old = self.journal.files_beside(job)
-        old = old - job.beside.keys() if is_written else old | job.beside.keys()
+        old, new = self.journal.files_beside(job), job.beside.keys() | job.pictures.keys()
+        old = old - new if is_written else old | new
         for name in old:
             if not self.journal.others_with(name, job):
                 self.out.remove(os.path.join(self.out.path, name))

@@ -4,12 +4,15 @@ import collections
 import errno
 import os
 import stat
+import time
 import zipfile
 
 from .basics import (ARCHIVE, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, MEASURED, PACKINGS,
-                     SAME_IN_EACH_RUN, text, value_of)
+                     READS_OTHERS, SAME_IN_EACH_RUN, text, value_of)
 
 STATE = b".repair_folder"  # of a run, in its OUT_DIR; folders of this name are no input
+UNKNOWN = "unknown"  # how a file was when it was read; it is like no other
+CLOCK_STEP_NS = 20_000_000  # times of files are those of the last tick of the system's clock
 
 
 def identity(path):
@@ -147,9 +150,12 @@ class Job:
         self.target = os.path.join(options.out_dir, output)
         self.format = options.format or FORMAT_OF_EXTENSION[mesh]
         self.packing = split_name(output)[2]  # the program packs what has such a name
-        self.size = self.mtime_ns = None
+        self.size = self.mtime_ns = self.looked_at = None
+        self.reads_others = mesh in READS_OTHERS
         self.trials = 0
         self.beside = {}  # what its output needs beside it, relative to OUT_DIR: name -> size
+        self.pictures = {}  # that it names, the same
+        self.needs = {}  # other files that it names, from its folder: name -> as state_of() has it, or UNKNOWN
 
     def look(self):
         """Notes what the file is like now; OSError if it cannot be opened. Never waits."""
@@ -161,6 +167,42 @@ class Job:
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "is no regular file")
         self.size, self.mtime_ns = status.st_size, status.st_mtime_ns
+        self.looked_at = time.time_ns()
+
+    def path_of(self, name):
+        """Of a file that it names. Reports have U+FFFD for what is no UTF-8: then it is the file that is meant."""
+        path = os.path.join(os.path.dirname(self.source), os.fsencode(name))
+        if "\ufffd" not in os.path.basename(name):
+            return path
+        try:
+            names = os.listdir(os.path.dirname(path))
+        except OSError:
+            return path
+        meant = [one for one in names if one.decode("utf-8", "replace") == os.path.basename(name)]
+        return os.path.join(os.path.dirname(path), meant[0]) if len(meant) == 1 else path
+
+    def state_of(self, name):
+        """Size and time of a file that it names, as a list; None if it is not there."""
+        try:
+            status = os.stat(self.path_of(name))
+        except (OSError, ValueError):
+            return None
+        return [status.st_size, status.st_mtime_ns]
+
+    def note_needs(self, names):
+        """What it named when it was read."""
+        self.needs = {name: UNKNOWN if self.may_have_changed(name) else self.state_of(name) for name in names}
+
+    def may_have_changed(self, name):
+        """Since the look at the mesh."""
+        try:
+            return os.stat(self.path_of(name)).st_ctime_ns >= self.looked_at - CLOCK_STEP_NS
+        except (OSError, ValueError):
+            return "\ufffd" in name  # several may be meant
+
+    def missing(self):
+        """Names of files that were not there."""
+        return sorted(name for name, state in self.needs.items() if state is None)
 
     def row(self, code, error, report=None):
         """For the summary, as if nothing was written; what is not known is None."""

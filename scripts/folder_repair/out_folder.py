@@ -12,6 +12,7 @@ import time
 
 from .basics import MEASURED, NAME, OUTPUT, SAME_IN_EACH_RUN, USAGE, Stop, text
 from .inputs import STATE
+from .pictures import may_be_written
 
 LOCK_SECONDS = 2  # how long the workers of a killed run may take to die
 
@@ -80,6 +81,14 @@ class OutFolder:
         os.rename(made, target)
         sync_folder(os.path.dirname(target))
 
+    def take_copy(self, path, target):
+        made = os.path.join(self.work, b"copy")
+        with open(path, "rb") as source, open(made, "wb") as file:
+            shutil.copyfileobj(source, file)
+            file.flush()
+            os.fsync(file.fileno())
+        self.take(made, target)
+
     @staticmethod
     def holds_same(made, target):
         return os.path.isfile(target) and not os.path.islink(target) and filecmp.cmp(made, target, shallow=False)
@@ -112,17 +121,19 @@ class Journal:
     """OUT_DIR/.repair_folder/journal.jsonl: what is finished, one JSON object in each line.
 
     Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `beside`: names of the files that the output
-    needs beside it, and their sizes, if there are any; `size` and `mtime_ns` of the input; `settings`: version of
-    the program, first digits of its SHA-256, --format, options after --; `final`: not to be tried again; `row`:
-    as in the summary. The last line of a path counts. A line that is not whole counts for nothing; at the end
-    of the file it is cut off before the next one is written.
+    needs beside it, and their sizes, if there are any; `pictures`: the same of copies of pictures; `size` and
+    `mtime_ns` of the input; `needs`: names of other files that it names, from its folder, with [size, mtime_ns] of
+    each, null where there is none, or "unknown"; `settings`: version of the program, first digits of its SHA-256,
+    --format, options after --; `final`: not to be tried again; `row`: as in the summary. The last line of a path
+    counts. A line that is not whole counts for nothing; at the end of the file it is cut off before the next one
+    is written.
     """
 
     def __init__(self, path, settings, anew):
         self.folder = os.path.dirname(os.path.dirname(path))
         self.settings = settings
         self.entries = {}
-        self.owners = collections.defaultdict(set)  # of the files beside outputs: the inputs
+        self.owners = collections.defaultdict(set)  # of the files beside outputs, and pictures: the inputs
         flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC | (os.O_TRUNC if anew else 0)
         self.descriptor = os.open(path, flags, 0o666)
         with open(path, "rb") as file:
@@ -139,28 +150,37 @@ class Journal:
                 folder = os.path.dirname(entry["output"])
                 beside = entry.get("beside", {}).items()
                 entry["beside"] = {name: size for name, size in beside if os.path.dirname(name) == folder}
+                pictures = entry.get("pictures", {}).items()
+                entry["pictures"] = {name: size for name, size in pictures if may_be_written(bytes_of(name))}
+                entry["needs"] = dict(entry.get("needs", {}))
                 self.keep(entry)
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             pass
 
     def keep(self, entry):
-        for name in self.entries.get(entry["path"], {}).get("beside", {}):
+        for name in self.files_of(self.entries.get(entry["path"], {})):
             self.owners[name].discard(entry["path"])
         self.entries[entry["path"]] = entry
-        for name in entry.get("beside", {}):
+        for name in self.files_of(entry):
             self.owners[name].add(entry["path"])
+
+    @staticmethod
+    def files_of(entry):
+        """Names -> sizes of what is in OUT_DIR besides the output."""
+        return {**entry.get("beside", {}), **entry.get("pictures", {})}
 
     def finished_row(self, job):
         """The row of a job that need not be done again, or None. job.look() was called."""
         entry = self.entries.get(key_of(job.name))
         if entry is None or not entry.get("final") or entry.get("settings") != self.settings or \
            entry.get("output") != key_of(job.output) or \
-           (entry.get("size"), entry.get("mtime_ns")) != (job.size, job.mtime_ns):
+           (entry.get("size"), entry.get("mtime_ns")) != (job.size, job.mtime_ns) or \
+           any(job.state_of(name) != state for name, state in entry.get("needs", {}).items()):
             return None
         promised = entry["row"]["bytes_out"]
         is_whole = promised is None or self.is_there(job.target, promised) and all(
             self.is_there(os.path.join(self.folder, bytes_of(name)), size)
-            for name, size in entry.get("beside", {}).items())
+            for name, size in self.files_of(entry).items())
         return entry["row"] if is_whole else None
 
     @staticmethod
@@ -172,13 +192,13 @@ class Journal:
         return stat.S_ISREG(status.st_mode) and status.st_size == size
 
     def files_beside(self, job):
-        """Names of what lies beside the output of the last run."""
-        entry = self.entries.get(key_of(job.name), {})
-        return {bytes_of(name) for name in entry.get("beside", {})}
+        """Names of what lies beside the output of the last run, and of its pictures."""
+        return {bytes_of(name) for name in self.files_of(self.entries.get(key_of(job.name), {}))}
 
-    def others_with(self, name, job):
-        """The inputs, as keys, whose outputs have this file beside them, but for the job's own."""
-        return self.owners.get(key_of(name), set()) - {key_of(job.name)}
+    def others_with(self, name, job, of_pictures=True):
+        """The inputs, as keys, whose outputs have this file beside them, or as a picture, but for the job's own."""
+        others = self.owners.get(key_of(name), set()) - {key_of(job.name)}
+        return {key for key in others if of_pictures or key_of(name) in self.entries[key].get("beside", {})}
 
     def outputs(self):
         """Names of what earlier runs have written, as far as the journal knows."""
@@ -191,6 +211,10 @@ class Journal:
                  "mtime_ns": job.mtime_ns, "settings": self.settings, "final": final, "row": row}
         if row["output"] and job.beside:
             entry["beside"] = {key_of(name): size for name, size in job.beside.items()}
+        if row["output"] and job.pictures:
+            entry["pictures"] = {key_of(name): size for name, size in job.pictures.items()}
+        if job.needs:
+            entry["needs"] = job.needs
         data = json.dumps(entry).encode() + b"\n"
         written = os.write(self.descriptor, data)
         while written < len(data):  # the disk is full, and the next call says so

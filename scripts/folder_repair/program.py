@@ -27,7 +27,8 @@ class Program:
         self.version = self.ask("--version").strip()
         if not re.fullmatch(r"meshrepair \S+", self.version):
             raise Stop(USAGE, f"{self.path} is not meshrepair")
-        self.limits_memory = "--max-memory" in self.ask("--help")
+        options = self.ask("--help")
+        self.limits_memory, self.knows_roots = "--max-memory" in options, "--root" in options
         with open(self.path, "rb") as file:
             self.digest = hashlib.file_digest(file, "sha256").hexdigest()[:16]
         self.check(passed)
@@ -48,7 +49,10 @@ class Program:
             raise Stop(USAGE, f"{self.path} cannot be run: {error}") from None
 
     def ask(self, option):
-        return self.run(option).stdout.decode("utf-8", "replace")
+        result = self.run(option)
+        if result.returncode != 0:  # killed, perhaps: what it can do is not known
+            raise Stop(USAGE, f"{self.path} cannot be asked for {option}: exit code {result.returncode}")
+        return result.stdout.decode("utf-8", "replace")
 
     def check(self, passed):
         """Wrong options are told once, not for each file."""

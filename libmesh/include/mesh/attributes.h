@@ -63,6 +63,7 @@ struct Image {
   std::string media_type;  // "image/png"; may be empty
   std::string path;  // of the file, as this process finds it; empty: none, or not to be followed
   std::shared_ptr<const std::string> bytes;  // if it is none
+  bool is_elsewhere = false;  // a link at the path leads to where names may not: not to be opened
 };
 
 // Scales coordinates in a texture, turns them by an angle in radians, and moves them, in this

@@ -34,6 +34,10 @@ struct MeshSource {
   std::optional<std::filesystem::path> folder = std::nullopt;
   // Null unless it came out of an archive; not owned.
   FilesBeside* beside = nullptr;
+  // How many folders up from there a name may lead.
+  std::size_t levels_up = 0;
+  // Gets the names that were looked for there, or not, if it is not null; not owned.
+  NamesInFile* names = nullptr;
   // Of the file that the bytes were unpacked from; 0: they are those of the file.
   std::size_t packed_bytes = 0;
 

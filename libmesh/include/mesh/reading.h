@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -16,6 +17,13 @@
 #include <mesh/soup_format.h>
 
 namespace meshrepair {
+
+// Names of other files that a mesh file has, as seen from its folder, once each and sorted.
+struct NamesInFile {
+  std::vector<std::string> files;     // buffers and libraries; they need not be there
+  std::vector<std::string> pictures;  // the same
+  std::vector<std::string> outside;   // what they name is never looked for; as the file has them
+};
 
 // What a reader passed over. A count of 0 everywhere means that the file was read in full.
 struct ReadReport {
@@ -33,6 +41,7 @@ struct ReadReport {
   std::size_t bad_points = 0;
   std::size_t missing_faces = 0;   // promised by the header, not in the file
   std::size_t trailing_bytes = 0;  // after the last element of a binary file
+  NamesInFile names;
   // One sentence for each kind of oddity, for the user, without the file's name.
   std::vector<std::string> warnings;
 };
@@ -54,6 +63,9 @@ struct ReadOptions {
   bool by_mesh = false;
   // A file that holds no points and no faces, and promises none, is no error.
   bool may_be_empty = false;
+  // Names in the file may lead anywhere in this folder, if the file lies in it. Empty: in that of
+  // the file.
+  std::filesystem::path within = {};
   ProgressObserver* progress = nullptr;
 };
 

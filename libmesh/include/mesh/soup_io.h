@@ -6,7 +6,7 @@
 // declared count: a file that holds less than it promises is read as far as it goes and the loss is
 // counted, and no memory is taken for what the file cannot hold. Of files that a file names, only
 // buffers of glTF are opened, and libraries of materials if attributes are asked for; none outside
-// the folder.
+// the folder, or that of ReadOptions::within.
 //
 // Writing: shortest decimal digits that read back as the same bits; every write is checked; the
 // target appears atomically (a temporary file beside it, fsync, rename) unless it is a device or a
@@ -41,11 +41,13 @@ namespace meshrepair {
 struct WriteOptions {
   // Empty: told by the extension.
   std::optional<SoupFormat> format = std::nullopt;
-  SoupExtras extras = {};                // the folder is that of the file
+  SoupExtras extras = {};                // the folder is not asked for
   ProgressObserver* progress = nullptr;  // asked while the bytes are written whether to go on
   // Where the file and those beside it are written instead, as they are to be once they are moved.
   // Empty: where they belong.
   std::filesystem::path staging = {};
+  // The folder that names of pictures are to be right from. Nothing: that of the file.
+  std::optional<std::filesystem::path> names_from = std::nullopt;
 };
 
 // What of the attributes the format can hold.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include <mesh/lost_attributes.h>
 
 #include "formats/obj/obj_io.h"
+#include "formats/threemf/threemf_io.h"
 
 namespace meshrepair {
 namespace {
@@ -117,6 +119,9 @@ class Finder {
       if (holds_sources(format_) && held_.images[look.image].bytes) {
         add("pictures that are no files");
       }
+      if (format_ == SoupFormat::threemf && !is_held(look.image)) {
+        add("pictures that are not there, or neither PNG nor JPEG");
+      }
       find_sampling(look.sampling);
     }
   }
@@ -147,7 +152,7 @@ class Finder {
   }
 
   // 3MF lays no coordinates without a picture that it can hold.
-  [[nodiscard]] bool has_unused_places() const {
+  [[nodiscard]] bool has_unused_places() {
     const CornerAttribute* const places = find_kind(held_, Kind::texture);
     if (places == nullptr || is_told(kind_words(*places))) return false;
     const auto has_picture = [&](std::size_t t) {
@@ -155,8 +160,7 @@ class Finder {
       const std::uint32_t material = labels.empty() ? kNone : labels.of_triangle[t];
       if (material >= held_.looks.size()) return false;
       const std::uint32_t image = held_.looks[material].image;
-      if (image >= held_.images.size()) return false;
-      return held_.images[image].bytes != nullptr || !held_.images[image].path.empty();
+      return image < held_.images.size() && is_held(image);
     };
     for (std::size_t t = 0; 3 * t < places->of_corner.size(); ++t) {
       if (places->of_corner[3 * t] != kNone && !has_picture(t)) return true;
@@ -164,11 +168,19 @@ class Finder {
     return false;
   }
 
+  // By 3MF. Each is looked at once.
+  bool is_held(std::uint32_t image) {
+    const auto [known, is_new] = is_held_.try_emplace(image, false);
+    if (is_new) known->second = can_be_in_threemf(held_.images[image]);
+    return known->second;
+  }
+
   const TriangleSoup& soup_;
   const Attributes& all_;
   const Attributes& held_;
   SoupFormat format_;
   std::vector<std::string> lost_;
+  std::unordered_map<std::uint32_t, bool> is_held_;  // images
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "opened_file.h"
 
+#include <algorithm>
 #include <utility>
 
+#include <mesh/named_files.h>
 #include <mesh/unpack.h>
 
 #include "formats/threemf/threemf_io.h"
@@ -25,7 +27,11 @@ Packing packing_around_mesh(std::string_view bytes) {
 
 MeshSource source_of_path(const std::filesystem::path& path, const ReadOptions& options) {
   if (path == "-") return {{}, "standard input", options};
-  return {{}, path.string(), options, path.parent_path()};
+  MeshSource source{{}, path.string(), options, path.parent_path()};
+  if (!options.within.empty()) {
+    source.levels_up = levels_below(options.within, path.parent_path());
+  }
+  return source;
 }
 
 }  // namespace
@@ -41,7 +47,17 @@ OpenedFile::OpenedFile(std::string_view bytes, const std::string& name, const Re
   open(bytes);
 }
 
+NamesInFile OpenedFile::names() const {
+  NamesInFile names = names_;
+  for (std::vector<std::string>* list : {&names.files, &names.pictures, &names.outside}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  return names;
+}
+
 void OpenedFile::open(std::string_view bytes) {
+  source_.names = &names_;
   const Packing packing = packing_around_mesh(bytes);
   if (packing != Packing::none) {
     take_out_of(bytes, packing);

@@ -38,6 +38,8 @@ class OpenedFile {
     report.packed = packed_;
     report.warnings.insert(report.warnings.begin(), warnings_.begin(), warnings_.end());
   }
+  // Of other files, that the reader came upon.
+  [[nodiscard]] NamesInFile names() const;
 
  private:
   void open(std::string_view bytes);
@@ -52,6 +54,7 @@ class OpenedFile {
   std::size_t size_ = 0;
   PackedFile packed_;
   std::vector<std::string> warnings_;
+  NamesInFile names_;
 };
 
 }  // namespace meshrepair

@@ -95,6 +95,7 @@ MeshOrPoints read_any_of(const OpenedFile& file) {
   }
   require_mesh(source, mesh);
   file.describe(mesh.report);
+  mesh.report.names = file.names();
   result.mesh = std::move(mesh);
   return result;
 }

@@ -29,6 +29,7 @@ ReadResult read_opened(const OpenedFile& file) {
   ReadResult result = read_mesh_as(recognize_mesh(source), source);
   require_mesh(source, result);
   file.describe(result.report);
+  result.report.names = file.names();
   return result;
 }
 
@@ -110,7 +111,7 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
                      std::string(known_extensions()) + "; .gz or .zst behind it packs)");
   }
   SoupExtras extras = options.extras;
-  extras.folder = path.parent_path();
+  extras.folder = options.names_from.value_or(path.parent_path());
   std::vector<SideFile> files;
   if (*format == SoupFormat::obj && extras.attributes != nullptr && path != "-") {
     files = obj_files(soup, PlainExtras(*format, extras).get(), without_packing(path));

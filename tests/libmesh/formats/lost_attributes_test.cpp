@@ -65,6 +65,20 @@ TEST(LostAttributes, PlyHasNoColoursOfMaterialsAndNoPicturesInIt) {
   EXPECT_THAT(mesh.lost_in(SoupFormat::ply_ascii), IsEmpty());
 }
 
+TEST(LostAttributes, PackagesHoldPicturesThatAreThereInTwoFormats) {
+  Painted mesh;
+  const auto bytes_of = [](const char* text) { return std::make_shared<const std::string>(text); };
+  const auto lost = ElementsAre("pictures that are not there, or neither PNG nor JPEG",
+                                "texture coordinates where there is no picture");
+  mesh.attributes.images[0] = {"a.webp", "image/webp", "", bytes_of("RIFF")};
+  EXPECT_THAT(mesh.lost_in(SoupFormat::threemf), lost);
+  mesh.attributes.images[0] = {"a.png", "", "/nowhere/a.png", nullptr};
+  EXPECT_THAT(mesh.lost_in(SoupFormat::threemf), lost);
+  EXPECT_THAT(mesh.lost_in(SoupFormat::glb), IsEmpty());
+  mesh.attributes.images[0] = {"a.jpg", "", "", bytes_of("\xFF\xD8\xFF")};
+  EXPECT_THAT(mesh.lost_in(SoupFormat::threemf), IsEmpty());
+}
+
 TEST(LostAttributes, ObjAndStlHaveNoOpacityOfColours) {
   for (const double opacity : {1.0, 0.5}) {
     Painted mesh;

@@ -124,6 +124,23 @@ TEST(MeshArchive, GivesPicturesToOtherFormats) {
   }
 }
 
+TEST(MeshArchive, HasFilesThatAreNamedAsWindowsDoes) {
+  const std::string bytes =
+      zip_of({{"a/part.obj", replaced(kObj, "part.mtl", "\"Lib\\PART.mtl\"")},
+              {"a/lib/part.mtl", "newmtl wood\nKd 0 .5 0\nmap_Kd \"..\\Tex\\Wood.png\"\n"},
+              {"a/tex/wood.png", kPicture}});
+  ReadOptions options;
+  options.attributes = true;
+  const ReadResult mesh = read_soup(std::string_view(bytes), "a.zip", options);
+  EXPECT_THAT(mesh.report.warnings, IsEmpty());
+  EXPECT_EQ(mesh.attributes.looks.at(0).colour[1], 0.5);
+  ASSERT_EQ(mesh.attributes.images.size(), 1u);
+  EXPECT_EQ(*mesh.attributes.images[0].bytes, kPicture);
+  const TemporaryFolder out;
+  write_soup(mesh.soup, out.path() / "new.obj", {.extras = {.attributes = &mesh.attributes}});
+  EXPECT_EQ(text_of(out.path() / "new.mtl"), "newmtl wood\nKd 0 .5 0\nmap_Kd new_0.png\n");
+}
+
 TEST(MeshArchive, SaysWhichLibraryIsNotThere) {
   const std::string bytes = zip_of({{"a/part.obj", kObj}, {"part.mtl", library("")}});
   ReadOptions options;
@@ -176,6 +193,12 @@ TEST(MeshArchive, HasTheBuffersAndPicturesOfGltf) {
     EXPECT_EQ(*back.images[0].bytes, kPicture);
     EXPECT_EQ(back.images[0].media_type, "image/png");
   }
+}
+
+TEST(MeshArchive, HasBuffersThatAreNamedAsWindowsDoes) {
+  const std::string bytes = zip_of(
+      {{"scene.gltf", gltf_text("Data\\\\scene.BIN")}, {"data/scene.bin", triangle_bytes()}});
+  EXPECT_EQ(read_soup(std::string_view(bytes), "a.zip").soup.triangles.size(), 1u);
 }
 
 TEST(MeshArchive, RefusesGltfWhoseBufferIsNotThere) {

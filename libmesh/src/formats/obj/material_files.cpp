@@ -37,7 +37,8 @@ class LibraryMover {
       : library_(library), folder_(full(folder)), name_of_packed_(std::move(name_of_packed)) {}
 
   std::string run() {
-    if (!library_.is_packed && full(library_.folder) == folder_) return library_.text;
+    const bool is_right = library_.real_names.empty() && full(library_.folder) == folder_;
+    if (!library_.is_packed && is_right) return library_.text;
     std::string moved;
     visit_mtl_lines(library_.text, [&](std::string_view text) {
       const MtlLine line = split_mtl_line(text);
@@ -54,15 +55,17 @@ class LibraryMover {
   }
 
  private:
-  // What is no way within the library's folder stays: nobody knows what it means elsewhere.
+  // What leads farther than it may stays: nobody knows what it means elsewhere.
   [[nodiscard]] std::string moved_name(std::string_view name) const {
     if (library_.is_packed) {
       const auto picture = library_.pictures.find(name);
       if (picture == library_.pictures.end()) return std::string(name);
       return name_of_packed_(name, picture->second);
     }
+    const auto real = library_.real_names.find(name);
+    if (real != library_.real_names.end()) return name_seen_from(folder_, real->second);
     const std::string path = with_slashes(name);
-    if (!stays_within(path)) return std::string(name);
+    if (!stays_within(path, library_.levels_up)) return std::string(name);
     return name_seen_from(folder_, library_.folder / fs::path(path).lexically_normal());
   }
 
@@ -101,23 +104,27 @@ std::string without_repeats(std::string_view text) {
   return once;
 }
 
+void append_library(std::string_view library, std::string& text) {
+  const bool has_mark = library.starts_with(kByteOrderMark);
+  text += has_mark && !text.empty() ? library.substr(kByteOrderMark.size()) : library;
+  if (!text.empty() && text.back() != '\n') text += '\n';
+}
+
 // Makes the files of one mesh.
 class MaterialFiles {
  public:
-  MaterialFiles(const fs::path& path, const Attributes& attributes)
-      : path_(path), attributes_(attributes) {}
+  MaterialFiles(const fs::path& path, const fs::path& names_from, const Attributes& attributes)
+      : path_(path), names_from_(names_from), attributes_(attributes) {}
 
   std::vector<SideFile> run() {
     const auto* const known = dynamic_cast<const MaterialLibraries*>(attributes_.keepsake.get());
     std::string text;
     if (known != nullptr) {
       for (const MaterialLibraries::Library& library : known->libraries) {
-        text += LibraryMover(library, path_.parent_path(),
-                             [this](std::string_view name, const auto& bytes) {
-                               return name_of_packed(name, bytes);
-                             })
-                    .run();
-        if (!text.empty() && text.back() != '\n') text += '\n';
+        const auto name = [this](std::string_view picture, const auto& bytes) {
+          return name_of_packed(picture, bytes);
+        };
+        append_library(LibraryMover(library, names_from_, name).run(), text);
       }
     }
     if (known != nullptr && known->libraries.size() > 1) text = without_repeats(text);
@@ -156,7 +163,7 @@ class MaterialFiles {
     const Image& image = attributes_.images[number];
     if (!image.bytes && image.path.empty()) return image.name;
     if (!image.bytes) {
-      return name_seen_from(path_.parent_path(), image.path);
+      return name_seen_from(names_from_, image.path);
     }
     return written_picture(number, extension_of(image), *image.bytes);
   }
@@ -206,7 +213,7 @@ class MaterialFiles {
     return path;
   }
 
-  const fs::path& path_;
+  const fs::path &path_, &names_from_;
   const Attributes& attributes_;
   std::vector<SideFile> files_;
   std::unordered_set<std::size_t> written_;                 // pictures, by their numbers
@@ -215,8 +222,9 @@ class MaterialFiles {
 
 }  // namespace
 
-std::vector<SideFile> material_files(const fs::path& path, const Attributes& attributes) {
-  return MaterialFiles(path, attributes).run();
+std::vector<SideFile> material_files(const fs::path& path, const fs::path& names_from,
+                                     const Attributes& attributes) {
+  return MaterialFiles(path, names_from, attributes).run();
 }
 
 std::unordered_set<std::string> library_materials(const Attributes& attributes) {

@@ -39,23 +39,41 @@ std::string name_beside(const MaterialLibraries::Library& library, const std::st
   return (fs::path(with_slashes(library.name)).parent_path() / name).generic_string();
 }
 
-// Reads one library.
+// How many folders up from that of the library a name may lead.
+std::size_t levels_up_from(const MeshSource& source, const MaterialLibraries::Library& library) {
+  std::size_t levels = source.levels_up;
+  for (const fs::path& part :
+       fs::path(with_slashes(library.name)).lexically_normal().parent_path()) {
+    levels = part == ".." ? levels - 1 : levels + 1;
+  }
+  return levels;
+}
+
+// Reads one library. Of several, the first that defines a material counts, as in what is written.
 class LibraryReader {
  public:
   LibraryReader(const MeshSource& source,
                 const std::unordered_map<std::string_view, std::uint32_t>& numbers,
-                const MaterialLibraries::Library& library, Attributes& attributes)
-      : source_(source), numbers_(numbers), library_(library), attributes_(attributes) {}
+                const MaterialLibraries::Library& library, Attributes& attributes,
+                std::unordered_set<std::uint32_t>& defined)
+      : source_(source),
+        numbers_(numbers),
+        library_(library),
+        attributes_(attributes),
+        defined_(defined) {}
 
   void run() {
     visit_mtl_lines(library_.text, [&](std::string_view text) { read(split_mtl_line(text)); });
+    defined_.insert(own_.begin(), own_.end());
   }
 
  private:
   void read(const MtlLine& line) {
     if (line.key == "newmtl") {
       const auto found = numbers_.find(line.rest);
-      look_ = found == numbers_.end() ? nullptr : &attributes_.looks[found->second];
+      const bool is_own = found != numbers_.end() && !defined_.contains(found->second);
+      look_ = is_own ? &attributes_.looks[found->second] : nullptr;
+      if (is_own) own_.insert(found->second);
     } else if (look_ == nullptr) {
       return;
     } else if (line.key == "Kd") {
@@ -87,8 +105,7 @@ class LibraryReader {
     const std::string beside = name_beside(library_, name);
     Image image = picture_named(source_, beside);
     if (image.path.empty() && !image.bytes) image.name = name;
-    std::error_code error;
-    if (fs::exists(image.path, error) && !find_named(source_, beside)) return kNone;
+    if (image.is_elsewhere) return kNone;
     const auto same =
         std::find_if(attributes_.images.begin(), attributes_.images.end(), [&](const Image& known) {
           return known.path == image.path && known.bytes == image.bytes && known.name == image.name;
@@ -102,16 +119,22 @@ class LibraryReader {
   const std::unordered_map<std::string_view, std::uint32_t>& numbers_;
   const MaterialLibraries::Library& library_;
   Attributes& attributes_;
+  std::unordered_set<std::uint32_t>& defined_;  // by those before
+  std::unordered_set<std::uint32_t> own_;
   Material* look_ = nullptr;
 };
 
-void take_packed_pictures(const MeshSource& source, MaterialLibraries::Library& library) {
+// Notes their names, and takes those that are packed.
+void look_at_pictures(const MeshSource& source, MaterialLibraries::Library& library) {
   visit_mtl_lines(library.text, [&](std::string_view text) {
     const MtlLine line = split_mtl_line(text);
     if (!names_picture(line.key)) return;
     const std::string_view name = picture_of(line.rest);
-    const Image image = picture_named(source, name_beside(library, with_slashes(name)));
+    const std::string beside = name_beside(library, with_slashes(name));
+    const Image image = picture_named(source, beside);
     if (image.bytes) library.pictures.emplace(name, image.bytes);
+    const std::string found = library.is_packed ? beside : name_as_found(source, beside);
+    if (found != beside) library.real_names.emplace(name, *source.folder / found);
   });
 }
 
@@ -120,11 +143,13 @@ MaterialLibraries::Library read_library(const MeshSource& source, const std::str
   MaterialLibraries::Library library;
   library.name = name;
   if (const auto file = read_named(source, with_slashes(name))) {
+    library.name = name_as_found(source, with_slashes(name));
     library.text = file->bytes;
     library.path = file->path;
     library.folder = file->path.parent_path();
     library.is_packed = source.beside != nullptr;
-    if (library.is_packed) take_packed_pictures(source, library);
+    if (!library.is_packed) library.levels_up = levels_up_from(source, library);
+    look_at_pictures(source, library);
   } else {
     const bool has_place = source.folder || source.beside != nullptr;
     std::string warning = "the library of materials " + printable(name) + " is not ";
@@ -147,7 +172,7 @@ bool is_in_looks(std::string_view key) {
 std::vector<std::string_view> names_in(const MeshSource& source, std::string_view line) {
   constexpr std::string_view kExtension = ".mtl";
   std::vector<std::string_view> names;
-  if (read_named(source, with_slashes(line))) return {line};
+  if (has_named(source, with_slashes(line))) return {line};
   while (!line.empty()) {
     std::size_t end = find_ignoring_case(line, kExtension);
     end = end == std::string_view::npos ? line.size() : end + kExtension.size();
@@ -232,8 +257,9 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
     numbers.emplace(attributes.materials.names[m], m);
   }
   attributes.looks.resize(attributes.materials.names.size());
+  std::unordered_set<std::uint32_t> defined;
   for (const MaterialLibraries::Library& library : kept->libraries) {
-    LibraryReader(source, numbers, library, attributes).run();
+    LibraryReader(source, numbers, library, attributes, defined).run();
   }
   warn_of_undefined(*kept, attributes.materials.names, report);
   attributes.keepsake = std::move(kept);

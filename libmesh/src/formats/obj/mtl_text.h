@@ -14,9 +14,12 @@ struct MtlLine {
 
 [[nodiscard]] MtlLine split_mtl_line(std::string_view text);
 
-// Calls visit(text of the line) for each, without its end.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+// Calls visit(text of the line) for each, without its end, and without what Windows puts first.
 template <class Visit>
 void visit_mtl_lines(std::string_view text, const Visit& visit) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     visit(text.substr(0, end));

@@ -1,5 +1,6 @@
 #include "obj_io.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -15,6 +16,12 @@ namespace meshrepair {
 namespace {
 
 constexpr TextDialect kObjText = {.comment = '#', .continuation = true};
+
+// What a mesh can have besides faces: lines, points, curves, surfaces, and files that are put in.
+bool is_no_face(std::string_view word) {
+  constexpr std::array<std::string_view, 6> kWords = {"l", "p", "curv", "curv2", "surf", "call"};
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
 
 class ObjReader {
  public:
@@ -32,13 +39,17 @@ class ObjReader {
         read_point();
       } else if (word == "f" || word == "fo") {  // fo: face outline of old versions
         read_face();
-      } else if (wants_attributes()) {
-        attributes_.read_line(word, text_);
+      } else if (!(wants_attributes() && attributes_.read_line(word, text_)) && is_no_face(word)) {
+        ++left_out_;
       }
       text_.skip_line();
     }
     guard_.step(faces_.triangles(), source_.bytes.size());
     warn_of_bad(result_.report, source_, first_bad_, "face", "corners that are not numbers");
+    if (left_out_ > 0) {
+      result_.report.warnings.push_back(counted(left_out_, "element") +
+                                        " left out: lines, points, curves or surfaces");
+    }
     if (wants_attributes()) {
       std::vector<FaceList::Origin> origins;
       faces_.append_to(result_, source_.options.progress, &origins);
@@ -100,7 +111,7 @@ class ObjReader {
   FaceList faces_;
   ObjAttributes attributes_;
   ReadGuard guard_;
-  std::size_t line_at_ = 0;
+  std::size_t line_at_ = 0, left_out_ = 0;
   FirstBad first_bad_;
 };
 
@@ -140,7 +151,7 @@ std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras) {
 std::vector<SideFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
                                 const std::filesystem::path& path) {
   std::vector<SideFile> files;
-  if (extras.attributes != nullptr) files = material_files(path, *extras.attributes);
+  if (extras.attributes != nullptr) files = material_files(path, extras.folder, *extras.attributes);
   const std::string library = files.empty() ? "" : files.back().path.filename().string();
   files.push_back({path, text_of_obj(soup, extras, library)});
   return files;

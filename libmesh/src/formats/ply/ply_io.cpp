@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string>
 
 #include <mesh/read_guard.h>
 
@@ -17,6 +19,7 @@ namespace meshrepair {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostElementsTold = 8;
 constexpr std::size_t kNoProperty = std::numeric_limits<std::size_t>::max();
 
 std::size_t find_property(const PlyElement& element, std::string_view name, bool is_list) {
@@ -66,11 +69,13 @@ class PlyBody {
       } else if (element.name == "tristrips") {
         read_strips(element);
       } else {
-        read_items(element, [&] { return pass_over(element); });
+        const std::size_t items = read_items(element, [&] { return pass_over(element); });
+        if (items > 0 && left_out_.size() < kMostElementsTold) left_out_.insert(element.name);
       }
     }
     guard_.step(faces_.triangles(), source_.bytes.size());
     report_losses();
+    warn_of_left_out();
     if (attributes_) {
       std::vector<FaceList::Origin> origins;
       faces_.append_to(result_, source_.options.progress, &origins);
@@ -103,6 +108,15 @@ class PlyBody {
                                         ", the file holds " + std::to_string(items));
     }
     return items;
+  }
+
+  void warn_of_left_out() {
+    std::string names;
+    for (const std::string& name : left_out_) {
+      names += (names.empty() ? "" : ", ") + printable(name);
+    }
+    if (names.empty()) return;
+    result_.report.warnings.push_back("what is not known here is left out: " + names);
   }
 
   bool pass_over(const PlyElement& element) {
@@ -269,7 +283,8 @@ class PlyBody {
   std::optional<PlyAttributes> attributes_;  // if they are wanted
   std::size_t corners_ = 0;                  // of faces that have ended
   bool has_strips_ = false;
-  bool stopped_ = false;  // what follows cannot be read
+  std::set<std::string> left_out_;  // elements
+  bool stopped_ = false;            // what follows cannot be read
 };
 
 }  // namespace

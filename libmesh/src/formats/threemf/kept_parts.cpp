@@ -212,7 +212,19 @@ void keep_parts(const MeshSource& source, ZipReader& archive, const ContentTypes
 std::vector<std::string> KeptPackage::lost_in(SoupFormat format) const {
   std::vector<std::string> lost;
   if (format == SoupFormat::threemf) return lost;
-  if (!metadata.empty()) lost.emplace_back("metadata");
+  const auto has_metadata = [](const auto& one) {
+    return one.marks && !one.marks->metadata.empty();
+  };
+  const bool has_some =
+      graph && (std::any_of(graph->objects.begin(), graph->objects.end(), has_metadata) ||
+                std::any_of(graph->items.begin(), graph->items.end(), has_metadata));
+  const auto is_not_printed = [](const KeptReference& one) {
+    return one.marks && (one.marks->printable == "0" || one.marks->printable == "false");
+  };
+  if (!metadata.empty() || has_some) lost.emplace_back("metadata");
+  if (graph && std::any_of(graph->items.begin(), graph->items.end(), is_not_printed)) {
+    lost.emplace_back("what is not to be printed");
+  }
   if (!parts.empty()) lost.emplace_back("other parts of the package");
   return lost;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -23,12 +24,24 @@ struct PropertyUse {
   std::array<std::uint32_t, 3> index = {kNone, kNone, kNone};
 };
 
-// By which programs tell objects and copies of them apart; all may be empty.
+// "Title", "Designer", ...
+struct ModelMetadata {
+  std::string name, value, preserve, type;
+  std::string space = {};  // of the prefix of the name, if it has one
+
+  friend bool operator==(const ModelMetadata&, const ModelMetadata&) = default;
+};
+
+// What programs tell objects and copies of them apart by, and say of them; all may be empty.
 struct ModelMarks {
   std::string part_number;
-  std::string uuid;       // as the production extension has them
-  std::string type;       // of objects: "model", ...
-  std::string thumbnail;  // of objects: a part, as part_name() makes it
+  std::string uuid = {};                     // as the production extension has them
+  std::string type = {};                     // of objects: "model", ...
+  std::string thumbnail = {};                // of objects: a part, as part_name() makes it
+  std::string printable = {};                // of items, as slicers have it: "0" or "1"
+  std::vector<ModelMetadata> metadata = {};  // of objects and items
+
+  friend bool operator==(const ModelMarks&, const ModelMarks&) = default;
 };
 
 // An object of a part, by the number of the part and its own id.
@@ -72,11 +85,6 @@ struct ModelTexture {
   std::string tile_u, tile_v, filter;  // as they stand there; may be empty
 };
 
-// "Title", "Designer", ...
-struct ModelMetadata {
-  std::string name, value, preserve, type;
-};
-
 // Names of other programs' metadata begin with such a prefix.
 struct ModelNamespace {
   std::string prefix, space;
@@ -103,6 +111,7 @@ struct ModelOddities {
   std::size_t painted = 0;         // triangles with attributes of other programs
   std::size_t unknown_groups = 0;  // compositematerials, and layers beyond those that are read
   std::vector<std::string> unknown_extensions;
+  std::set<std::string> unknown_elements;  // the first few, in places that are known
   std::string unknown_unit;
 };
 

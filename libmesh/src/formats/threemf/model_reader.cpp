@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -18,6 +19,7 @@ enum class ModelReader::Element : std::uint8_t {
   ignored,
   model,
   metadata,
+  metadatagroup,
   resources,
   build,
   item,
@@ -59,6 +61,9 @@ constexpr std::string_view kUuidAttribute =
 // Beyond these, layers of properties are passed over: there is one of each kind at most.
 constexpr std::size_t kMostLayers = 8;
 
+// Of elements that are told as unknown.
+constexpr std::size_t kMostNames = 8;
+
 struct KnownElement {
   Element parent;
   std::string_view name;
@@ -66,7 +71,7 @@ struct KnownElement {
 };
 
 // The most frequent ones first.
-constexpr std::array<KnownElement, 23> kElements = {{
+constexpr std::array<KnownElement, 26> kElements = {{
     {Element::triangles, "triangle", Element::triangle},
     {Element::vertices, "vertex", Element::vertex},
     {Element::texture2dgroup, "tex2coord", Element::tex2coord},
@@ -77,6 +82,9 @@ constexpr std::array<KnownElement, 23> kElements = {{
     {Element::build, "item", Element::item},
     {Element::none, "model", Element::model},
     {Element::model, "metadata", Element::metadata},
+    {Element::object, "metadatagroup", Element::metadatagroup},
+    {Element::item, "metadatagroup", Element::metadatagroup},
+    {Element::metadatagroup, "metadata", Element::metadata},
     {Element::model, "resources", Element::resources},
     {Element::model, "build", Element::build},
     {Element::resources, "object", Element::object},
@@ -91,6 +99,12 @@ constexpr std::array<KnownElement, 23> kElements = {{
     {Element::mesh, "vertices", Element::vertices},
     {Element::mesh, "triangles", Element::triangles},
 }};
+
+// What stands in others is told in other ways, or no loss.
+bool is_known_place(Element parent) {
+  return parent != Element::none && parent != Element::ignored && parent != Element::metadata &&
+         parent != Element::compositematerials;
+}
 
 bool is_known_space(std::string_view space) {
   return space.empty() || space.starts_with(kCorePrefix) || space.starts_with(kMaterialPrefix);
@@ -121,9 +135,12 @@ bool is_object_type(std::string_view type) {
 }
 
 std::shared_ptr<const ModelMarks> shared(ModelMarks marks) {
-  const bool has_one = !marks.part_number.empty() || !marks.uuid.empty() || !marks.type.empty() ||
-                       !marks.thumbnail.empty();
-  return has_one ? std::make_shared<const ModelMarks>(std::move(marks)) : nullptr;
+  if (marks == ModelMarks()) return nullptr;
+  return std::make_shared<const ModelMarks>(std::move(marks));
+}
+
+bool is_truth(std::string_view word) {
+  return word == "0" || word == "1" || word == "false" || word == "true";
 }
 
 }  // namespace
@@ -151,18 +168,24 @@ void ModelReader::start(std::string_view space, std::string_view name,
         });
     if (known != kElements.end()) element = known->element;
   }
+  if (element == Element::ignored && is_known_place(parent) &&
+      oddities_.unknown_elements.size() < kMostNames) {
+    oddities_.unknown_elements.emplace(name);
+  }
   open_.push_back(element);
   open(element, attributes);
 }
 
 void ModelReader::end() {
   if (open_.back() == Element::mesh) end_mesh();
+  const bool is_group = open_.back() == Element::metadatagroup;
   open_.pop_back();
+  if (is_group) end_group(open_.back() == Element::item);
 }
 
 void ModelReader::text(std::string_view piece) {
   if (properties_ && !open_.empty() && open_.back() == Element::metadata) {
-    part_.metadata.back().value += piece;
+    metadata().back().value += piece;
   }
 }
 
@@ -185,13 +208,40 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
       return read_reference(attributes, part_.items);
     case Element::metadata:
       if (properties_) {
-        part_.metadata.push_back(
-            {attributes.text("name"), {}, attributes.text("preserve"), attributes.text("type")});
+        metadata().push_back({attributes.text("name"),
+                              {},
+                              attributes.text("preserve"),
+                              attributes.text("type"),
+                              space_of_prefix(attributes.text("name"))});
       }
       return;
     default:
       if (properties_) open_property(element, attributes);
   }
+}
+
+// Those of the model, or of the object or item that is open.
+std::vector<ModelMetadata>& ModelReader::metadata() {
+  const auto is_group = [](Element element) { return element == Element::metadatagroup; };
+  return std::any_of(open_.begin(), open_.end(), is_group) ? metadata_of_group_ : part_.metadata;
+}
+
+std::string ModelReader::space_of_prefix(std::string_view name) const {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string_view::npos) return {};
+  const auto known =
+      std::find_if(part_.namespaces.begin(), part_.namespaces.end(),
+                   [&](const ModelNamespace& one) { return one.prefix == name.substr(0, colon); });
+  return known == part_.namespaces.end() ? std::string() : known->space;
+}
+
+void ModelReader::end_group(bool is_of_item) {
+  std::vector<ModelMetadata> found = std::exchange(metadata_of_group_, {});
+  if (found.empty()) return;
+  auto& known = is_of_item ? part_.items.back().marks : object().marks;
+  ModelMarks marks = known ? *known : ModelMarks();
+  std::move(found.begin(), found.end(), std::back_inserter(marks.metadata));
+  known = shared(std::move(marks));
 }
 
 void ModelReader::open_property(Element element, const XmlAttributes& attributes) {
@@ -263,7 +313,7 @@ void ModelReader::read_object(const XmlAttributes& attributes) {
   fresh.name = attributes.text("name");
   const std::string type = attributes.text("type");
   fresh.is_left_out = type == "other" || type == "support";
-  ModelMarks marks{attributes.text("partnumber"), uuid_in(attributes), {}, {}};
+  ModelMarks marks{.part_number = attributes.text("partnumber"), .uuid = uuid_in(attributes)};
   if (is_object_type(type)) marks.type = type;
   if (const auto path = attributes.find("thumbnail"))
     marks.thumbnail = part_name(*path, part_.name);
@@ -334,7 +384,11 @@ void ModelReader::read_reference(const XmlAttributes& attributes,
     if (!placement) stream_->fail("a transform that is not twelve numbers");
     reference.placement = *placement;
   }
-  reference.marks = shared({attributes.text("partnumber"), uuid_in(attributes), {}, {}});
+  ModelMarks marks{.part_number = attributes.text("partnumber"), .uuid = uuid_in(attributes)};
+  if (const auto printable = attributes.find("printable"); printable && is_truth(*printable)) {
+    marks.printable = *printable;
+  }
+  reference.marks = shared(std::move(marks));
   references.push_back(std::move(reference));
 }
 

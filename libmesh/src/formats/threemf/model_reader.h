@@ -50,7 +50,10 @@ class ModelReader final : public XmlHandler {
   void add_group(PropertyGroup::Kind kind, const XmlAttributes& attributes);
   void add_colour(std::string_view text);
   void end_mesh();
+  void end_group(bool is_of_item);
 
+  [[nodiscard]] std::vector<ModelMetadata>& metadata();
+  [[nodiscard]] std::string space_of_prefix(std::string_view name) const;
   [[nodiscard]] ModelObject& object() { return part_.objects.back(); }
   [[nodiscard]] PropertyGroup& group() { return part_.groups.back(); }
 
@@ -61,6 +64,7 @@ class ModelReader final : public XmlHandler {
   bool properties_;
   const XmlStream* stream_ = nullptr;
   std::vector<Element> open_;
+  std::vector<ModelMetadata> metadata_of_group_;
   bool saw_model_ = false;
 };
 

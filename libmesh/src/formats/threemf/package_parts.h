@@ -16,6 +16,8 @@ inline constexpr std::string_view kModelRelationship =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 inline constexpr std::string_view kTextureRelationship =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dtexture";
+inline constexpr std::string_view kThumbnailRelationship =
+    "http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail";
 inline constexpr std::string_view kModelType =
     "application/vnd.ms-package.3dmanufacturing-3dmodel+xml";
 inline constexpr std::string_view kRelationshipsType =

@@ -28,6 +28,9 @@ namespace meshrepair {
 // those of components.
 [[nodiscard]] ReadResult read_threemf(const MeshSource& source);
 
+// Whether it is there, and of a type that packages hold: PNG or JPEG.
+[[nodiscard]] bool can_be_in_threemf(const Image& image);
+
 // A package with one object, or those of the scene. Of attributes it holds materials, colours in
 // eight bits where all three corners have one, coordinates in textures where the material has a
 // picture in PNG or JPEG, the name of an object if it is the only one, and the keepsake of another

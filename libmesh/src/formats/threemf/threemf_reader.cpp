@@ -132,6 +132,13 @@ class ThreemfReader {
       warn("the unit " + printable(oddities_.unknown_unit) +
            " is not known: taken for millimeters");
     }
+    if (!oddities_.unknown_elements.empty()) {
+      std::string names;
+      for (const std::string& name : oddities_.unknown_elements) {
+        names += (names.empty() ? "" : ", ") + printable(name);
+      }
+      warn("what is not known here is left out: " + names);
+    }
     for (const std::string& extension : oddities_.unknown_extensions) {
       warn("the file needs the extension " + printable(extension) + ", which is not known here");
     }
@@ -164,9 +171,20 @@ class ThreemfReader {
     warn_if(oddities_.unknown_groups, "group",
             " of properties left out: mixtures of materials, or too many layers");
     ModelPart& first = parts_.front();
-    kept.namespaces = std::move(first.namespaces);
+    for (const ModelPart& part : parts_) add_namespaces(part.namespaces, kept.namespaces);
     kept.metadata = std::move(first.metadata);
     keep_parts(source_, archive_, types_, first.name, taken, kept, result_.report);
+  }
+
+  // A prefix means what it meant first.
+  static void add_namespaces(const std::vector<ModelNamespace>& from,
+                             std::vector<ModelNamespace>& to) {
+    for (const ModelNamespace& one : from) {
+      const bool is_known = std::any_of(to.begin(), to.end(), [&](const ModelNamespace& known) {
+        return known.prefix == one.prefix;
+      });
+      if (!is_known) to.push_back(one);
+    }
   }
 
   std::optional<Image> picture_of(const ModelPart& part, const ModelTexture& texture,

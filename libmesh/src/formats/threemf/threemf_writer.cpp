@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -12,6 +12,7 @@
 #include "formats/common/text_writer.h"
 #include "kept_parts.h"
 #include "package_parts.h"
+#include "package_writer.h"
 #include "threemf_io.h"
 #include "written_properties.h"
 #include "xml_text.h"
@@ -25,7 +26,6 @@ constexpr std::string_view kMaterialSpace =
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 constexpr std::string_view kProductionSpace =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
-constexpr std::string_view kXmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 constexpr std::string_view kDescription = "Description";
 
 void require_writable(const TriangleSoup& soup) {
@@ -47,6 +47,7 @@ class ModelWriter {
       : soup_(soup), extras_(extras), attributes_(extras.attributes), kept_(kept) {
     material_ = free_prefix("m", kMaterialSpace);
     production_ = free_prefix("p", kProductionSpace);
+    collect_metadata();
     if (attributes_ != nullptr) properties_ = write_properties(soup, *attributes_, kept, material_);
   }
 
@@ -65,6 +66,8 @@ class ModelWriter {
   }
 
   [[nodiscard]] const std::vector<WrittenPicture>& pictures() const { return properties_.pictures; }
+  // Parts that objects have for their thumbnails, once the model is written.
+  [[nodiscard]] const std::vector<std::string>& thumbnails() const { return thumbnails_; }
 
  private:
   // This letter, or several, unless other metadata have it.
@@ -89,16 +92,16 @@ class ModelWriter {
     append_xml_attribute(xml_, "xmlns", kCoreSpace);
     if (!properties_.resources.empty()) {
       append_xml_attribute(xml_, "xmlns:" + material_, kMaterialSpace);
-      declared_.insert(material_);
+      declared_.emplace(material_, kMaterialSpace);
     }
     if (has_uuids()) {
       append_xml_attribute(xml_, "xmlns:" + production_, kProductionSpace);
-      declared_.insert(production_);
+      declared_.emplace(production_, kProductionSpace);
     }
     if (kept_ != nullptr) {
       for (const ModelNamespace& one : kept_->namespaces) {
         if (one.prefix.empty() || one.space.empty() || !is_in_use(one.prefix)) continue;
-        if (!declared_.insert(one.prefix).second) continue;
+        if (!declared_.emplace(one.prefix, one.space).second) continue;
         append_xml_attribute(xml_, "xmlns:" + one.prefix, one.space);
       }
     }
@@ -129,11 +132,35 @@ class ModelWriter {
     if (!uuid.empty()) append_xml_attribute(xml_, production_ + ":UUID", uuid);
   }
 
+  void collect_metadata() {
+    if (kept_ == nullptr) return;
+    const auto collect = [this](const std::vector<ModelMetadata>& list) {
+      for (const ModelMetadata& one : list) metadata_.push_back(&one);
+    };
+    const auto collect_marks = [&](const auto& list) {
+      for (const auto& one : list) {
+        if (one.marks) collect(one.marks->metadata);
+      }
+    };
+    collect(kept_->metadata);
+    const KeptGraph* const graph = kept_graph();
+    if (graph == nullptr) return;
+    collect_marks(graph->objects);
+    collect_marks(graph->items);
+  }
+
   [[nodiscard]] bool is_in_use(const std::string& prefix) const {
-    return std::any_of(
-        kept_->metadata.begin(), kept_->metadata.end(), [&](const ModelMetadata& one) {
-          return one.name.starts_with(prefix + ":") || one.type.starts_with(prefix + ":");
-        });
+    return std::any_of(metadata_.begin(), metadata_.end(), [&](const ModelMetadata* one) {
+      return one->name.starts_with(prefix + ":") || one->type.starts_with(prefix + ":");
+    });
+  }
+
+  // It has a name that means the same here.
+  [[nodiscard]] bool has_name(const ModelMetadata& one) const {
+    const std::size_t colon = one.name.find(':');
+    if (colon == std::string::npos) return !one.name.empty();
+    const auto space = declared_.find(one.name.substr(0, colon));
+    return space != declared_.end() && space->second == one.space;
   }
 
   // Names are to be different; comments go behind the description.
@@ -144,29 +171,37 @@ class ModelWriter {
     std::unordered_set<std::string> names;
     if (kept_ != nullptr) {
       for (ModelMetadata one : kept_->metadata) {
-        const std::size_t colon = one.name.find(':');
-        const bool is_declared =
-            colon == std::string::npos || declared_.contains(one.name.substr(0, colon));
-        if (one.name.empty() || !is_declared || !names.insert(one.name).second) continue;
+        if (!has_name(one) || !names.insert(one.name).second) continue;
         if (one.name == kDescription && one.value.find(lines) == std::string::npos) {
           one.value += (one.value.empty() ? "" : "\n") + lines;
         }
-        write_metadatum(one);
+        append_metadatum(xml_, one);
       }
     }
     if (!lines.empty() && !names.contains(std::string(kDescription))) {
-      write_metadatum({std::string(kDescription), lines, {}, {}});
+      append_metadatum(xml_, {std::string(kDescription), lines, {}, {}});
     }
   }
 
-  void write_metadatum(const ModelMetadata& one) {
-    xml_ += "<metadata";
-    append_xml_attribute(xml_, "name", one.name);
-    if (!one.preserve.empty()) append_xml_attribute(xml_, "preserve", one.preserve);
-    if (!one.type.empty()) append_xml_attribute(xml_, "type", one.type);
-    xml_ += '>';
-    append_xml_text(xml_, one.value);
-    xml_ += "</metadata>\n";
+  static void append_metadatum(std::string& xml, const ModelMetadata& one) {
+    xml += "<metadata";
+    append_xml_attribute(xml, "name", one.name);
+    if (!one.preserve.empty()) append_xml_attribute(xml, "preserve", one.preserve);
+    if (!one.type.empty()) append_xml_attribute(xml, "type", one.type);
+    xml += '>';
+    append_xml_text(xml, one.value);
+    xml += "</metadata>\n";
+  }
+
+  // Of an object or an item; empty if it has none.
+  [[nodiscard]] std::string metadata_group(const ModelMarks* marks) const {
+    std::string lines;
+    std::unordered_set<std::string> names;
+    if (marks == nullptr) return lines;
+    for (const ModelMetadata& one : marks->metadata) {
+      if (has_name(one) && names.insert(one.name).second) append_metadatum(lines, one);
+    }
+    return lines.empty() ? lines : "<metadatagroup>\n" + lines + "</metadatagroup>\n";
   }
 
   // Of the object, if all triangles are of one.
@@ -243,7 +278,7 @@ class ModelWriter {
       // The format has no objects with both.
       if (mesh != kNone) components.push_back({mesh, {}, nullptr});
       id_of.push_back(open_object(object.name, object.marks.get()));
-      xml_ += ">\n<components>\n";
+      xml_ += ">\n" + metadata_group(object.marks.get()) + "<components>\n";
       for (const KeptReference& component : components) write_reference("component", component);
       xml_ += "</components>\n</object>\n";
     }
@@ -265,8 +300,10 @@ class ModelWriter {
       }
       append_xml_attribute(xml_, "transform", numbers);
     }
-    if (reference.marks) append_marks(*reference.marks, element == "item");
-    xml_ += "/>\n";
+    const bool is_item = element == "item";
+    if (reference.marks) append_marks(*reference.marks, is_item);
+    const std::string group = is_item ? metadata_group(reference.marks.get()) : std::string();
+    xml_ += group.empty() ? "/>\n" : ">\n" + group + "</item>\n";
   }
 
   // All but the end of its first tag. Returns its id.
@@ -278,26 +315,35 @@ class ModelWriter {
     append_xml_attribute(xml_, "type", has_type ? marks->type : "model");
     if (!name.empty()) append_xml_attribute(xml_, "name", name);
     if (marks == nullptr) return id;
-    if (is_kept_part(marks->thumbnail)) {
-      append_xml_attribute(xml_, "thumbnail", "/" + percent_encoded(marks->thumbnail));
+    if (is_thumbnail(marks->thumbnail)) {
+      thumbnails_.push_back(marks->thumbnail);
+      append_xml_attribute(xml_, "thumbnail", uri_of_part(marks->thumbnail));
     }
     append_marks(*marks, true);
     return id;
   }
 
-  // Components have no part numbers.
-  void append_marks(const ModelMarks& marks, bool with_part_number) {
-    if (with_part_number && !marks.part_number.empty()) {
+  // Components have UUIDs alone.
+  void append_marks(const ModelMarks& marks, bool with_all) {
+    if (with_all && !marks.part_number.empty()) {
       append_xml_attribute(xml_, "partnumber", marks.part_number);
+    }
+    if (with_all && !marks.printable.empty()) {
+      append_xml_attribute(xml_, "printable", marks.printable);
     }
     append_uuid(marks.uuid);
   }
 
-  [[nodiscard]] bool is_kept_part(const std::string& name) const {
-    return !name.empty() && std::any_of(kept_->of_model.begin(), kept_->of_model.end(),
-                                        [&](const PackageRelationship& one) {
-                                          return part_key(one.target) == part_key(name);
-                                        });
+  // A picture that is in the package, or what the model calls so.
+  [[nodiscard]] bool is_thumbnail(const std::string& name) const {
+    const std::string key = part_key(name), extension = extension_of_part(name);
+    const auto has_key = [&](const std::string& other) { return part_key(other) == key; };
+    const bool is_named = std::any_of(kept_->of_model.begin(), kept_->of_model.end(),
+                                      [&](const auto& one) { return has_key(one.target); });
+    if (name.empty() || is_named) return is_named;
+    const bool is_picture = extension == "png" || extension == "jpg" || extension == "jpeg";
+    return is_picture && std::any_of(kept_->parts.begin(), kept_->parts.end(),
+                                     [&](const auto& one) { return has_key(one.name); });
   }
 
   // Of the soup.
@@ -314,7 +360,7 @@ class ModelWriter {
       append_xml_attribute(xml_, "pid", std::to_string(property.group));
       append_xml_attribute(xml_, "pindex", std::to_string(property.index[0]));
     }
-    xml_ += ">\n<mesh>\n<vertices>\n";
+    xml_ += ">\n" + metadata_group(marks) + "<mesh>\n<vertices>\n";
     append_lines(xml_, range.point_end - range.first_point, [&](std::string& lines, std::size_t p) {
       const Vec3d& point = soup_.points[range.first_point + p];
       lines += "<vertex x=\"";
@@ -360,95 +406,10 @@ class ModelWriter {
   const KeptPackage* kept_;
   std::string material_, production_;  // prefixes
   WrittenProperties properties_;
-  std::unordered_set<std::string> declared_;
+  std::unordered_map<std::string, std::string_view> declared_;  // spaces by their prefixes
+  std::vector<const ModelMetadata*> metadata_;                  // of the model, objects and items
+  std::vector<std::string> thumbnails_;
   std::string xml_;
-};
-
-// As types of content and relationships name a part.
-std::string uri_of(std::string_view part) {
-  std::string uri(1, '/');
-  return uri += percent_encoded(part);
-}
-
-// The types of content, and the relationships of the package and of the model.
-class PackageWriter {
- public:
-  PackageWriter(const KeptPackage* kept, const std::vector<WrittenPicture>& pictures)
-      : kept_(kept), pictures_(pictures) {}
-
-  [[nodiscard]] std::string content_types() const {
-    std::map<std::string, std::string> of_extension = {{"model", std::string(kModelType)},
-                                                       {"rels", std::string(kRelationshipsType)}};
-    for (const WrittenPicture& picture : pictures_) {
-      of_extension.emplace(extension_of_part(picture.name), picture.media_type);
-    }
-    std::string overrides;
-    if (kept_ != nullptr) {
-      for (const KeptPackage::Part& part : kept_->parts) {
-        const std::string type =
-            part.media_type.empty() ? "application/octet-stream" : part.media_type;
-        const std::string extension = extension_of_part(part.name);
-        if (!extension.empty() && of_extension.emplace(extension, type).first->second == type) {
-          continue;
-        }
-        overrides += "<Override";
-        append_xml_attribute(overrides, "PartName", uri_of(part.name));
-        append_xml_attribute(overrides, "ContentType", type);
-        overrides += "/>\n";
-      }
-    }
-    std::string xml(kXmlDeclaration);
-    xml += "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n";
-    for (const auto& [extension, type] : of_extension) {
-      xml += "<Default";
-      append_xml_attribute(xml, "Extension", extension);
-      append_xml_attribute(xml, "ContentType", type);
-      xml += "/>\n";
-    }
-    return xml + overrides + "</Types>\n";
-  }
-
-  [[nodiscard]] std::string of_package() {
-    begin();
-    add(kModelRelationship, kUsualModelPart);
-    if (kept_ != nullptr) {
-      for (const auto& one : kept_->of_package) add(one.type, one.target);
-    }
-    return end();
-  }
-
-  // Empty if there are none.
-  [[nodiscard]] std::string of_model() {
-    begin();
-    for (const WrittenPicture& picture : pictures_) add(kTextureRelationship, picture.name);
-    if (kept_ != nullptr) {
-      for (const auto& one : kept_->of_model) add(one.type, one.target);
-    }
-    return next_ == 0 ? std::string() : end();
-  }
-
- private:
-  void begin() {
-    next_ = 0;
-    xml_ = kXmlDeclaration;
-    xml_ +=
-        "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n";
-  }
-
-  void add(std::string_view type, std::string_view target) {
-    xml_ += "<Relationship";
-    append_xml_attribute(xml_, "Target", uri_of(target));
-    append_xml_attribute(xml_, "Id", "rel" + std::to_string(next_++));
-    append_xml_attribute(xml_, "Type", type);
-    xml_ += "/>\n";
-  }
-
-  std::string end() { return std::move(xml_) + "</Relationships>\n"; }
-
-  const KeptPackage* kept_;
-  const std::vector<WrittenPicture>& pictures_;
-  std::string xml_;
-  std::size_t next_ = 0;
 };
 
 bool is_packed_already(std::string_view part) {
@@ -470,7 +431,7 @@ std::string format_threemf(const TriangleSoup& soup, const SoupExtras& extras) {
   archive.add_text(std::string(kContentTypesPart), package.content_types());
   archive.add_text(relationships_part_of(""), package.of_package());
   archive.add_text(std::string(kUsualModelPart), model.run());
-  if (std::string links = package.of_model(); !links.empty()) {
+  if (std::string links = package.of_model(model.thumbnails()); !links.empty()) {
     archive.add_text(relationships_part_of(kUsualModelPart), std::move(links));
   }
   for (const WrittenPicture& picture : model.pictures()) {

@@ -17,6 +17,7 @@
 #include "formats/common/text_writer.h"
 #include "model_values.h"
 #include "property_labels.h"
+#include "threemf_io.h"
 #include "xml_text.h"
 
 namespace meshrepair {
@@ -33,8 +34,8 @@ std::string_view picture_type(std::string_view bytes) {
 
 std::shared_ptr<const std::string> bytes_of_picture(const Image& image) {
   std::error_code error;
-  if (image.bytes || !is_regular_file(std::filesystem::symlink_status(image.path, error)))
-    return image.bytes;
+  const bool is_file = is_regular_file(std::filesystem::symlink_status(image.path, error));
+  if (image.bytes || image.is_elsewhere || !is_file) return image.bytes;
   try {
     return std::make_shared<const std::string>(FileBytes(image.path).bytes());
   } catch (const InputError&) {
@@ -425,6 +426,11 @@ class PropertyWriter {
 };
 
 }  // namespace
+
+bool can_be_in_threemf(const Image& image) {
+  const auto bytes = bytes_of_picture(image);
+  return bytes != nullptr && !picture_type(*bytes).empty();
+}
 
 WrittenProperties write_properties(const TriangleSoup& soup, const Attributes& attributes,
                                    const KeptPackage* kept, const std::string& material) {

@@ -6,6 +6,8 @@
 
 namespace meshrepair {
 
+inline constexpr std::string_view kXmlDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
 // Appends a text for between tags or inside quotes. What is no UTF-8 is taken for Latin-1; what XML
 // cannot hold becomes '?'.
 void append_xml_text(std::string& xml, std::string_view text);

@@ -1,4 +1,5 @@
 // Libraries of materials of OBJ files.
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -77,10 +78,11 @@ TEST_F(ObjLibraries, AreWrittenBesideTheMeshWithNamesOfPicturesFromThere) {
   const auto out = folder_.path() / "out/deep/cube.obj";
   write_soup(result.soup, out, {.extras = {.attributes = &result.attributes}});
   EXPECT_TRUE(text_of(out).starts_with("mtllib cube.mtl\n"));
-  EXPECT_EQ(text_of(folder_.path() / "out/deep/cube.mtl"),
-            "# of cubes\nnewmtl wood\n  Kd 0.5 0.25 0.125\nd 0.5\n"
-            "map_Kd -s 1 1 1 -o 0.5 ../../in/lib/textures/wood grain.png\nbump ../secret.png\n"
-            "newmtl steel plate\nmap_Bump -bm 0.5 ../../in/lib/bump.png\n");
+  EXPECT_EQ(
+      text_of(folder_.path() / "out/deep/cube.mtl"),
+      "# of cubes\nnewmtl wood\n  Kd 0.5 0.25 0.125\nd 0.5\n"
+      "map_Kd -s 1 1 1 -o 0.5 ../../in/lib/textures/wood grain.png\nbump ../../in/secret.png\n"
+      "newmtl steel plate\nmap_Bump -bm 0.5 ../../in/lib/bump.png\n");
 }
 
 TEST_F(ObjLibraries, OfTheInputAreNotWrittenOver) {
@@ -266,6 +268,21 @@ TEST_F(ObjLibraries, OneLineNamesSeveral) {
   EXPECT_EQ(read.attributes.looks[0].colour[0], 1);
   EXPECT_EQ(read.attributes.looks[0].colour[1], 0);
   EXPECT_EQ(read.attributes.looks[1].colour[0], 0);
+}
+
+TEST_F(ObjLibraries, OfSeveralTheFirstThatDefinesAMaterialCountsInEveryFormat) {
+  write("in/one.mtl", "newmtl wood\nKd 1 0 0\n");
+  write("in/two.mtl", "newmtl wood\nKd 0 0 1\nnewmtl steel\nKd 0 1 0\n");
+  write("in/two.obj",
+        "mtllib one.mtl\nmtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n"
+        "usemtl steel\nf 1 3 2\n");
+  const ReadResult read = read_with_attributes(folder_.path() / "in/two.obj");
+  EXPECT_EQ(read.attributes.looks.at(0).colour, (std::array<double, 4>{1, 0, 0, 1}));
+  EXPECT_EQ(read.attributes.looks.at(1).colour, (std::array<double, 4>{0, 1, 0, 1}));
+  const auto out = folder_.path() / "out/two.obj";
+  write_soup(read.soup, out, {.extras = {.attributes = &read.attributes}});
+  EXPECT_EQ(read_with_attributes(out).attributes.looks.at(0).colour,
+            read.attributes.looks[0].colour);
 }
 
 TEST_F(ObjLibraries, AMeshThatIsNoFileHasNone) {

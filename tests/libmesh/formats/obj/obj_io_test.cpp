@@ -45,13 +45,14 @@ TEST(ReadObj, ColorsAndWeightsAreIgnored) {
   EXPECT_TRUE(result.report.warnings.empty());
 }
 
-TEST(ReadObj, OtherElementsAreIgnoredAndNoFileIsOpened) {
+TEST(ReadObj, OtherElementsAreSaidAndNoFileIsOpened) {
   const std::string text =
       "mtllib /etc/passwd\ncall no_such.obj\no a\ng b\ns off\nusemtl c\nvn 0 0 1\nvt 0 0\n" +
       kPoints + "l 1 2 3\np 1\ncstype bezier\nf 1 2 3\n";
   const ReadResult result = read_text(text, "a.obj");
   EXPECT_EQ(result.soup.triangles, kFirst);
-  EXPECT_TRUE(result.report.warnings.empty());
+  EXPECT_EQ(result.report.warnings,
+            std::vector<std::string>{"3 elements left out: lines, points, curves or surfaces"});
 }
 
 TEST(ReadObj, CoordinatesAreDoubles) {

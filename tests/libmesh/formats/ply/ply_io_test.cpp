@@ -127,11 +127,16 @@ TEST(ReadPly, FacesMayComeBeforePoints) {
                         "element vertex 3\n" + kAxes + "end_header\n" + kFaces + kPoints);
 }
 
-TEST(ReadPly, OtherElementsArePassedOver) {
-  expect_both_triangles(
+TEST(ReadPly, OtherElementsArePassedOverAndSaid) {
+  const ReadResult result = read_text(
       "ply\nformat ascii 1.0\nelement camera 1\nproperty float a\nproperty list int int b\n" +
-      ("element vertex 3\n" + kAxes) + "element nothing 5\nelement material 2\nproperty int c\n" +
-      "element face 2\n" + kIndices + "end_header\n0.5 2 7 8\n" + kPoints + "1\n2\n" + kFaces);
+          ("element vertex 3\n" + kAxes) +
+          "element nothing 5\nelement material 2\nproperty int c\n" + "element face 2\n" +
+          kIndices + "end_header\n0.5 2 7 8\n" + kPoints + "1\n2\n" + kFaces,
+      "a.ply");
+  EXPECT_EQ(result.soup.triangles, kTriangles);
+  EXPECT_EQ(result.report.warnings,
+            std::vector<std::string>{"what is not known here is left out: camera, material"});
 }
 
 TEST(ReadPly, WhatALineHoldsBeyondItsItemIsIgnored) {

@@ -362,7 +362,15 @@ std::vector<OddPackage> odd_models() {
                                     "<component/><item/><resources><vertex/><triangle/><base/>"
                                     "<mesh><triangle/></mesh>"));
        },
-       ""},
+       "",
+       "what is not known here is left out: base, color, component, item, mesh, multi, triangle"},
+      {"BeamsAndSlices",
+       [] {
+         return package_of(replaced(good_model(), "</triangles>",
+                                    "</triangles><b:beamlattice xmlns:b=\"urn:b\"><b:beams/>"
+                                    "</b:beamlattice>"));
+       },
+       "", "what is not known here is left out: beamlattice"},
   };
 }
 

@@ -117,6 +117,84 @@ TEST(ThreemfScene, WhatProgramsKnowObjectsByStays) {
   }
 }
 
+// What slicers and other programs say of objects and items.
+std::string package_with_metadata() {
+  const std::string group =
+      "<metadatagroup><metadata name=\"Title\" preserve=\"1\">a &lt; b</metadata><metadata "
+      "name=\"x:kind\" type=\"xs:string\">K</metadata><metadata name=\"y:lost\">no space</metadata>"
+      "<metadata name=\"Title\">again</metadata></metadatagroup>";
+  std::string model =
+      model_of(replaced(tetrahedron_object(1), "<mesh>", group + "<mesh>") + "<object id=\"3\">" +
+                   group + "<components>" + component_of(1) + "</components></object>",
+               "<item objectid=\"3\" printable=\"0\">" + group + "</item>" + item_of(1) +
+                   item_of(1, "printable=\"maybe\""));
+  model = replaced(model, "<model ", "<model xmlns:x=\"urn:x\" xmlns:xs=\"urn:xs\" ");
+  return package_of(model);
+}
+
+TEST(ThreemfScene, MetadataOfObjectsAndItemsStay) {
+  const ReadResult read = read_by_mesh(package_with_metadata(), true);
+  EXPECT_EQ(written(read_by_mesh(written(read), true)), written(read));
+  EXPECT_EQ(read_by_peer(written(read), false).warnings, "");
+  const std::string model = model_in(written(read));
+  const std::string group =
+      ">\n<metadatagroup>\n<metadata name=\"Title\" preserve=\"1\">a &lt; b</metadata>\n"
+      "<metadata name=\"x:kind\" type=\"xs:string\">K</metadata>\n</metadatagroup>\n";
+  EXPECT_THAT(model, HasSubstr("<object id=\"1\" type=\"model\"" + group + "<mesh>"));
+  EXPECT_THAT(model, HasSubstr("<object id=\"2\" type=\"model\"" + group + "<components>"));
+  EXPECT_THAT(model, HasSubstr("<item objectid=\"2\" printable=\"0\"" + group + "</item>"));
+  EXPECT_THAT(model, HasSubstr("<item objectid=\"1\"/>\n<item objectid=\"1\"/>"));
+  EXPECT_THAT(model, HasSubstr("xmlns:x=\"urn:x\""));
+  EXPECT_THAT(read.attributes.keepsake->lost_in(SoupFormat::glb),
+              ::testing::ElementsAre("metadata", "what is not to be printed"));
+}
+
+TEST(ThreemfScene, PrefixesOfOtherPartsMeanWhatTheyMeant) {
+  const auto object = [](const std::string& name) {
+    return replaced(
+        tetrahedron_object(1), "<mesh>",
+        "<metadatagroup><metadata name=\"" + name + "\">v</metadata></metadatagroup><mesh>");
+  };
+  const auto declared = [](const std::string& model, const std::string& what) {
+    return replaced(model, "<model ", "<model " + what + " ");
+  };
+  const std::string package =
+      package_of(declared(model_of(object("x:a"), item_of(1) + item_of(1, "p:path=\"/b.model\"") +
+                                                      item_of(1, "p:path=\"/c.model\"")),
+                          "xmlns:x=\"urn:x\""),
+                 {{"b.model", declared(model_of(object("x:b")), "xmlns:x=\"urn:other\"")},
+                  {"c.model", declared(model_of(object("z:c")), "xmlns:z=\"urn:z\"")}});
+  const std::string model = model_in(written(read_by_mesh(package, true)));
+  EXPECT_THAT(model, HasSubstr("\"x:a\""));
+  EXPECT_THAT(model, Not(HasSubstr("\"x:b\"")));
+  EXPECT_THAT(model, HasSubstr("\"z:c\""));
+  EXPECT_THAT(model, HasSubstr("xmlns:z=\"urn:z\""));
+}
+
+TEST(ThreemfScene, ThumbnailsThatOnlyThePackageNamesStay) {
+  const std::string link =
+      "<Relationship Target=\"/a.png\" Id=\"t\" Type=\"http://schemas.openxmlformats.org/package/"
+      "2006/relationships/metadata/thumbnail\"/></Relationships>";
+  const std::string model = model_of(
+      tetrahedron_object(1, "thumbnail=\"/a.png\"") + tetrahedron_object(2, "thumbnail=\"/b.xml\""),
+      item_of(1) + item_of(2));
+  const std::string package =
+      zip_of({{"_rels/.rels", replaced(kRelationships, "</Relationships>", link)},
+              {"3D/3dmodel.model", model},
+              {"a.png", "\x89PNG\r\n\x1A\n"},
+              {"b.xml", "no picture"}});
+  const std::string again = written(read_by_mesh(package, true));
+  EXPECT_THAT(model_in(again), HasSubstr("thumbnail=\"/a.png\""));
+  EXPECT_THAT(model_in(again), Not(HasSubstr("thumbnail=\"/b.xml\"")));
+  EXPECT_EQ(read_by_peer(again, false).warnings, "");
+  const MeshSource source{again, "a.3mf"};
+  ZipReader archive(source);
+  for (const char* links : {"_rels/.rels", "3D/_rels/3dmodel.model.rels"}) {
+    EXPECT_THAT(archive.text_of(*archive.find(links)), HasSubstr("Target=\"/a.png\"")) << links;
+  }
+  EXPECT_EQ(written(read_by_mesh(again, true)), again);
+}
+
 TEST(ThreemfScene, ThumbnailsGoWithOtherPartsOfThePackage) {
   const std::string model = model_in(written(read_by_mesh(marked_package(), false)));
   EXPECT_THAT(model, HasSubstr("partnumber=\"L &amp; 1\" " + uuid_of(1)));
