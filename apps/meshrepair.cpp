@@ -14,12 +14,12 @@ namespace meshrepair {
 namespace {
 
 // Who meant sheets can have walls.
-Surface repair_or_advise(const AnySoup& input, const PointOptions& points,
-                         const RepairOptions& options, Findings& findings) {
+Surface repair_or_advise(AnySoup& input, const PointOptions& points, const RepairOptions& options,
+                         Run& run, Findings& findings) {
   try {
-    return repair_any(input, points, options, findings);
+    return repair_any(input, points, options, run, findings);
   } catch (const NoSolidError& error) {
-    if (findings.point_soup) throw;
+    if (input.cloud) throw;
     throw NoSolidError(error.what() + advice_to_thicken(findings.repair));
   }
 }
@@ -52,7 +52,7 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   if (!input.scene.meshes.empty()) {
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
-  const Surface surface = repair_or_advise(input, points, repair_options, findings);
+  const Surface surface = repair_or_advise(input, points, repair_options, run, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   const Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);

@@ -3,14 +3,14 @@
 //   solid_of_points IN OUT
 //
 // One idea: points become a triangle soup, each point with its neighbours, and the repair makes a
-// solid of that as of any other soup.
+// solid of that as of any other soup. Where they enclose nothing, smoother ones and a base are
+// tried.
 #include <cstdio>
 #include <exception>
+#include <scan/repair_points.h>
 
 #include <mesh/point_io.h>
 #include <mesh/soup_io.h>
-#include <points/point_soup.h>
-#include <repair/repair.h>
 
 int main(int argc, char** argv) {
   if (argc != 3) {
@@ -19,9 +19,9 @@ int main(int argc, char** argv) {
   }
   try {
     const meshrepair::PointReadResult scan = meshrepair::read_points(argv[1]);
-    meshrepair::PointSoupReport report;
-    const meshrepair::PointSoup points = meshrepair::make_point_soup(scan.cloud, {}, report);
-    const meshrepair::RepairResult solid = meshrepair::repair(points.soup);
+    meshrepair::RepairPointsReport report;
+    meshrepair::RepairReport repair;
+    const meshrepair::PointSolid solid = meshrepair::repair_points(scan.cloud, {}, report, repair);
     meshrepair::write_soup(solid.surface.mesh, argv[2]);
     return 0;
   } catch (const std::exception& error) {

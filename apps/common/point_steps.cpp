@@ -1,7 +1,6 @@
 #include "common/point_steps.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -10,7 +9,6 @@
 #include <spdlog/spdlog.h>
 
 #include <base/error.h>
-#include <repair/drop_small_parts.h>
 
 #include "common/summary.h"
 
@@ -19,27 +17,12 @@ namespace {
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
-// Of the triangles of a scan that is closed but for holes, most are in the result, and most of the
-// result is of them. Scans of one side come to less than a third or more than half.
-constexpr double kFewestKept = 0.5;
-constexpr double kMostMadeUp = 0.4;
-
-// Of the triangles between points without noise, nearly all are wanted by all three corners; with
-// noise of a quarter of the spacing, half of them.
-constexpr double kNoisy = 0.5;
-
-// Share of the triangles that all three corners want.
-double agreement(const PointSoupReport& soup) {
-  const auto& [one, two, three] = soup.by_votes;
-  return static_cast<double>(three) /
-         static_cast<double>(std::max<std::size_t>(1, one + two + three));
-}
+constexpr const char* kHowToSmooth = ": --project 3 --neighbours 30 smooths them";
 
 std::string why_noisy(const PointSoupReport& soup) {
-  const double share = agreement(soup);
-  if (share >= kNoisy) return {};
-  return "the points are noisy, all three corners want only " + percent(share) +
-         " of the triangles: --project 3 --neighbours 30 smooths them";
+  if (soup.agreement() >= kNoisyAgreement) return {};
+  return "the points are noisy, all three corners want only " + percent(soup.agreement()) +
+         " of the triangles";
 }
 
 // What is there, but is no surface for the triangulation.
@@ -49,7 +32,7 @@ constexpr double kManyUnused = 0.1;
 void warn_of_points(const Findings& findings) {
   const PointSoupReport& soup = *findings.point_soup;
   const std::string noisy = why_noisy(soup);
-  if (!noisy.empty()) spdlog::warn("{}: {}", findings.input_name(), noisy);
+  if (!noisy.empty()) spdlog::warn("{}: {}{}", findings.input_name(), noisy, kHowToSmooth);
   const std::size_t unused = soup.points - std::min(soup.points, findings.points_in_result);
   if (static_cast<double>(unused) <= kManyUnused * static_cast<double>(soup.points)) return;
   spdlog::warn(
@@ -58,27 +41,18 @@ void warn_of_points(const Findings& findings) {
       findings.input_name(), unused, number_of(soup.points, "point"));
 }
 
+// What has not been tried yet.
 std::string advice(const Findings& findings) {
   const std::string noisy = why_noisy(*findings.point_soup);
-  if (!noisy.empty()) return "; " + noisy;
-  return "; --base closes a scan that is open below, and meshrepair on what pointmesh writes "
-         "closes "
-         "whatever it can";
-}
-
-void require_enclosure(const RepairReport& repair) {
-  const auto kept = static_cast<double>(repair.triangles.untouched + repair.triangles.cut);
-  const double share = kept / static_cast<double>(repair.clean.triangles_in);
-  if (share < kFewestKept) {
-    throw NoSolidError(
-        "the points enclose little: " + percent(1 - share) +
-        " of the triangles between them are no wall of anything, as in a scan of one side");
+  if (noisy.empty()) {
+    return "; --base closes a scan that is open below, and meshrepair on what pointmesh writes "
+           "closes "
+           "whatever it can";
   }
-  const double made_up = repair.closing_area / repair.output_area;
-  if (made_up > kMostMadeUp) {
-    throw NoSolidError("the points leave too much open: " + percent(made_up) +
-                       " of the surface would be made up");
-  }
+  if (findings.tries.size() <= 1) return "; " + noisy + kHowToSmooth;
+  const PointTry& last = findings.tries.back();
+  return fmt::format("; {}, also of those smoothed with --project {} --neighbours {}", noisy,
+                     last.project, last.neighbours);
 }
 
 PointCloud keep(PointReadResult result, Findings& findings) {
@@ -140,78 +114,98 @@ PointSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, R
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("points");
   options.progress = &run.progress;
-  PointSoup result = make_point_soup(cloud, options, findings.point_soup.emplace());
-  const std::size_t most = run.options.max_triangles, count = result.soup.triangles.size();
-  if (most > 0 && count > most) {
-    throw LimitError(number_of(count, "triangle") + " between the points, more than " +
-                     std::to_string(most));
-  }
-  return result;
+  options.most_triangles = run.options.max_triangles;
+  return make_point_soup(cloud, options, findings.point_soup.emplace());
 }
 
 void add_point_repair_options(CLI::App& app, PointOptions& options) {
   app.add_flag("--points", options.as_points,
                "Use only the points of a mesh, as if it had no faces")
       ->group("Points");
-  app.add_flag("--base", options.base,
+  app.add_flag("--base", options.repair.base,
                "Close an open scan, such as a terrain, by walls down to a floor")
       ->group("Points");
   app.add_option_function<std::string>(
-         "--up", [&options](const std::string& axis) { options.scan_base.axis = axis[0] - 'x'; },
+         "--up",
+         [&options](const std::string& axis) { options.repair.scan_base.axis = axis[0] - 'x'; },
          "The axis that points up from the floor: x, y or z")
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->type_name("NAME")
       ->default_str("z")
       ->group("Points");
-  add_point_options(app, options.soup);
+  add_point_options(app, options.repair.soup);
+  PointAdviceOptions& advice = options.repair.advice;
+  app.add_flag_callback(
+         "--no-advice",
+         [&advice] {
+           advice = {false, false, false};
+         },
+         "Where points enclose nothing, try no other --project, --neighbours and --base")
+      ->group("Points");
+  // What is given by hand stays.
+  app.get_option("--project")->each([&advice](const std::string&) { advice.project = false; });
+  app.get_option("--neighbours")->each([&advice](const std::string&) {
+    advice.neighbours = false;
+  });
 }
 
 AnySoup read_any_stage(const PointOptions& options, const ReadOptions& reading, Run& run,
                        Findings& findings) {
-  PointCloud cloud;
+  AnySoup input;
   if (options.as_points) {
-    cloud = read_points_stage(run, findings);
-  } else {
-    StageMeter meter(findings.repair.stages, &run.progress);
-    meter.begin("read");
-    MeshOrPoints input = read_mesh_or_points(findings.input, reading);
-    if (input.mesh) {
-      if (options.base) throw UsageError("--base: is for points; --points takes those of a mesh");
-      keep_read_report(std::move(input.mesh->report), findings);
-      return {std::move(input.mesh->soup),
-              {},
-              std::move(input.mesh->attributes),
-              std::move(input.mesh->scene)};
-    }
-    cloud = keep(std::move(*input.points), findings);
+    input.cloud = read_points_stage(run, findings);
+    return input;
   }
-  PointSoup points = triangulate_stage(cloud, options.soup, run, findings);
-  if (!options.base) return {std::move(points.soup), points.opacity(), {}, {}};
-  return {with_base(points.soup, options.scan_base, findings.scan_base.emplace()), {}, {}, {}};
+  StageMeter meter(findings.repair.stages, &run.progress);
+  meter.begin("read");
+  MeshOrPoints found = read_mesh_or_points(findings.input, reading);
+  if (!found.mesh) {
+    input.cloud = keep(std::move(*found.points), findings);
+    return input;
+  }
+  if (options.repair.base) {
+    throw UsageError("--base: is for points; --points takes those of a mesh");
+  }
+  keep_read_report(std::move(found.mesh->report), findings);
+  input.soup = std::move(found.mesh->soup);
+  input.attributes = std::move(found.mesh->attributes);
+  input.scene = std::move(found.mesh->scene);
+  return input;
 }
 
-Surface repair_any(const AnySoup& input, const PointOptions& points, const RepairOptions& options,
-                   Findings& findings) {
-  if (!findings.point_soup) return repair(input.soup, options, findings.repair);
-  RepairOptions point_options = options;
-  point_options.opacity = input.opacity;
-  if (findings.scan_base) {
-    point_options.holes.largest_share = std::numeric_limits<double>::max();
-    point_options.holes.largest_flat_share = std::numeric_limits<double>::max();
-  } else {
-    point_options.examine = require_enclosure;
-  }
+namespace {
+
+// Also of a repair that ended with an exception.
+void keep_point_report(const RepairPointsReport& report, Findings& findings) {
+  findings.point_soup = report.soup;
+  findings.scan_base = report.scan_base;
+  findings.tries = report.tries;
+  findings.dropped_solids = report.dropped_solids;
+  findings.points_in_result = report.points_in_result;
+}
+
+}  // namespace
+
+Surface repair_any(AnySoup& input, const PointOptions& points, const RepairOptions& options,
+                   Run& run, Findings& findings) {
+  if (!input.cloud) return repair(input.soup, options, findings.repair);
+  RepairPointsOptions point_options = points.repair;
+  point_options.repair = options;
+  point_options.soup.most_triangles = run.options.max_triangles;
+  RepairPointsReport report;
   try {
-    Surface surface = repair(input.soup, point_options, findings.repair);
-    findings.dropped_solids =
-        drop_small_parts(surface, points.soup.fewest_triangles, findings.repair);
-    findings.points_in_result = static_cast<std::size_t>(
-        std::count(surface.input_point.begin(), surface.input_point.end(), 1));
+    PointSolid solid = repair_points(*input.cloud, point_options, report, findings.repair);
+    keep_point_report(report, findings);
     warn_of_points(findings);
-    return surface;
+    input.soup = std::move(solid.soup);
+    return std::move(solid.surface);
   } catch (const NoSolidError& error) {
-    if (findings.scan_base) throw;
+    keep_point_report(report, findings);
+    if (findings.scan_base || findings.tries.empty()) throw;
     throw NoSolidError(error.what() + advice(findings));
+  } catch (...) {
+    keep_point_report(report, findings);
+    throw;
   }
 }
 

@@ -1,13 +1,13 @@
 // Point clouds as input: their options, and the steps from their file to the soup that is repaired.
 #pragma once
 
-#include <vector>
+#include <optional>
+#include <scan/repair_points.h>
 
 #include <CLI/App.hpp>
 
 #include <mesh/point_cloud.h>
 #include <mesh/soup.h>
-#include <points/scan_base.h>
 
 #include "common/repair_steps.h"
 
@@ -25,31 +25,27 @@ void add_point_options(CLI::App& app, PointSoupOptions& options);
 
 // How a program that repairs takes points.
 struct PointOptions {
-  bool as_points = false;  // a mesh, too
-  bool base = false;       // close an open scan from below
-  PointSoupOptions soup;
-  ScanBaseOptions scan_base;
+  bool as_points = false;      // a mesh, too
+  RepairPointsOptions repair;  // but for its `repair`
 };
 
-// --points, --base, --up and the options of the local triangulation.
+// --points, --base, --up, --no-advice and the options of the local triangulation.
 void add_point_repair_options(CLI::App& app, PointOptions& options);
 
 // What is to be repaired.
 struct AnySoup {
-  TriangleSoup soup;
-  std::vector<float> opacity;  // as RepairOptions takes it
-  Attributes attributes;       // of a mesh, if they are asked for
-  Scene scene;                 // the same
+  TriangleSoup soup;                // of points, once they are triangulated
+  std::optional<PointCloud> cloud;  // it is one
+  Attributes attributes;            // of a mesh, if they are asked for
+  Scene scene;                      // the same
 };
 
-// Reads a mesh as `reading` says, or a point cloud, triangulates it and puts it on its base.
+// Reads a mesh as `reading` says, or a point cloud.
 [[nodiscard]] AnySoup read_any_stage(const PointOptions& options, const ReadOptions& reading,
                                      Run& run, Findings& findings);
 
-// repair(), as the input needs it: the floor of a base is a hole of any size, and solids that the
-// points are too few to tell are dropped. Throws NoSolidError, with advice, also where the points
-// are those of an open scan, of which what can be enclosed would be mostly made up.
-[[nodiscard]] Surface repair_any(const AnySoup& input, const PointOptions& points,
-                                 const RepairOptions& options, Findings& findings);
+// repair() or repair_points(). Throws NoSolidError with advice where points enclose nothing.
+[[nodiscard]] Surface repair_any(AnySoup& input, const PointOptions& points,
+                                 const RepairOptions& options, Run& run, Findings& findings);
 
 }  // namespace meshrepair

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <scan/repair_points.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,8 +13,6 @@
 #include <bsp/tree_io.h>
 #include <mesh/point_io.h>
 #include <mesh/soup_io.h>
-#include <points/point_soup.h>
-#include <points/scan_base.h>
 #include <repair/fidelity.h>
 #include <repair/repair.h>
 #include <repair/transfer_attributes.h>
@@ -55,6 +54,7 @@ struct Findings {
   std::optional<PointSoupReport> point_soup;
   std::size_t points_in_result = 0;  // of those left in point_soup
   std::optional<ScanBaseReport> scan_base;
+  std::vector<PointTry> tries;     // of repair_points()
   std::size_t dropped_solids = 0;  // too small for the points to tell
   bool soup_written = false;       // the output is a soup, no solid
   std::size_t soup_triangles = 0;  // of it

@@ -72,6 +72,19 @@ Json section_of(const PointSoupReport& points) {
           {"triangles", points.triangles}};
 }
 
+Json section_of(const std::vector<PointTry>& tries) {
+  constexpr std::array<std::string_view, 4> kEnds = {"noisy", "open", "faulty", "solid"};
+  Json list = Json::array();
+  for (const PointTry& attempt : tries) {
+    list.push_back({{"project", attempt.project},
+                    {"neighbours", attempt.neighbours},
+                    {"base", attempt.base},
+                    {"agreement", attempt.agreement},
+                    {"end", kEnds[static_cast<std::size_t>(attempt.end)]}});
+  }
+  return list;
+}
+
 Json section_of(const ScanBaseReport& base) {
   return {{"floor", base.floor},
           {"parts", base.parts},
@@ -351,6 +364,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (findings.points_read) report.set_section("read", section_of(*findings.points_read));
   if (findings.point_soup) {
     Json points = section_of(*findings.point_soup);
+    if (!findings.tries.empty()) points["tries"] = section_of(findings.tries);
     if (was_begun(repair, "check")) points["points_in_result"] = findings.points_in_result;
     report.set_section("points", std::move(points));
   }

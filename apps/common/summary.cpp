@@ -101,6 +101,20 @@ std::vector<std::string> local_triangles(const PointSoupReport& soup) {
   return texts;
 }
 
+// Which options a try has that nobody asked for.
+std::string followed_advice(const std::vector<PointTry>& tries) {
+  if (tries.size() <= 1) return {};
+  const PointTry& first = tries.front();
+  const PointTry& last = tries.back();
+  std::vector<std::string> options;
+  if (last.project != first.project || last.neighbours != first.neighbours) {
+    options.push_back(fmt::format("--project {} --neighbours {}, as the points are noisy",
+                                  last.project, last.neighbours));
+  }
+  if (last.base && !first.base) options.emplace_back("--base, as they are a terrain");
+  return fmt::format("the points enclose nothing as they are; took {}", joined(options));
+}
+
 void describe_points(const Findings& findings, Lines& lines) {
   const PointReadReport& read = *findings.points_read;
   const PointSoupReport& soup = *findings.point_soup;
@@ -111,6 +125,9 @@ void describe_points(const Findings& findings, Lines& lines) {
                         soup.normals_used ? ", with normals" : ""));
   if (const std::string dropped = dropped_points(findings); !dropped.empty()) {
     lines.add("dropped", dropped);
+  }
+  if (const std::string advice = followed_advice(findings.tries); !advice.empty()) {
+    lines.add("advice", advice);
   }
   lines.add("meshed", local_triangles(soup));
   if (!findings.scan_base) return;

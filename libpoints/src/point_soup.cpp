@@ -93,6 +93,18 @@ void tidy(std::vector<VotedTriangle>& voted, const SiftedCloud& cloud,
   report.crumbs = drop_crumbs(voted, options.fewest_triangles, options.outlier);
 }
 
+void require_triangles(const PointSoupOptions& options, const PointSoupReport& report) {
+  if (report.triangles == 0) {
+    throw NoSolidError("the " + std::to_string(report.points) +
+                       " points make no surface: they are too few, too far apart, or along lines");
+  }
+  if (options.most_triangles > 0 && report.triangles > options.most_triangles) {
+    throw LimitError(std::to_string(report.triangles) +
+                     " triangles between the points, more than " +
+                     std::to_string(options.most_triangles));
+  }
+}
+
 PointSoup assemble(const PointCloud& cloud, const SiftedCloud& sifted,
                    const std::vector<VotedTriangle>& triangles, bool moved) {
   PointSoup result;
@@ -108,6 +120,12 @@ PointSoup assemble(const PointCloud& cloud, const SiftedCloud& sifted,
 }
 
 }  // namespace
+
+double PointSoupReport::agreement() const {
+  const auto& [one, two, three] = by_votes;
+  return static_cast<double>(three) /
+         static_cast<double>(std::max<std::size_t>(1, one + two + three));
+}
 
 std::vector<float> PointSoup::opacity() const {
   std::vector<float> share;
@@ -133,10 +151,7 @@ PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& optio
       count_votes(build_stars(sifted, planes, options), sifted, options, report);
   tidy(voted, sifted, planes, options, report);
   report.triangles = voted.size();
-  if (voted.empty()) {
-    throw NoSolidError("the " + std::to_string(report.points) +
-                       " points make no surface: they are too few, too far apart, or along lines");
-  }
+  require_triangles(options, report);
   return assemble(cloud, sifted, voted, options.project > 0);
 }
 

@@ -198,6 +198,11 @@ def noise_points(count):
     return [(chance.random(), chance.random(), chance.random()) for _ in range(count)]
 
 
+def noisy(points, deviation):
+    chance = random.Random(1)
+    return [tuple(x + chance.gauss(0, deviation) for x in p) for p in points]
+
+
 def binary_pcd(points, promised):
     header = ("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH %d\nHEIGHT 1\n"
               "POINTS %d\nDATA binary\n" % (promised, promised))
@@ -309,6 +314,7 @@ def main():
         "cut_sphere.pcd": binary_pcd(sphere_points(1500), promised=10 ** 15),
         "hills.xyz": lines_of(hill_points(2000)),
         "cap.xyz": lines_of(p for p in sphere_points(4000) if p[2] > 0.4),
+        "noisy_sphere.xyz": lines_of(noisy(sphere_points(5000), 0.07)),
         "noise.xyz": lines_of(noise_points(2000)),
         "line.xyz": lines_of([(i, 2 * i, 3 * i) for i in range(100)]),
         "plane.xyz": lines_of([(i % 20, i // 20, 0) for i in range(400)]),

@@ -37,6 +37,7 @@ struct PointSoupOptions {
   int project = 0;
   // Whether normals of the cloud are taken, or planes fitted all the same.
   bool use_normals = true;
+  std::size_t most_triangles = 0;  // more are a LimitError; 0: any number
   ProgressObserver* progress = nullptr;
 };
 
@@ -59,6 +60,9 @@ struct PointSoupReport {
   std::size_t loose = 0;                     // that only touched others in a point, dropped
   std::size_t crumbs = 0;                    // in pieces that are too small, dropped
   std::size_t triangles = 0;                 // left
+
+  // Share of the triangles that all three corners want.
+  [[nodiscard]] double agreement() const;
 };
 
 struct PointSoup {
@@ -75,7 +79,7 @@ struct PointSoup {
 // tangent_star.h). It has holes where points are missing, and where points are nearly on one
 // sphere, flat tetrahedra. Triangles turn as the normals say where there are any, else any way
 // round. The same for any number of threads. Throws UsageError when the options make no sense,
-// NoSolidError when fewer than four points or no triangles are left, Cancelled.
+// NoSolidError when fewer than four points or no triangles are left, LimitError, Cancelled.
 [[nodiscard]] PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& options,
                                         PointSoupReport& report);
 

@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""Does meshrepair give what was meant? Repairs hard inputs of which that is known (make_hard_inputs.py), and prints tables.
+
+  walls     double walls with pinholes: does --seal fill them, and nothing below its size? Also turned at random
+  vessels   a bust, a mug, a bottle, a bell: from which --seal on are they filled?
+  soups     noisy soups: genus, parts, triangles and time beside those of the clean mesh
+  sheets    leaf cards and garments: is the volume of their walls the area times the thickness?
+  families  all families: exit codes, and volume against the truth, with defaults and with the options that a family needs
+"""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.pycache_prefix = os.devnull
+
+try:
+    import numpy as np
+except ImportError:
+    sys.exit("meant.py: python3-numpy is missing: scripts/setup.sh installs it")
+
+from hard_inputs import walls  # noqa: E402
+from hard_inputs.measure import Runner, keep, missing_triangles, percent, print_table  # noqa: E402
+from hard_inputs.meshes import Mesh, random_turn, turned  # noqa: E402
+from hard_inputs.soups import NOISES, SHAPES as SOUPS  # noqa: E402
+from make_hard_inputs import FAMILIES, case_of, names_of  # noqa: E402
+
+EPILOG = """examples:
+  meant.py walls soups
+  meant.py families --count 500 --failures /tmp/failed
+  meant.py --programs build/dev/bin vessels
+
+Exit codes: 0 fine, 1 something is not as meant, 2 wrong usage.
+"""
+
+TOO_FAR = 0.005  # volume of a sealed body from that of the full one, as a share
+TOO_FAR_SHEET = 0.05
+SHARES = (0.001, 0.005, 0.01, 0.05)
+TURNS = 20
+# How far the volume of a family may be off: what was meant is known only so well.
+LIMITS = {"walls": TOO_FAR, "soups": 0.01, "patches": 0.05, "cards": TOO_FAR_SHEET, "garments": TOO_FAR_SHEET,
+          "cars": 0.05}
+
+
+class Tables:
+    """Prints tables, and counts what is not as meant."""
+
+    def __init__(self, runner, arguments):
+        self.runner = runner
+        self.count = arguments.count
+        self.seed = arguments.seed
+        self.folder = arguments.failures
+        self.failures = 0
+
+    def fail(self, case, name, why):
+        self.failures += 1
+        print(f"NOT AS MEANT: {name}: {why}", flush=True)
+        keep(case, self.folder, name)
+
+    def walls(self):
+        print("## Double walls with pinholes\n")
+        rows = []
+        for shape in walls.SHAPES:
+            for holes in (1, 10, 100):
+                rows += [self.wall_row(shape, holes, share) for share in SHARES]
+        head = ["body", "pinholes", "diameter", "--seal 1.5 times: volume off", "triangles lost", "3 times: volume off",
+                "triangles lost", "0.5 times: as without"]
+        print_table(head, [row for row in rows if row])
+
+    def wall_row(self, shape, holes, share):
+        try:
+            case = case_of("walls", 0, self.seed, shape=shape, holes=holes, size=share, turn=False)
+        except ValueError:
+            return None
+        row = [shape, holes, percent(share)]
+        for factor in (1.5, 3):
+            row += self.sealed_cells(case, factor, f"{shape}_{holes}_{100 * share:g}_times_{factor:g}")
+        plain = self.runner.repair(case.broken)
+        below = self.runner.repair(case.broken, ["--seal", repr(0.5 * case.truth["hole_diameter"])])
+        if plain.data != below.data:
+            self.fail(case, f"{shape}_{holes}_{100 * share:g}_below", below.error() or "something was sealed")
+        return row + ["yes" if plain.data == below.data else "NO"]
+
+    def sealed_cells(self, case, factor, name):
+        size = factor * case.truth["hole_diameter"]
+        if size > case.truth.get("widest_seal", size):
+            return ["-", "-"]
+        outcome = self.runner.repair(case.broken, ["--seal", repr(size)])
+        off = outcome.off_by(case.truth["volume"])
+        if off is None:
+            self.fail(case, name, f"exit code {outcome.code}: {outcome.error()}")
+            return [f"exit code {outcome.code}", "-"]
+        outer = Mesh(case.broken.points, case.broken.triangles[:case.truth["wall_triangles"]])
+        lost = missing_triangles(outcome.mesh, outer)
+        if outcome.code != 0 or abs(off) > TOO_FAR or lost > 0:
+            seal = outcome.seal()
+            self.fail(case, name, f"exit code {outcome.code}, volume {percent(off)} off, {lost} triangles lost, "
+                                  f"{seal.get('openings')} openings, {seal.get('leaks')} leaks, step {seal.get('step')}")
+        return [percent(off), lost]
+
+    def turns(self):
+        print(f"## The same bodies, in {TURNS} random turns\n")
+        chance = np.random.default_rng(self.seed)
+        rows = []
+        for shape in walls.SHAPES:
+            for share in SHARES[:3]:
+                case = case_of("walls", 0, self.seed, shape=shape, holes=10, size=share, turn=False)
+                turns = [random_turn(chance) for _ in range(TURNS)]
+                row = [shape, percent(share)]
+                for factor in (0.5, 1.5, 3):
+                    row.append(self.turned_cell(case, factor, turns, f"{shape}_{100 * share:g}_turned_{factor:g}"))
+                rows.append(row)
+        print_table(["body", "diameter of 10 pinholes", "closed at 0.5 times", "1.5 times", "3 times"], rows)
+
+    def turned_cell(self, case, factor, turns, name):
+        size = factor * case.truth["hole_diameter"]
+        if size > case.truth.get("widest_seal", size):
+            return "-"
+        meant = 0 if factor < 1 else case.truth["volume"]
+
+        def is_closed(turn):
+            outcome = self.runner.repair(turned(case.broken, turn), ["--seal", repr(size)])
+            off = outcome.off_by(meant) if meant else None
+            return abs(off) < TOO_FAR if off is not None else outcome.seal().get("openings", 0) > 0 or outcome.code != 0
+        closed = sum(self.runner.map(is_closed, turns))
+        if closed != (len(turns) if meant else 0):
+            self.fail(case, name, f"closed in {closed} of {len(turns)} turns")
+        return f"{closed} of {len(turns)}"
+
+    def vessels(self):
+        print("## Vessels: what share of the hollow is filled, by the size of the ball\n")
+        factors = (0.25, 0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 2)
+        rows = []
+        for name in walls.VESSELS:
+            case = walls.vessel(name)
+            hollow = case.truth["volume"] - case.truth["own_volume"]
+            row = [name, percent(case.truth["mouth"] / case.truth["size"])]
+            for factor in factors:
+                outcome = self.runner.repair(case.broken, ["--seal", repr(factor * case.truth["mouth"])])
+                filled = None if outcome.volume() is None else (outcome.volume() - case.truth["own_volume"]) / hollow
+                row.append(f"exit code {outcome.code}" if filled is None else f"{100 * filled:.0f} %")
+                if outcome.code != 0 or not self.fits(factor * case.truth["mouth"], case, filled):
+                    self.fail(case, f"{name}_{factor:g}", outcome.error() or f"{row[-1]} filled")
+            rows.append(row)
+        print_table(["body", "mouth"] + [f"{f:g} mouths" for f in factors], rows)
+
+    @staticmethod
+    def fits(size, case, filled):
+        """Nothing may be filled for a ball that comes to all of it, most for one that is far too large to come in."""
+        if size < 0.9 * case.truth["passes"]:
+            return abs(filled) < 0.01
+        return filled > 0.5 or size < 1.5 * case.truth["mouth"]
+
+    def soups(self):
+        print("## Noisy soups\n")
+        rows = []
+        for shape in SOUPS:
+            for noise in NOISES:
+                case = case_of("soups", 0, self.seed, shape=shape, noise=noise)
+                clean = self.runner.repair(case.solid, ["--always"])
+                outcome = self.runner.repair(case.broken)
+                off = outcome.off_by(case.truth["volume"])
+                row = [shape, f"{noise:g}", outcome.code, percent(off)]
+                if outcome.mesh is not None:
+                    genus = outcome.mesh.genus() if outcome.mesh.is_closed() else None
+                    parts = outcome.mesh.parts()
+                    row += [f"{genus} / {case.truth['genus']}", f"{parts} / {case.truth['parts']}",
+                            f"{len(outcome.mesh.triangles)} / {len(case.solid.triangles)}",
+                            f"{outcome.seconds:.2f} / {clean.seconds:.2f}"]
+                    if outcome.code or genus != case.truth["genus"] or parts != case.truth["parts"] or abs(off) > 0.01:
+                        self.fail(case, f"soup_{shape}_{noise:g}", f"exit code {outcome.code}, genus {genus}, parts {parts}")
+                else:
+                    self.fail(case, f"soup_{shape}_{noise:g}", f"exit code {outcome.code}: {outcome.error()}")
+                rows.append(row)
+        print("Of the result / of what was meant; seconds of one thread / of the clean mesh with --always.\n")
+        print_table(["body", "noise, in edges", "exit code", "volume off", "genus", "parts", "triangles", "seconds"], rows)
+
+    def sheets(self):
+        count = self.count or 200
+        print(f"## {count} sheets with --thicken\n")
+        self.families_table(names_of(["cards", "garments"], count), with_defaults=False)
+
+    def families(self):
+        count = self.count or 60
+        print(f"## {count} files of all families\n")
+        self.families_table(names_of(list(FAMILIES), count), with_defaults=True)
+
+    def families_table(self, names, with_defaults):
+        def outcomes(name):
+            case = case_of(*name, self.seed)
+            plain = self.runner.repair(case.broken) if with_defaults else None
+            needs = case.truth["options"]
+            return plain, self.runner.repair(case.broken, needs) if needs or not with_defaults else plain
+        found = self.runner.map(outcomes, names)
+        rows = []
+        for family in dict.fromkeys(family for family, _ in names):
+            mine = [(name, *pair) for name, pair in zip(names, found) if name[0] == family]
+            if with_defaults:
+                rows.append([family, "defaults", *self.family_cells([(name, plain) for name, plain, _ in mine], None)])
+            rows.append([family, "as needed", *self.family_cells([(name, told) for name, _, told in mine], family)])
+        print_table(["family", "options", "files", "exit codes", "volume off: median", "worst", "beyond the limit"], rows)
+
+    def family_cells(self, outcomes, family):
+        """Failures are told where a family has the options that it needs."""
+        codes, offs, beyond = {}, [], 0
+        for name, outcome in outcomes:
+            case = case_of(*name, self.seed)
+            codes[outcome.code] = codes.get(outcome.code, 0) + 1
+            off = outcome.off_by(case.truth["volume"])
+            if off is not None:
+                offs.append(abs(off))
+            is_far = off is None or abs(off) > LIMITS[name[0]]
+            beyond += is_far
+            if family and (is_far or outcome.code != 0):
+                self.fail(case, "%s_%04d" % name, f"{case.truth['shape']}: exit code {outcome.code}, volume {percent(off)} "
+                                                  f"off{': ' if outcome.error() else ''}{outcome.error()}")
+        text = ", ".join(f"{code}: {number}" for code, number in sorted(codes.items()))
+        middle = percent(float(np.median(offs))) if offs else "-"
+        return [len(outcomes), text, middle, percent(max(offs)) if offs else "-", beyond]
+
+
+TABLES = ("walls", "turns", "vessels", "soups", "sheets", "families")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="meant.py", description=__doc__, epilog=EPILOG,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tables", nargs="*", metavar="TABLE", help=f"{', '.join(TABLES)} (default: all)")
+    parser.add_argument("--programs", type=Path, default=Path(__file__).resolve().parent.parent / "build/release/bin",
+                        help="folder of the programs (default: build/release/bin)")
+    parser.add_argument("--count", type=int, help="how many sheets (default: 200), files of all families (default: 60)")
+    parser.add_argument("--seed", type=int, default=0, help="other seeds make other inputs (default: %(default)s)")
+    parser.add_argument("--jobs", type=int, default=1, help="runs at a time, where no time is told (default: %(default)s)")
+    parser.add_argument("--failures", type=Path, metavar="FOLDER", help="keep what is not as meant, with its truth")
+    arguments = parser.parse_args()
+    unknown = set(arguments.tables) - set(TABLES)
+    if unknown:
+        parser.error(f"there is no table {', '.join(sorted(unknown))}")
+    if not (arguments.programs / "meshrepair").exists():
+        parser.error(f"{arguments.programs}: has no meshrepair")
+    tables = Tables(Runner(arguments.programs, jobs=arguments.jobs), arguments)
+    for name in arguments.tables or TABLES:
+        getattr(tables, name)()
+    print(f"{tables.failures} not as meant")
+    return 1 if tables.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,225 @@
+// Points with much noise want triangles that pass each other, so the sheet between them has holes
+// all over, and encloses nothing. Smoothing needs neighbours enough to even out the noise, and few
+// enough to leave the shape as it is: they are doubled until the points agree. That is seen before
+// anything is repaired. If smooth points enclose nothing either, more smoothing does not help.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <scan/repair_points.h>
+#include <string>
+#include <utility>
+
+#include <base/error.h>
+#include <base/stage_meter.h>
+#include <points/terrain.h>
+#include <repair/drop_small_parts.h>
+
+namespace meshrepair {
+namespace {
+
+// Points are smooth where so much of their triangles is wanted by all three corners. Below, what is
+// left of the noise makes handles and bubbles, or joins the two sides of a thin plate.
+constexpr double kSmoothAgreement = 0.8;
+
+constexpr int kProject = 3;
+constexpr std::array<std::size_t, 4> kNeighbours = {30, 60, 120, 240};
+// Points move onto surfaces through twice their neighbours. If these are more than an eighth of all
+// points, their surface is not flat.
+constexpr std::size_t kFewestNeighbourhoods = 16;
+
+// Of the triangles of a scan that is closed but for holes, most are in the result, and most of the
+// result is of them. Scans of one side come to less than a third or more than half.
+constexpr double kFewestKept = 0.5;
+constexpr double kMostMadeUp = 0.4;
+// Smoothing pulls rims together and closes holes, so of the result of a try that nobody asked for
+// less may be made up: a half-sphere comes to a third.
+constexpr double kMostMadeUpByAdvice = 0.25;
+
+std::string percent_text(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+
+void require_enclosure(const RepairReport& repair, double most_made_up) {
+  const auto kept = static_cast<double>(repair.triangles.untouched + repair.triangles.cut);
+  const double share = kept / static_cast<double>(repair.clean.triangles_in);
+  if (share < kFewestKept) {
+    throw NoSolidError(
+        "the points enclose little: " + percent_text(1 - share) +
+        " of the triangles between them are no wall of anything, as in a scan of one side");
+  }
+  const double made_up = repair.closing_area / repair.output_area;
+  if (made_up > most_made_up) {
+    throw NoSolidError("the points leave too much open: " + percent_text(made_up) +
+                       " of the surface would be made up");
+  }
+}
+
+bool is_certified(const RepairReport& repair) {
+  return repair.output.closed() && repair.output.manifold() && repair.output.oriented() &&
+         repair.certify.passed();
+}
+
+// Makes one of all stages from `first` on.
+void join_stages(std::vector<StageReport>& stages, std::size_t first) {
+  StageReport joined{"tries", 0, 0, 0};
+  for (std::size_t i = first; i < stages.size(); ++i) {
+    joined.seconds += stages[i].seconds;
+    joined.cpu_seconds += stages[i].cpu_seconds;
+    joined.peak_bytes = std::max(joined.peak_bytes, stages[i].peak_bytes);
+  }
+  stages.resize(first);
+  stages.push_back(std::move(joined));
+}
+
+class PointRepair {
+ public:
+  PointRepair(const PointCloud& cloud, const RepairPointsOptions& options,
+              RepairPointsReport& report, RepairReport& repair)
+      : cloud_(cloud),
+        options_(options),
+        report_(report),
+        repair_(repair),
+        stages_before_(repair.stages.size()) {
+    report_ = {};
+  }
+
+  PointSolid run() {
+    PointSoup soup = triangulate(options_.soup);
+    const bool noisy = report_.soup->agreement() < kNoisyAgreement;
+    if (auto solid = enclose(soup, options_.base)) return std::move(*solid);
+    if (!noisy) {
+      if (auto solid = stand_on_base(soup)) return std::move(*solid);
+    } else if (smooth(soup)) {
+      if (auto solid = enclose(soup, options_.base)) return std::move(*solid);
+      if (auto solid = stand_on_base(soup)) return std::move(*solid);
+    }
+    throw NoSolidError(why_);
+  }
+
+ private:
+  void begin_try(const PointSoupOptions& soup, bool base, double agreement, PointTryEnd end) {
+    report_.tries.push_back({soup.project, soup.neighbours, base, agreement, end});
+  }
+
+  PointSoup triangulate(const PointSoupOptions& options) {
+    PointSoupReport found;
+    PointSoupOptions observed = options;
+    observed.progress = options_.repair.progress;
+    StageMeter meter(repair_.stages, options_.repair.progress);
+    meter.begin("points");
+    try {
+      PointSoup soup = make_point_soup(cloud_, observed, found);
+      used_ = options;
+      report_.soup = found;
+      return soup;
+    } catch (...) {
+      if (!report_.soup) report_.soup = found;
+      throw;
+    }
+  }
+
+  // Points that agree, into `soup`, which is left as it is where there are none.
+  bool smooth(PointSoup& soup) {
+    const PointSoupReport before = *report_.soup;
+    for (const PointSoupOptions& options : smoother_options()) {
+      try {
+        PointSoup smoothed = triangulate(options);
+        if (report_.soup->agreement() >= kSmoothAgreement) {
+          soup = std::move(smoothed);
+          return true;
+        }
+        begin_try(options, options_.base, report_.soup->agreement(), PointTryEnd::noisy);
+      } catch (const NoSolidError&) {
+        begin_try(options, options_.base, 0, PointTryEnd::noisy);
+      }
+    }
+    report_.soup = before;
+    return false;
+  }
+
+  [[nodiscard]] std::vector<PointSoupOptions> smoother_options() const {
+    const PointAdviceOptions& advice = options_.advice;
+    PointSoupOptions smoother = options_.soup;
+    if (advice.project) smoother.project = std::max(smoother.project, kProject);
+    if (smoother.project == 0) return {};
+    if (!advice.neighbours) {
+      return advice.project ? std::vector{smoother} : std::vector<PointSoupOptions>();
+    }
+    std::vector<PointSoupOptions> list;
+    for (const std::size_t neighbours : kNeighbours) {
+      if (neighbours * kFewestNeighbourhoods > cloud_.points.size()) break;
+      smoother.neighbours = neighbours;
+      list.push_back(smoother);
+    }
+    return list;
+  }
+
+  std::optional<PointSolid> stand_on_base(const PointSoup& soup) {
+    if (!options_.advice.base || options_.base) return std::nullopt;
+    const int axis = options_.scan_base.axis;
+    if (!is_terrain(soup.soup, axis, report_.soup->farthest_move)) return std::nullopt;
+    return enclose(soup, true);
+  }
+
+  // The next try, on triangles that are there; nothing, and why, if it is no solid.
+  std::optional<PointSolid> enclose(const PointSoup& soup, bool base) {
+    const bool first = report_.tries.empty();
+    begin_try(used_, base, report_.soup->agreement(), PointTryEnd::open);
+    if (!first) {
+      join_stages(repair_.stages, stages_before_);
+      std::vector<StageReport> stages = std::move(repair_.stages);
+      repair_ = {};
+      repair_.stages = std::move(stages);
+    }
+    report_.scan_base.reset();
+    try {
+      PointSolid solid = repaired(soup, base, first);
+      const bool certified = is_certified(repair_);
+      report_.tries.back().end = certified ? PointTryEnd::solid : PointTryEnd::faulty;
+      if (first || certified) return solid;
+      why_ = "the solid that the points enclose cannot be certified";
+    } catch (const NoSolidError& error) {
+      why_ = error.what();
+    }
+    return std::nullopt;
+  }
+
+  PointSolid repaired(const PointSoup& soup, bool base, bool first) {
+    RepairOptions options = options_.repair;
+    PointSolid solid;
+    if (base) {
+      solid.soup = with_base(soup.soup, options_.scan_base, report_.scan_base.emplace());
+      options.holes.largest_share = std::numeric_limits<double>::max();
+      options.holes.largest_flat_share = std::numeric_limits<double>::max();
+    } else {
+      solid.soup = soup.soup;
+      options.opacity = soup.opacity();
+      options.examine = [first](const RepairReport& repair) {
+        require_enclosure(repair, first ? kMostMadeUp : kMostMadeUpByAdvice);
+      };
+    }
+    solid.surface = repair(solid.soup, options, repair_);
+    report_.dropped_solids =
+        drop_small_parts(solid.surface, options_.soup.fewest_triangles, repair_);
+    const std::vector<char>& is_input = solid.surface.input_point;
+    report_.points_in_result =
+        static_cast<std::size_t>(std::count(is_input.begin(), is_input.end(), 1));
+    return solid;
+  }
+
+  const PointCloud& cloud_;
+  const RepairPointsOptions& options_;
+  RepairPointsReport& report_;
+  RepairReport& repair_;
+  std::size_t stages_before_;
+  PointSoupOptions used_;  // of the triangles that report_.soup is of
+  std::string why_;        // the last try that was repaired is no solid
+};
+
+}  // namespace
+
+PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& options,
+                         RepairPointsReport& report, RepairReport& repair) {
+  return PointRepair(cloud, options, report, repair).run();
+}
+
+}  // namespace meshrepair
