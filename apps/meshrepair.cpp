@@ -47,7 +47,7 @@ void repair_input(const StepOptions& options, const PointOptions& points, bool a
   format.extras.unit = findings.unit;
   keep_attributes(input.soup, input.attributes, repair_options);
   repair_options.keep_valid = !always && findings.mesh_read.has_value();
-  if (findings.point_soup) repair_options.thicken.automatic = false;  // a scan of one side is none
+  if (input.cloud) repair_options.thicken.automatic = false;  // a scan of one side is none
   repair_options.explain = !options.explained.empty();
   if (!input.scene.meshes.empty()) {
     return repair_scene(input, given, repair_options, format, options, run, findings);
