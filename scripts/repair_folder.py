@@ -33,7 +33,7 @@ from folder_repair.program import Program
 
 # Options of meshrepair that are set here, for each file.
 OWN_OPTIONS = ("--report", "--threads", "--time-limit", "--max-memory", "--format", "-q", "--quiet",
-               "-v", "--verbose", "-h", "--help", "--version")
+               "--root", "--staging", "-v", "--verbose", "-h", "--help", "--version")
 MEMORY_SHARE = 0.8  # of what is free
 
 EPILOG = """Options after -- go to meshrepair as they are.

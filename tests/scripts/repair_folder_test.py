@@ -760,7 +760,8 @@ class CommandLine(FolderTest):
     def test_wrong_usage_is_one_line(self):
         for options in (["--frobnicate"], ["--jobs", "0"], ["--jobs", "many"], ["--timeout", "-1"],
                         ["--timeout", "nan"], ["--max-memory", "lots"], ["--format", "xyz"],
-                        ["--meshrepair", "/nowhere"], ["--", "--report=x"], ["--", "-q"], ["--", "--bogus"]):
+                        ["--meshrepair", "/nowhere"], ["--", "--report=x"], ["--", "-q"], ["--", "--root", "/"],
+                        ["--", "--staging=x"], ["--", "--bogus"]):
             result = self.run_script(*options, code=2)
             self.assertRegex(result.stderr, "^repair_folder.py: [^\n]+\n$", options)
         self.run_script(source=self.folder / "nowhere", code=2)

@@ -125,10 +125,12 @@ TEST(MeshArchive, GivesPicturesToOtherFormats) {
 }
 
 TEST(MeshArchive, HasFilesThatAreNamedAsWindowsDoes) {
-  const std::string bytes =
-      zip_of({{"a/part.obj", replaced(kObj, "part.mtl", "\"Lib\\PART.mtl\"")},
-              {"a/lib/part.mtl", "newmtl wood\nKd 0 .5 0\nmap_Kd \"..\\Tex\\Wood.png\"\n"},
-              {"a/tex/wood.png", kPicture}});
+  const std::string bytes = zip_of({{"a/part.obj", replaced(kObj, "part.mtl", "\"Lib\\PART.mtl\"")},
+                                    {"a/lib/part.mtl",
+                                     "newmtl wood\nKd 0 .5 0\nmap_Kd \"..\\Tex\\Wood.png\"\n"
+                                     "bump \"..\\bumps.JPG\"\n"},
+                                    {"a/bumps.jpg", kBumps},
+                                    {"a/tex/wood.png", kPicture}});
   ReadOptions options;
   options.attributes = true;
   const ReadResult mesh = read_soup(std::string_view(bytes), "a.zip", options);
@@ -138,7 +140,9 @@ TEST(MeshArchive, HasFilesThatAreNamedAsWindowsDoes) {
   EXPECT_EQ(*mesh.attributes.images[0].bytes, kPicture);
   const TemporaryFolder out;
   write_soup(mesh.soup, out.path() / "new.obj", {.extras = {.attributes = &mesh.attributes}});
-  EXPECT_EQ(text_of(out.path() / "new.mtl"), "newmtl wood\nKd 0 .5 0\nmap_Kd new_0.png\n");
+  EXPECT_EQ(text_of(out.path() / "new.mtl"),
+            "newmtl wood\nKd 0 .5 0\nmap_Kd new_0.png\nbump new_1.JPG\n");
+  EXPECT_EQ(text_of(out.path() / "new_1.JPG"), kBumps);
 }
 
 TEST(MeshArchive, SaysWhichLibraryIsNotThere) {

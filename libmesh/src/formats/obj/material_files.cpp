@@ -188,7 +188,9 @@ class MaterialFiles {
     const auto known = std::find(others_.begin(), others_.end(), bytes);
     const std::size_t number = images.size() + static_cast<std::size_t>(known - others_.begin());
     if (known == others_.end()) others_.push_back(bytes);
-    return written_picture(number, fs::path(name).extension().string(), *bytes);
+    std::string extension = fs::path(name).extension().string();
+    std::erase(extension, '"');
+    return written_picture(number, extension, *bytes);
   }
 
   // Never over a library of the input that is another now.
