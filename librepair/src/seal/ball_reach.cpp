@@ -17,6 +17,9 @@ constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 // In steps of the grid: how much farther than the ball's radius a centre may be from what the ball
 // touches, as centres are in places of the grid alone.
 constexpr double kCentreRounding = 1;
+// Of so many cubes along each axis one is asked whether the ball gets from it to what is beside: a
+// ball is twice as wide.
+constexpr std::int32_t kAsked = 3;
 // In steps of the grid: how much nearer to walls a centre may be than the radius. The middle of a
 // cube is up to 0.87 steps away from a centre in it: so a ball that is half a step smaller passes
 // surely, and one that is so much larger surely does not.
@@ -67,19 +70,37 @@ void BallReach::visit_around(std::uint32_t cube, Visit visit) const {
   }
 }
 
-// Whether the ball gets from here straight to where the larger one is, as far as samples tell.
-// Within that it has room anyway.
-bool BallReach::gets_to_larger(std::uint32_t node, const NearestTriangle& nearest) const {
-  const std::uint32_t there = larger_->grid_.node_around(grid_.centre(node));
-  if (there == kNone || larger_->reached_[there] == 0) return false;
-  const Vec3d from = grid_.centre(node), to = larger_->grid_.centre(larger_->centre_of_[there]);
+// Whether the ball gets from a place straight to where the larger one is that comes to another
+// place, as far as samples tell.
+bool BallReach::gets_to_larger(const Vec3d& from, const Vec3d& place,
+                               const NearestTriangle& nearest) const {
+  const std::uint32_t there = larger_->grid_.node_around(place);
+  return there != kNone && larger_->reached_[there] != 0 &&
+         gets_straight(from, larger_->grid_.centre(larger_->centre_of_[there]), nearest);
+}
+
+// The middle of the larger grid's cube around a place may be behind a wall, or what comes to it.
+bool BallReach::gets_beside(const Vec3d& from, const NearestTriangle& nearest) const {
+  for (int k = 0; k < 27; ++k) {
+    const int row = k / 3, layer = k / 9;
+    const Vec3d beside(k % 3 - 1, row % 3 - 1, layer - 1);
+    if (gets_to_larger(from, from + larger_->grid_.step() * beside, nearest)) return true;
+  }
+  return false;
+}
+
+// To a centre of the larger ball, within which there is room anyway.
+bool BallReach::gets_straight(const Vec3d& from, const Vec3d& to,
+                              const NearestTriangle& nearest) const {
   const double length = (to - from).norm();
   const double narrow = length - (larger_->radius_ - radius_);
   const double least = radius_ - kSlack * grid_.step();
   std::uint32_t hint = 0;
-  for (double at = 0; at < narrow; at += grid_.step()) {
+  for (double at = 0; at < narrow;) {
     const Nearest found = nearest.find(from + at / length * (to - from), hint);
-    if (found.squared_distance < least * least) return false;
+    const double room = std::sqrt(found.squared_distance) - least;
+    if (room < 0) return false;
+    at += std::max(grid_.step(), room);
     hint = found.triangle;
   }
   return true;
@@ -93,11 +114,21 @@ void BallReach::put_centres(ProgressObserver* progress) {
   }
   const NearestTriangle nearest(grid_.corners());
   CancelCheck check(progress);
-  for (std::uint32_t c = 0; c < grid_.cubes(); ++c) {
-    check.tick();
-    if (reached_[c] != 0 || !is_open(c)) continue;
-    if (gets_to_larger(c, nearest)) spread_from(c, progress);
+  for (const bool beside : {false, true}) {
+    for (std::uint32_t c = 0; c < grid_.cubes(); ++c) {
+      check.tick();
+      if (reached_[c] != 0 || !is_open(c) || (beside && !is_asked(c))) continue;
+      const Vec3d at = grid_.centre(c);
+      if (beside ? gets_beside(at, nearest) : gets_to_larger(at, at, nearest)) {
+        spread_from(c, progress);
+      }
+    }
   }
+}
+
+bool BallReach::is_asked(std::uint32_t cube) const {
+  const CubePlace at = grid_.place_of(cube);
+  return std::all_of(at.begin(), at.end(), [](std::int32_t x) { return x % kAsked == 0; });
 }
 
 void BallReach::spread_from(std::uint32_t first, ProgressObserver* progress) {

@@ -41,8 +41,13 @@ class BallReach {
 
  private:
   void put_centres(ProgressObserver* progress);
+  [[nodiscard]] bool is_asked(std::uint32_t cube) const;
   void spread_from(std::uint32_t first, ProgressObserver* progress);
-  [[nodiscard]] bool gets_to_larger(std::uint32_t node, const NearestTriangle& nearest) const;
+  [[nodiscard]] bool gets_to_larger(const Vec3d& from, const Vec3d& place,
+                                    const NearestTriangle& nearest) const;
+  [[nodiscard]] bool gets_beside(const Vec3d& from, const NearestTriangle& nearest) const;
+  [[nodiscard]] bool gets_straight(const Vec3d& from, const Vec3d& to,
+                                   const NearestTriangle& nearest) const;
   void roll(ProgressObserver* progress);
   std::vector<std::uint32_t> find_depths(ProgressObserver* progress);
   bool find_deep(const std::vector<std::uint32_t>& by_depth, ProgressObserver* progress);

@@ -10,6 +10,11 @@ namespace {
 // Of a cube's side, and of what the nearest triangle is away.
 constexpr double kMarkerOfStep = 0.05, kMarkerOfClearance = 0.25;
 
+// Of a tetrahedron. Along no axis is a corner above the diagonal of a cube's face: rays from its
+// corners tell where it lies, unless they meet an edge.
+const std::array<Vec3d, 4> kMarkerCorners = {Vec3d(1, 0.2, -0.4), Vec3d(-0.4, 1, 0.2),
+                                             Vec3d(0.2, -0.4, 1), Vec3d(-0.9, -0.5, -0.1)};
+
 std::uint64_t key_of(const CubePlace& place) {
   constexpr unsigned kBits = 21;  // a grid has fewer cubes than 2^21 to a side
   std::uint64_t key = 0;
@@ -131,8 +136,7 @@ class LatticeMaker {
 
   void add_tetrahedron(const Vec3d& centre, double size) {
     const auto first = static_cast<std::uint32_t>(lattice_.soup.points.size());
-    for (const Vec3d& corner :
-         {Vec3d(1, 1, 1), Vec3d(1, -1, -1), Vec3d(-1, 1, -1), Vec3d(-1, -1, 1)}) {
+    for (const Vec3d& corner : kMarkerCorners) {
       lattice_.soup.points.push_back(centre + size / 2 * corner);
     }
     for (std::uint32_t left_out = 0; left_out < 4; ++left_out) {

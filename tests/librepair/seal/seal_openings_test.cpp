@@ -211,6 +211,20 @@ TEST(SealOpenings, PinholesOfAThousandthAreClosed) {
   }
 }
 
+// Also where the middle of a larger grid's cube at the mouth is behind the wall, as it is here.
+TEST(SealOpenings, PinholesAreClosedWhereverTheyLie) {
+  constexpr double kHole = 0.0017;
+  const TriangleSoup shell = pierced_shell(kHole, 0.03, 32);
+  const std::size_t cases = share_of_cases(std::size_t{4});
+  for (std::size_t i = 0; i < cases; ++i) {
+    const double aside = 0.02 * static_cast<double>(i);
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), Vec3d(-aside, aside, 1));
+    const RepairResult full = sealed(transformed(shell, turn.toRotationMatrix()), 3 * kHole);
+    EXPECT_EQ(full.report.seal.openings, 1u) << i;
+    EXPECT_EQ(full.report.seal.leaks, 0u) << i;
+  }
+}
+
 TEST(SealOpenings, TheSizeMayBeFound) {
   RepairOptions options;
   options.keep_valid = true;
