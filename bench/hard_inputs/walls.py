@@ -10,7 +10,8 @@ SHAPES = ("ball", "box", "knot")
 KNOT_RADIUS = 0.45
 # Of a knot, what is between its strands: wider balls do not pass there either.
 KNOT_GAP = 0.9
-WALL = 0.02  # how thick, as a share of the size
+# How thick walls are, as a share of the size.
+WALL = {"ball": 0.02, "box": 0.02, "knot": 0.01}
 
 
 def shape_of(name, level):
@@ -91,13 +92,13 @@ def wall_triangles(mesh, rings, holes):
 
 
 def double_wall(shape, holes, share, random, turn=None):
-    """`holes` pinholes whose diameter is this share of the size, between walls WALL apart. Throws ValueError where there
+    """`holes` pinholes whose diameter is this share of the size, between walls that are WALL apart. Throws ValueError where there
     is no room for so many."""
     for level in (3, 2, 1, 0) if shape == "ball" else (2, 1, 0):
         mesh, inner_points = shape_of(shape, level)
         rings = rings_of(mesh)
         diameter = share * mesh.diagonal()
-        inside = inner_points(WALL * mesh.diagonal())
+        inside = inner_points(WALL[shape] * mesh.diagonal())
         chosen = far_apart(mesh, inside, rings, holes, 0.65 * diameter, random)
         if chosen is not None:
             break

@@ -40,6 +40,8 @@ NOT_RUN = {
     "scripts/setup.sh": "installs packages",
     "scripts/fuzz.sh": "builds with clang, and runs for minutes",
     "bench/compare.py": "takes minutes",
+    "bench/make_hard_inputs.py": "needs python3-numpy",
+    "bench/meant.py": "takes an hour",
     "build/release/bin/work_and_span": "is not built with sanitizers",
     "cmake": "builds and installs",
     "ctest": "runs this test",
