@@ -249,7 +249,7 @@ TEST(SealOpenings, TooManyCubesAreRefused) {
 // patches that touch each other along edges.
 TEST(SealOpenings, CrevicesOfAnyKindAreSealed) {
   std::size_t openings = 0;
-  const std::size_t cases = share_of_cases(8);
+  const std::size_t cases = share_of_cases(std::size_t{8});
   for (std::size_t i = 0; i < cases; ++i) {
     const TriangleSoup soup = i % 2 == 0 ? random_cubes(40, i) : random_grid_boxes(30, 12, i);
     const RepairResult open = sealed(soup, 0);
