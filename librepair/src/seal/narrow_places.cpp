@@ -17,6 +17,10 @@ namespace {
 // Of more triangles not all pairs are looked at, but the part of space is divided first.
 constexpr std::size_t kMostPaired = 48, kMostPairedAtLast = 512;
 
+// Around an opening walls face all ways, so that two of them are 120 degrees apart. The walls of an
+// edge that is no sharper than 60 degrees need not be: see seal_openings().
+constexpr double kFacing = -0.25;
+
 // Within so much of one direction no two directions are at right angles.
 constexpr double kHalfRightAngle = std::numbers::sqrt2 / 2;
 
@@ -106,7 +110,7 @@ bool NarrowPlaces::may_face(const Triangles& triangles, std::size_t most_paired)
 }
 
 bool NarrowPlaces::face_each_other(std::uint32_t a, std::uint32_t b) const {
-  return normals_[a].dot(normals_[b]) < 0 && is_before(a, b) && is_before(b, a);
+  return normals_[a].dot(normals_[b]) < kFacing && is_before(a, b) && is_before(b, a);
 }
 
 // Whether some of `a` lies before `b`.
