@@ -5,6 +5,7 @@
   vessels   a bust, a mug, a bottle, a bell: from which --seal on are they filled?
   soups     noisy soups: genus, parts, triangles and time beside those of the clean mesh
   sheets    leaf cards and garments: is the volume of their walls the area times the thickness?
+  others    double walls and noisy soups beside CGAL's alpha wrap and OpenVDB, if they are built
   families  all families: exit codes, and volume against the truth, with defaults and with the options that a family needs
 """
 
@@ -177,6 +178,21 @@ class Tables:
         print("Of the result / of what was meant; seconds of one thread / of the clean mesh with --always.\n")
         print_table(["body", "noise, in edges", "exit code", "volume off", "genus", "parts", "triangles", "seconds"], rows)
 
+    def others(self):
+        print("## Beside tools that wrap or remesh\n")
+        cases = [(f"{shape}, {holes} pinholes of 1 %", case_of("walls", 0, self.seed, shape=shape, holes=holes, size=0.01, turn=False))
+                 for shape in ("ball", "box") for holes in (1, 10)]
+        cases += [(f"soup of a {shape}, noise {noise:g}", case_of("soups", 0, self.seed, shape=shape, noise=noise))
+                  for shape in SOUPS for noise in NOISES[-2:]]
+        rows = []
+        for name, case in cases:
+            for tool in TOOLS:
+                found = self.runner.beside(case, tool)
+                if found:
+                    rows.append([name, tool[0], *found])
+        print("Distance of the result from the solid that was meant and back, as a share of the diagonal.\n")
+        print_table(["mesh", "tool", "valid solid", "volume off", "largest distance", "triangles", "seconds"], rows)
+
     def sheets(self):
         count = self.count or 200
         print(f"## {count} sheets with --thicken\n")
@@ -221,7 +237,10 @@ class Tables:
         return [len(outcomes), text, middle, percent(max(offs)) if offs else "-", beyond]
 
 
-TABLES = ("walls", "turns", "vessels", "soups", "sheets", "families")
+TABLES = ("walls", "turns", "vessels", "soups", "sheets", "others", "families")
+# A method of wrap_others, and the share of the diagonal that it is given.
+TOOLS = (("meshrepair", None, None), ("alpha wrap 1/50", "alpha", 1 / 50), ("alpha wrap 1/200", "alpha", 1 / 200),
+         ("OpenVDB 1/200", "openvdb", 1 / 200))
 
 
 def main():

@@ -65,6 +65,35 @@ class Runner:
             return Outcome(done.returncode, found, None, b"", seconds)
         return Outcome(done.returncode, found, read_off(out), out.read_bytes(), seconds)
 
+    def beside(self, case, tool):
+        """What a tool makes of a case: whether it is valid, how far it is off, triangles, seconds. Nothing if it is not built."""
+        _, method, share = tool
+        others = self.program.with_name("wrap_others")
+        if method and not others.exists():
+            return None
+        with tempfile.TemporaryDirectory(prefix="meant-") as name:
+            folder = Path(name)
+            write_off(case.broken, folder / "in.off")
+            write_off(case.solid, folder / "true.off")
+            if method:
+                done = subprocess.run([others, method, folder / "in.off", folder / "out.off", repr(share)], capture_output=True,
+                                      check=False, text=True)
+                seconds = float(done.stdout) if done.returncode == 0 else None
+            else:
+                outcome = self.run(folder / "in.off", folder, case.truth["options"], 1)
+                seconds = outcome.seconds
+            if not (folder / "out.off").exists():
+                return ["no result", "-", "-", "-", "-"]
+            check = self.report_of("meshcheck", folder / "out.off")["check"]
+            distance = self.report_of("meshdist", folder / "true.off", folder / "out.off")["distance"]
+            far = max(distance[way]["relative"]["hausdorff"] for way in ("a_to_b", "b_to_a"))
+            off = None if check["volume"] is None else check["volume"] / case.truth["volume"] - 1
+            return ["yes" if check["valid_solid"] else "NO", percent(off), percent(far), check["triangles"], f"{seconds:.2f}"]
+
+    def report_of(self, program, *files):
+        done = subprocess.run([self.program.with_name(program), *files, "--json"], capture_output=True, check=False)
+        return json.loads(done.stdout)
+
     def map(self, function, items):
         """In the order of the items, so many at a time."""
         with ThreadPoolExecutor(self.jobs) as pool:
