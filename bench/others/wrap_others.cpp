@@ -1,19 +1,18 @@
 // wrap_others alpha|openvdb IN OUT SHARE: a closed surface around a mesh by CGAL's alpha wrap or by
-// OpenVDB, for comparison. SHARE of the diagonal is alpha, and 30 times the offset; or the side of a
-// voxel. Prints the seconds that it took without reading and writing.
+// OpenVDB, for comparison. SHARE of the diagonal is alpha, and 30 times the offset; or the side of
+// a voxel. Prints the seconds that it took without reading and writing.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <string>
-#include <vector>
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/alpha_wrap_3.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/VolumeToMesh.h>
+#include <string>
+#include <vector>
 
 #include <mesh/soup_io.h>
 
