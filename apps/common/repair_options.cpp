@@ -71,6 +71,14 @@ std::string why_no_share(const std::string& word) {
   return is_number && value >= 0 ? std::string() : word + " is not a share: a number from 0 on";
 }
 
+// For CLI11: an empty text where the word is a number from 0 to 1.
+std::string why_no_part_of_one(const std::string& word) {
+  double value = 0;
+  const bool is_number = CLI::detail::lexical_cast(word, value);
+  return is_number && value >= 0 && value <= 1 ? std::string()
+                                               : word + " is not a share: a number from 0 to 1";
+}
+
 // What --keep says; nothing where it is none of its words.
 std::optional<KeepPartsOptions> kept_by(const std::string& word) {
   KeepPartsOptions keep;
@@ -248,7 +256,7 @@ void add_keep_options(CLI::App& app, KeepPartsOptions& keep) {
       ->group("Repair");
   app.add_option("--min-part", keep.smallest_share,
                  "Remove solids of less than this share of the volume of the largest one")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(why_no_part_of_one)
       ->type_name("SHARE")
       ->capture_default_str()
       ->group("Repair");
@@ -347,6 +355,9 @@ void add_predicates_options(CLI::App& app, RepairOptions& repair) {
   app.parse_complete_callback([&repair, epsilon] {
     if (epsilon->count() > 0 && repair.predicates == Predicates::exact) {
       throw UsageError("--eps: needs --predicates float");
+    }
+    if (repair.seal.wanted() && repair.predicates == Predicates::floating) {
+      throw UsageError("--seal: needs --predicates exact");
     }
   });
 }

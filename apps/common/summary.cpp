@@ -189,7 +189,7 @@ void describe_decision(const RepairReport& repair, Lines& lines) {
 
 void describe_sewing(const SewReport& sew, Lines& lines) {
   if (sew.refused_distance > 0) {
-    lines.add("unsewn", fmt::format("open edges are {:.3g} apart, too far for what is beside them; "
+    lines.add("unsewn", fmt::format("{:.3g} is too far for what is beside the open edges; "
                                     "--sew says how far to go",
                                     sew.refused_distance));
   }

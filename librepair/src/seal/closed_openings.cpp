@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -52,8 +52,10 @@ class OpeningsCloser {
     const double size = options_.is_share ? options_.size * diagonal_ : options_.size;
     std::unique_ptr<ClosedOpenings> closed = close(size);
     if (closed || report_.step > 0) return closed;
-    throw UsageError("openings of " + std::to_string(size) +
-                     " are too small for this mesh to be found: give a larger size to seal");
+    std::ostringstream text;
+    text << "openings of " << size
+         << " are too small for this mesh to be found: give a larger size to seal";
+    throw UsageError(text.str());
   }
 
  private:
