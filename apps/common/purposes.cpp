@@ -71,6 +71,7 @@ void apply(const Bundle& bundle, CLI::App& app, Purpose& purpose) {
 
 void add_purpose_option(CLI::App& app, Purpose& purpose) {
   std::vector<std::string> names;
+  names.reserve(kBundles.size());
   for (const Bundle& bundle : kBundles) names.emplace_back(bundle.name);
   app.add_option_function<std::string>(
          "--for",
