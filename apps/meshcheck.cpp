@@ -1,6 +1,5 @@
 // meshcheck IN: what is wrong with a mesh, and whether it is the boundary of a solid.
 #include <iostream>
-#include <numeric>
 #include <string>
 
 #include <spdlog/fmt/fmt.h>
@@ -55,21 +54,14 @@ struct Verdict {
   std::string table;
 };
 
-// What meshrepair --seal auto would close of a solid.
-SealReport narrow_openings(const TriangleSoup& soup, const Options& options) {
-  Surface solid{soup, std::vector<std::uint32_t>(soup.triangles.size()),
-                std::vector<char>(soup.points.size(), 1)};
-  std::iota(solid.source.begin(), solid.source.end(), 0);
-  return propose_seal(solid, SealOptions().most_cubes, options.check.progress);
-}
-
 // Words for the table, and the same in the section; nothing if they are not asked for.
 std::string openings_of(const TriangleSoup& soup, const SurfaceCheck& check, Json& section,
                         const Options& options) {
   if (!options.openings) return {};
   section["openings"] = nullptr;
   if (!check.valid_solid()) return "openings  are looked for in valid solids\n";
-  const SealReport seal = narrow_openings(soup, options);
+  const SealReport seal =
+      propose_seal(as_given(soup), SealOptions().most_cubes, options.check.progress);
   const double volume = check.volume + seal.filled_volume;
   section["openings"] = {{"count", seal.openings},
                          {"size", seal.size},

@@ -27,7 +27,6 @@ constexpr double kGap = 0.15;  // between the two, as a share of their width
 
 // What a triangle can be, with the colour that says so.
 struct Painted {
-  std::string_view name;
   std::string_view colour_name;
   std::string_view meaning;
   Colour colour;
@@ -35,32 +34,33 @@ struct Painted {
 
 // In the order of TriangleFate.
 constexpr std::array<Painted, kTriangleFates> kFates = {{
-    {"left_out", "brown", "of a solid or void that was to go", {140, 90, 50}},
-    {"thickened", "green", "made a wall", {40, 170, 70}},
-    {"turned", "blue", "turned the other way round", {40, 90, 230}},
-    {"whole", "grey", "whole in the result", {200, 200, 200}},
-    {"cut", "yellow", "cut, or merged with others", {245, 225, 40}},
-    {"moved", "cyan", "sewn to others", {50, 200, 210}},
-    {"inside", "violet", "inside the solid", {150, 90, 200}},
-    {"duplicate", "magenta", "where others lie", {210, 40, 200}},
-    {"dropped", "black", "without area, or too small", {0, 0, 0}},
-    {"outside", "red", "bounds nothing", {220, 30, 30}},
+    {"brown", "of a solid or void that was to go", {140, 90, 50}},
+    {"green", "made a wall", {40, 170, 70}},
+    {"blue", "turned the other way round", {40, 90, 230}},
+    {"grey", "whole in the result", {200, 200, 200}},
+    {"yellow", "cut, or merged with others", {245, 225, 40}},
+    {"cyan", "sewn to others", {50, 200, 210}},
+    {"violet", "inside the solid", {150, 90, 200}},
+    {"magenta", "where others lie", {210, 40, 200}},
+    {"black", "without area, or too small", {0, 0, 0}},
+    {"red", "bounds nothing", {220, 30, 30}},
 }};
 
 // In the order of TriangleOrigin.
 constexpr std::array<Painted, kTriangleOrigins> kOrigins = {{
-    {"whole", "grey", "whole triangles of IN", {200, 200, 200}},
-    {"piece", "yellow", "pieces of triangles of IN", {245, 225, 40}},
-    {"wall", "green", "walls of thickened sheets", {40, 170, 70}},
-    {"patch", "orange", "patches of holes and gaps", {245, 140, 20}},
-    {"seal", "sky", "patches of sealed openings", {110, 190, 255}},
+    {"grey", "whole triangles of IN", {200, 200, 200}},
+    {"yellow", "pieces of triangles of IN", {245, 225, 40}},
+    {"green", "walls of thickened sheets", {40, 170, 70}},
+    {"orange", "patches of holes and gaps", {245, 140, 20}},
+    {"sky", "patches of sealed openings", {110, 190, 255}},
 }};
 
 // What one of both meshes is painted with.
 struct Palette {
   std::string_view mesh;
   std::span<const Painted> kinds;
-  std::vector<std::uint32_t> of_triangle;  // of the kinds
+  std::vector<std::string_view> names;     // of the kinds
+  std::vector<std::uint32_t> of_triangle;  // the same
 
   [[nodiscard]] std::vector<std::size_t> counts() const {
     std::vector<std::size_t> counts(kinds.size(), 0);
@@ -70,16 +70,23 @@ struct Palette {
 };
 
 template <class Kind>
-std::vector<std::uint32_t> numbers_of(const std::vector<Kind>& kinds) {
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(kinds.size());
-  for (const Kind kind : kinds) numbers.push_back(static_cast<std::uint32_t>(kind));
-  return numbers;
+Palette palette_of(std::string_view mesh, std::span<const Painted> kinds,
+                   std::string_view (*name_of)(Kind), const std::vector<Kind>& of_triangle) {
+  Palette palette{mesh, kinds, {}, {}};
+  palette.names.reserve(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    palette.names.push_back(name_of(static_cast<Kind>(i)));
+  }
+  palette.of_triangle.reserve(of_triangle.size());
+  for (const Kind kind : of_triangle) {
+    palette.of_triangle.push_back(static_cast<std::uint32_t>(kind));
+  }
+  return palette;
 }
 
 std::array<Palette, 2> palettes_of(const RepairExplanation& explanation) {
-  return {{{"input", kFates, numbers_of(explanation.fates)},
-           {"result", kOrigins, numbers_of(explanation.origins)}}};
+  return {palette_of("input", kFates, fate_name, explanation.fates),
+          palette_of("result", kOrigins, origin_name, explanation.origins)};
 }
 
 // A soup, and of each of its triangles which material it has.
@@ -109,10 +116,10 @@ PaintedMesh painted(const ExplainedMesh& mesh, const Palette& palette) {
   PaintedMesh all{mesh.soup, {}};
   TriangleLabels& materials = all.attributes.materials;
   materials.of_triangle = palette.of_triangle;
-  for (const Painted& kind : palette.kinds) {
-    materials.names.push_back(fmt::format("{}: {}", palette.mesh, kind.name));
+  for (std::size_t k = 0; k < palette.kinds.size(); ++k) {
+    materials.names.push_back(fmt::format("{}: {}", palette.mesh, palette.names[k]));
     Material& look = all.attributes.looks.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) look.colour[i] = kind.colour[i] / 255.0;
+    for (std::size_t i = 0; i < 3; ++i) look.colour[i] = palette.kinds[k].colour[i] / 255.0;
     look.two_sided = true;
   }
   place_instances(all.soup, all.attributes, mesh.scene);
@@ -147,7 +154,7 @@ std::vector<std::string> legend_of(const Palette& palette) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const Painted& kind = palette.kinds[i];
-    lines.push_back(fmt::format("{}: {} {}: {}, {}", palette.mesh, counts[i], kind.name,
+    lines.push_back(fmt::format("{}: {} {}: {}, {}", palette.mesh, counts[i], palette.names[i],
                                 kind.colour_name, kind.meaning));
   }
   return lines;
@@ -201,7 +208,7 @@ Json counts_of(const Palette& palette) {
   const std::vector<std::size_t> counts = palette.counts();
   Json json = Json::object();
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    json[std::string(palette.kinds[i].name)] = counts[i];
+    json[std::string(palette.names[i])] = counts[i];
   }
   return json;
 }

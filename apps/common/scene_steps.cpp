@@ -30,14 +30,6 @@ struct MeshOutcome {
   std::size_t triangles_in = 0, triangles = 0;
 };
 
-Surface as_given(const TriangleSoup& soup) {
-  Surface surface{soup, {}, {}};
-  surface.source.resize(soup.triangles.size());
-  std::iota(surface.source.begin(), surface.source.end(), 0);
-  surface.input_point.assign(soup.points.size(), 1);
-  return surface;
-}
-
 void append(const Surface& mesh, std::size_t first_source, Surface& all) {
   append_soup(all.mesh, mesh.mesh);
   for (const std::uint32_t source : mesh.source) {
@@ -248,6 +240,14 @@ class SceneRepair {
 };
 
 }  // namespace
+
+Surface as_given(const TriangleSoup& soup) {
+  Surface surface{soup, {}, {}};
+  surface.source.resize(soup.triangles.size());
+  std::iota(surface.source.begin(), surface.source.end(), 0);
+  surface.input_point.assign(soup.points.size(), 1);
+  return surface;
+}
 
 void check_scene(const Scene& scene, SoupFormat format) {
   if (has_instances(format) || is_plain(scene)) return;

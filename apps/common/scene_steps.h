@@ -17,6 +17,9 @@ void check_scene(const Scene& scene, SoupFormat format);
 // Of a mesh, for people; if it has none, by its number.
 [[nodiscard]] std::string mesh_name(const Scene& scene, std::size_t mesh);
 
+// What a repair that changes nothing gives.
+[[nodiscard]] Surface as_given(const TriangleSoup& soup);
+
 // Repairs each mesh by itself, brings the attributes onto them, and writes them with what stands
 // where. A mesh that encloses nothing stays as it is, and the output is not certified then; if all
 // are such, throws NoSolidError. `repair_options` are of the whole soup. The report gets a section

@@ -8,13 +8,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/MeshToVolume.h>
-#include <openvdb/tools/VolumeToMesh.h>
 #include <string>
 #include <vector>
 
 #include <mesh/soup_io.h>
+
+#include "openvdb_mesh.h"
 
 using namespace meshrepair;
 
@@ -54,31 +53,6 @@ TriangleSoup alpha_wrapped(const TriangleSoup& soup, double alpha) {
   return result;
 }
 
-// Without a sign where the mesh is open: then around the surface, on both of its sides.
-TriangleSoup remeshed(const TriangleSoup& soup, double voxel) {
-  openvdb::initialize();
-  const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-  std::vector<openvdb::Vec3s> points;
-  std::vector<openvdb::Vec3I> triangles;
-  for (const Vec3d& p : soup.points) {
-    points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
-                        static_cast<float>(p.z()));
-  }
-  for (const auto& t : soup.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-  const auto volume =
-      openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*transform, points, triangles);
-  std::vector<openvdb::Vec3s> corners;
-  std::vector<openvdb::Vec4I> quads;
-  openvdb::tools::volumeToMesh(*volume, corners, quads);
-  TriangleSoup result;
-  for (const auto& p : corners) result.points.emplace_back(p.x(), p.y(), p.z());
-  for (const auto& q : quads) {
-    result.triangles.push_back({q[0], q[2], q[1]});
-    result.triangles.push_back({q[0], q[3], q[2]});
-  }
-  return result;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -88,10 +62,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   const TriangleSoup soup = read_soup(argv[2]).soup;
+  openvdb::initialize();
   const double length = std::strtod(argv[4], nullptr) * diagonal_of(soup);
   const auto start = std::chrono::steady_clock::now();
-  const TriangleSoup result =
-      method == "alpha" ? alpha_wrapped(soup, length) : remeshed(soup, length);
+  const TriangleSoup result = method == "alpha" ? alpha_wrapped(soup, length)
+                                                : bench::mesh_of(*bench::volume_of(soup, length));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   write_soup(result, argv[3]);
   std::printf("%.4f\n", took.count());

@@ -4,16 +4,13 @@
 #include <limits>
 #include <utility>
 
+#include <mesh/append_soup.h>
 #include <mesh/weld_points.h>
 
 namespace meshrepair::internal {
 
 void SecondSoup::append(const TriangleSoup& added, const std::vector<std::uint32_t>& sources) {
-  const auto base = static_cast<std::uint32_t>(soup.points.size());
-  soup.points.insert(soup.points.end(), added.points.begin(), added.points.end());
-  for (const auto& [a, b, c] : added.triangles) {
-    soup.triangles.push_back({a + base, b + base, c + base});
-  }
+  append_soup(soup, added);
   source.insert(source.end(), sources.begin(), sources.end());
   input_point.resize(soup.points.size(), 0);
 }

@@ -94,15 +94,10 @@ void WideSpaces::leave_empty_spaces(const TriangleSoup& mesh, ProgressObserver* 
   for (std::size_t p = 0; p < seen.size(); ++p) {
     if (seen[p] != 0 || clearance_[p] < step_) continue;
     check.ask();
-    std::vector<char> space(clearance_.size(), 0);
-    flood(p, kOverlap * step_, space);
+    const std::vector<std::size_t> space = flood(p, kOverlap * step_, seen);
     const Vec3d point = at(p);
-    const bool is_empty = solids.winding_at(point) == 0 && voids.winding_at(point) == 0;
-    for (std::size_t q = p; q < space.size(); ++q) {
-      if (space[q] == 0) continue;
-      seen[q] = 1;
-      if (!is_empty) clearance_[q] = 0;
-    }
+    if (solids.winding_at(point) == 0 && voids.winding_at(point) == 0) continue;
+    for (const std::size_t q : space) clearance_[q] = 0;
   }
 }
 
@@ -113,24 +108,25 @@ Vec3d WideSpaces::at(std::size_t place) const {
          step_ * Vec3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
 }
 
-void WideSpaces::flood(std::size_t from, double clearance, std::vector<char>& reached) const {
+std::vector<std::size_t> WideSpaces::flood(std::size_t from, double clearance,
+                                           std::vector<char>& reached) const {
   const std::array<std::size_t, 3> strides = {1, size_[0], size_[0] * size_[1]};
-  std::vector<std::size_t> front = {from};
+  std::vector<std::size_t> all = {from};
   reached[from] = 1;
-  while (!front.empty()) {
-    const std::size_t p = front.back();
-    front.pop_back();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t p = all[i];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t along = p / strides[k] % size_[k];
       const auto enter = [&](std::size_t q) {
         if (reached[q] != 0 || clearance_[q] < clearance) return;
         reached[q] = 1;
-        front.push_back(q);
+        all.push_back(q);
       };
       if (along > 0) enter(p - strides[k]);
       if (along + 1 < size_[k]) enter(p + strides[k]);
     }
   }
+  return all;
 }
 
 }  // namespace meshrepair::internal

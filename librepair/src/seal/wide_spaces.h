@@ -30,8 +30,10 @@ class WideSpaces {
   void measure(const TriangleSoup& mesh);
   void leave_empty_spaces(const TriangleSoup& mesh, ProgressObserver* progress);
   [[nodiscard]] Vec3d at(std::size_t place) const;
-  // All places to which a way leads from one that is nowhere nearer to the mesh than this.
-  void flood(std::size_t from, double clearance, std::vector<char>& reached) const;
+  // The places to which a way leads from one that is nowhere nearer to the mesh than this; not
+  // through those that are reached already, among which they are then.
+  std::vector<std::size_t> flood(std::size_t from, double clearance,
+                                 std::vector<char>& reached) const;
 
   double step_ = 0;
   Vec3d low_ = Vec3d::Zero();
