@@ -1,10 +1,11 @@
 // meshconvert IN OUT: a mesh in another format, as it is.
 #include <utility>
 
-#include <spdlog/spdlog.h>
+#include <spdlog/logger.h>
 
 #include "common/attribute_report.h"
 #include "common/file_kinds.h"
+#include "common/logging.h"
 #include "common/picture_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
@@ -29,8 +30,8 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   if (options.assets.by_mesh) still_held.objects = all.objects;
   const std::string lost = lost_words(soup, all, still_held, *format.format);
   if (!lost.empty()) {
-    spdlog::warn("{}: {} cannot hold what {} has: {}", findings.output_name(),
-                 format_name(*format.format), findings.input_name(), lost);
+    logger().warn("{}: {} cannot hold what {} has: {}", findings.output_name(),
+                  format_name(*format.format), findings.input_name(), lost);
   }
   format.extras.attributes = held.empty() ? nullptr : &held;
   if (options.assets.by_mesh) {

@@ -1,5 +1,4 @@
-# What the Python package needs, and what it asks of all libraries: they go into an extension module, a shared object. AUTO turns into
-# ON or OFF. numpy is looked for when the package is used, not here: pip hides it from a build. One Python runs the tests and builds
+# What the Python package needs. AUTO turns into ON or OFF. numpy is looked for when the package is used, not here: pip hides it from a build. One Python runs the tests and builds
 # the package: Debian's own, whose packages scripts/setup.sh installs.
 if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python3_EXECUTABLE /usr/bin/python3)
@@ -20,10 +19,4 @@ elseif(MESHREPAIR_BUILD_PYTHON)
   endif()
   find_package(Python3 COMPONENTS Interpreter Development.Module REQUIRED)
   find_package(pybind11 2.10 CONFIG REQUIRED)
-endif()
-
-# For all targets alike, as precompiled headers go with one set of flags. Nothing in here is replaced by another library when it is
-# loaded, so functions are called and inlined as in a program.
-if(MESHREPAIR_BUILD_PYTHON)
-  add_compile_options(-fPIC -fno-semantic-interposition)
 endif()

@@ -11,7 +11,7 @@ Usage: scripts/setup.sh [build|python|all|bench|package]
   python  the same, and what the Python package needs; "pip install ." uses no
           network then
   all     the same, and what the checks need: clang-format, clang-tidy, the
-          runtime of clang's fuzzer, man, the shells whose completions are
+          runtime of clang's fuzzer, abidiff, man, the shells whose completions are
           tested, Blender, OpenSCAD, and the validator of glTF, for node (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
@@ -61,6 +61,7 @@ python_packages=(
   python3-venv
 )
 check_packages=(
+  abigail-tools
   bash-completion
   blender
   clang
@@ -69,8 +70,10 @@ check_packages=(
   fish
   libclang-rt-dev
   lld
+  locales
   man-db
   openscad
+  pkg-config
   zsh
 )
 # From wherever they are: others than Debian's have npm in the package of node.

@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include <spdlog/spdlog.h>
+#include <spdlog/logger.h>
 
 #include <mesh/append_soup.h>
 #include <mesh/topology.h>
 
 #include "common/choice_option.h"
+#include "common/logging.h"
 #include "common/repair_options.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
@@ -74,13 +75,13 @@ void warn_of_common_grid(const BooleanCommand& command, const BooleanReport& rep
   for (std::size_t i = 0; i < report.operands.size(); ++i) {
     const OperandReport& operand = report.operands[i];
     if (operand.clean.dropped_below_grid > 0) {
-      spdlog::warn(
+      logger().warn(
           "{}: {} narrower than the steps of the grid over all solids, {:.3g} each, and left out",
           command.inputs[i], number_of(operand.clean.dropped_below_grid, "triangle"),
           operand.clean.grid_unit);
     }
     if (std::abs(operand.volume_on_grid - operand.volume) > kTolerableChange * operand.volume) {
-      spdlog::warn(
+      logger().warn(
           "{}: its volume is {:.3g} where its points are on the grid over all solids, of steps of "
           "{:.3g}, not {:.3g}",
           command.inputs[i], operand.volume_on_grid, operand.clean.grid_unit, operand.volume);
@@ -179,10 +180,10 @@ Operand make_operand(TriangleSoup soup, Attributes attributes, RepairOptions opt
 void end_operand(const Operand& operand, const Findings& findings, Run& run, Json& facts) {
   warn_of_findings(findings);
   if (!is_certified(operand, findings)) {
-    spdlog::warn("{}: could not be certified as a solid", findings.input_name());
+    logger().warn("{}: could not be certified as a solid", findings.input_name());
   } else if (findings.mesh_read && !operand.as_given) {
-    spdlog::warn("{}: is no valid solid by these rules, and is repaired first",
-                 findings.input_name());
+    logger().warn("{}: is no valid solid by these rules, and is repaired first",
+                  findings.input_name());
   }
   facts.push_back(facts_of_operand(operand, findings, run.report.take_sections()));
 }

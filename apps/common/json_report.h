@@ -52,6 +52,7 @@ class JsonReport {
 
   // What ended with an exit code other than 0, though nothing was thrown.
   void set_error(std::string message) { error_ = std::move(message); }
+  [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
 
   // The report is not to be written: its file is not one that may be replaced.
   void withhold() { withheld_ = true; }

@@ -1,8 +1,13 @@
 // What a program says on stderr besides its one error line. Standard output is for data alone.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+
+namespace spdlog {
+class logger;
+}
 
 namespace meshrepair {
 
@@ -12,7 +17,12 @@ enum class Verbosity {
   verbose,  // also what each step does
 };
 
-// Makes spdlog's default logger write "<program>: <level>: <text>" to stderr, in colours only if
+// What warnings and steps are told to; at first they go nowhere.
+[[nodiscard]] spdlog::logger& logger();
+// Before any thread.
+void set_logger(std::shared_ptr<spdlog::logger> logger);
+
+// Makes the logger write "<program>: <level>: <text>" to stderr, in colours only if
 // stderr is a terminal and NO_COLOR is not set.
 void set_up_logging(const std::string& program, Verbosity verbosity);
 

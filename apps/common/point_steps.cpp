@@ -6,10 +6,11 @@
 
 #include <CLI/Validators.hpp>
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/spdlog.h>
+#include <spdlog/logger.h>
 
 #include <base/error.h>
 
+#include "common/logging.h"
 #include "common/numbers.h"
 #include "common/summary.h"
 
@@ -33,11 +34,11 @@ constexpr double kManyUnused = 0.1;
 void warn_of_points(const Findings& findings) {
   const PointSoupReport& soup = *findings.point_soup;
   const std::string noisy = why_noisy(soup);
-  if (!noisy.empty()) spdlog::warn("{}: {}{}", findings.input_name(), noisy, kHowToSmooth);
+  if (!noisy.empty()) logger().warn("{}: {}{}", findings.input_name(), noisy, kHowToSmooth);
   if (findings.repair.thicken.triangles > 0) return;  // they are within walls
   const std::size_t unused = soup.points - std::min(soup.points, findings.points_in_result);
   if (static_cast<double>(unused) <= kManyUnused * static_cast<double>(soup.points)) return;
-  spdlog::warn(
+  logger().warn(
       "{}: {} of {} are not on the result: do they lie along lines, or inside, or is there more "
       "than one surface?",
       findings.input_name(), unused, number_of(soup.points, "point"));

@@ -4,7 +4,7 @@
 #include <new>
 #include <optional>
 
-#include <spdlog/spdlog.h>
+#include <spdlog/logger.h>
 
 #include <base/atomic_file.h>
 #include <base/error.h>
@@ -64,7 +64,7 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
     watchdog.emplace(command_line_.get_name(), *progress);
     const ThreadLimit thread_limit(options_.threads);
     limit_memory(memory, most_threads());
-    spdlog::debug("threads: {}", most_threads());
+    logger().debug("threads: {}", most_threads());
     Run run{report, *progress, options_};
     code = body(run);
     flush_standard_output();
@@ -102,7 +102,7 @@ void Program::write_report(const JsonReport& report, ExitCode code, const std::e
     write_file_atomically(options_.report, text, error ? nullptr : &progress);
   } catch (const OutputError& e) {
     if (!error) throw;
-    spdlog::warn("no report: {}", e.what());
+    logger().warn("no report: {}", e.what());
   }
 }
 

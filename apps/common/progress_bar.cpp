@@ -6,10 +6,11 @@
 #include <unistd.h>
 
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/spdlog.h>
+#include <spdlog/logger.h>
 
 #include <base/error.h>
 
+#include "common/logging.h"
 #include "common/memory_limit.h"
 #include "common/signals.h"
 
@@ -66,7 +67,7 @@ void ProgressBar::stage(std::string_view name) {
     stage_ = name;
     share_ = 0;
   }
-  spdlog::debug("{} ...", stage_);
+  logger().debug("{} ...", stage_);
   draw();
 }
 
@@ -143,7 +144,7 @@ void ProgressBar::end_stage() {
   } else {
     stages_.push_back({stage_, seconds});
   }
-  spdlog::info("{}: {:.3f} s", stage_, seconds);
+  logger().info("{}: {:.3f} s", stage_, seconds);
   stage_.clear();
 }
 

@@ -7,12 +7,13 @@
 #include <string_view>
 #include <system_error>
 
-#include <spdlog/spdlog.h>
+#include <spdlog/logger.h>
 
 #include <base/atomic_file.h>
 #include <base/error.h>
 
 #include "common/explanation_file.h"
+#include "common/logging.h"
 #include "common/picture_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
@@ -42,7 +43,7 @@ void check_report(Run& run, const std::string& file, const std::string& what) {
 void warn_of_coarse_grid(const Findings& findings) {
   const CleanReport& clean = findings.repair.clean;
   if (clean.dropped_below_grid == 0) return;
-  spdlog::warn(
+  logger().warn(
       "{}: {} of {} triangles dropped, smaller than the working grid, whose step is {:.3g}: is a "
       "point far away from the others?",
       findings.input_name(), clean.dropped_below_grid, clean.triangles_in, clean.grid_unit);
@@ -54,7 +55,7 @@ void warn_of_lost_triangles(const Findings& findings) {
   const SewReport& sew = findings.repair.sew;
   const auto all = static_cast<double>(findings.repair.clean.triangles_in);
   if (static_cast<double>(sew.lost_triangles) <= kWorthAWarning * all) return;
-  spdlog::warn(
+  logger().warn(
       "{}: corners that belong together are up to {:.3g} apart, and {} are smaller than that: what "
       "they showed is lost",
       findings.input_name(), sew.widest_gap, number_of(sew.lost_triangles, "triangle"));
@@ -67,7 +68,7 @@ void warn_of_made_up_surface(const Findings& findings) {
   constexpr double kWorthAWarning = 0.3;
   if (!std::isfinite(repair.output_area)) return;
   if (repair.closing_area <= kWorthAWarning * repair.output_area) return;
-  spdlog::warn(
+  logger().warn(
       "{}: {:.0f} % of the result's surface is not of the input, but closes what is open there: is "
       "it a sheet, or a part of something?",
       findings.input_name(), 100 * repair.closing_area / repair.output_area);
@@ -82,7 +83,7 @@ void warn_of_poking_walls(const Findings& findings) {
   constexpr double kWorthAWarning = 0.01;
   const InsideReport& inside = findings.repair.inside;
   if (inside.poking_share < kWorthAWarning) return;
-  spdlog::warn(
+  logger().warn(
       "{}: the wall of a cavity pokes out of what is around it with {:.2g} % of its area; "
       "--inside solidity fills the cavity",
       findings.input_name(), 100 * inside.poking_share);
@@ -91,8 +92,8 @@ void warn_of_poking_walls(const Findings& findings) {
 void warn_of_unknown_parts(const Findings& findings) {
   const KeepPartsReport& keep = findings.repair.keep;
   if (keep.done || !keep.asked) return;
-  spdlog::warn("{}: all parts stay, as a surface that is not closed does not tell solids apart",
-               findings.output_name());
+  logger().warn("{}: all parts stay, as a surface that is not closed does not tell solids apart",
+                findings.output_name());
 }
 
 // Where that is much: in single precision other numbers would have kept it.
@@ -105,8 +106,8 @@ void warn_of_coarse_numbers(const Findings& findings) {
         repair.precision == Precision::float32
             ? "OBJ, OFF and PLY in double precision hold finer ones"
             : "sheets were nearer to each other than two steps of the working grid";
-    spdlog::warn("{}: {}, {:.0f} % of the surface: {}", findings.output_name(), what, 100 * share,
-                 why);
+    logger().warn("{}: {}, {:.0f} % of the surface: {}", findings.output_name(), what, 100 * share,
+                  why);
   };
   warn("parts that are too thin for its numbers are left out",
        repair.certify.dropped_share + share_of_surface(repair.fins_area, repair));
@@ -182,7 +183,7 @@ ExitCode verdict(Run& run, const Findings& findings) {
       "{}: {} {}", findings.output_name(),
       findings.withheld ? "not written, it would be" : "written, but", findings.missing_guarantees);
   run.report.set_error("error: " + message);
-  spdlog::error("{}", message);
+  logger().error("{}", message);
   return ExitCode::not_certified;
 }
 
@@ -197,9 +198,9 @@ void warn_of_findings(const Findings& findings) {
 
 void log_warnings(const std::string& name, const std::vector<std::string>& warnings) {
   const std::size_t shown = std::min(warnings.size(), kMostWarnings);
-  for (std::size_t i = 0; i < shown; ++i) spdlog::warn("{}: {}", name, warnings[i]);
+  for (std::size_t i = 0; i < shown; ++i) logger().warn("{}: {}", name, warnings[i]);
   if (warnings.size() > shown) {
-    spdlog::warn("{}: {} more warnings, all in the report", name, warnings.size() - shown);
+    logger().warn("{}: {} more warnings, all in the report", name, warnings.size() - shown);
   }
 }
 
@@ -368,8 +369,8 @@ void write_with_files(const TriangleSoup& soup, const WriteOptions& format, Run&
   const Attributes* const attributes = format.extras.attributes;
   if (findings.output == "-" && attributes != nullptr &&
       has_files_beside(*format.format, *attributes)) {
-    spdlog::warn("{}: {} has its materials and pictures in files beside it, and OUT has no name",
-                 findings.output_name(), format_name(*format.format));
+    logger().warn("{}: {} has its materials and pictures in files beside it, and OUT has no name",
+                  findings.output_name(), format_name(*format.format));
   }
   findings.staging = format.staging.string();
   write_soup(soup, findings.output, format);

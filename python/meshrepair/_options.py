@@ -26,14 +26,14 @@ def _text_of(name: str, value: Any) -> bytes:
 
 
 def keywords_of(options: Mapping[str, Any]) -> list[tuple[str, bool | bytes]]:
-    """Options with "_" for "-"; one that is None is left out. ``for_`` is ``--for``."""
+    """Options that are not None. ``for_`` is ``--for``."""
     keywords: list[tuple[str, bool | bytes]] = []
     for name, value in options.items():
         if value is None:
             continue
         try:
             word: bool | bytes = bool(value) if isinstance(value, (bool, np.bool_)) else _text_of(name, value)
-            keywords.append((name.rstrip("_").replace("_", "-"), word))
+            keywords.append((name.rstrip("_"), word))
             name.encode()
         except UsageError:
             raise
@@ -58,7 +58,7 @@ def raise_unless(outcome: dict[str, Any], *fine: int) -> None:
     if outcome["code"] in fine:
         return
     report = json.loads(outcome["report"])
-    raise error_of(outcome["code"], outcome["error"] or report["error"] or "failed", report)
+    raise error_of(outcome["code"], outcome["error"] or "failed", report)
 
 
 def is_true(options: Mapping[str, Any], name: str) -> bool:

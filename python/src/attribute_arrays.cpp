@@ -18,6 +18,7 @@
 #include <base/ids.h>
 
 #include "arrays.h"
+#include "calls/attribute_keys.h"
 
 namespace meshrepair {
 namespace {
@@ -28,11 +29,6 @@ using Kind = CornerAttribute::Kind;
 using OfWhat = CornerAttribute::Place;
 using Storage = CornerAttribute::Storage;
 
-constexpr std::array<std::pair<std::string_view, Kind>, 4> kKinds = {{{"texture", Kind::texture},
-                                                                      {"normal", Kind::normal},
-                                                                      {"tangent", Kind::tangent},
-                                                                      {"colour", Kind::colour}}};
-
 struct LabelName {
   std::string_view name;
   TriangleLabels Attributes::*labels;
@@ -42,26 +38,6 @@ constexpr std::array<LabelName, 4> kLabels = {{{"material", &Attributes::materia
                                                {"group", &Attributes::groups},
                                                {"object", &Attributes::objects},
                                                {"smoothing", &Attributes::smoothing}}};
-
-// Of the n-th attribute of a kind.
-std::string key_of(const CornerAttribute& attribute, std::size_t n) {
-  for (const auto& [name, kind] : kKinds) {
-    if (kind != attribute.kind) continue;
-    return n == 0 ? std::string(name) : fmt::format("{}_{}", name, n);
-  }
-  return attribute.name.empty() ? fmt::format("other_{}", n) : attribute.name;
-}
-
-std::optional<Kind> kind_of(std::string_view key) {
-  for (const auto& [name, kind] : kKinds) {
-    if (!key.starts_with(name)) continue;
-    const std::string_view rest = key.substr(name.size());
-    const bool is_number = rest.size() > 1 && rest[0] == '_' &&
-                           rest.find_first_not_of("0123456789", 1) == std::string_view::npos;
-    if (rest.empty() || is_number) return kind;
-  }
-  return std::nullopt;
-}
 
 // Of the values with these numbers; NaN, or 0 where there is none, for no value.
 template <class Number>
@@ -167,7 +143,7 @@ CornerAttribute corner_attribute(const std::string& key, const py::array& array,
   }
   const Layout layout = layout_of(array, key, soup);
   CornerAttribute attribute;
-  attribute.kind = kind_of(key).value_or(Kind::other);
+  attribute.kind = kind_of_key(key);
   attribute.name = attribute.kind == Kind::other ? key : std::string();
   attribute.place = layout.place;
   attribute.storage = storage_of(array.dtype(), attribute.kind == Kind::colour);
@@ -182,20 +158,6 @@ CornerAttribute corner_attribute(const std::string& key, const py::array& array,
   forget_missing(attribute);
   share_values(attribute);
   return attribute;
-}
-
-void check_components(const std::string& key, const CornerAttribute& attribute) {
-  const auto is_in = [&](std::size_t least, std::size_t most) {
-    return attribute.components >= least && attribute.components <= most;
-  };
-  const bool fits = attribute.kind == Kind::texture   ? is_in(2, 3)
-                    : attribute.kind == Kind::normal  ? is_in(3, 3)
-                    : attribute.kind == Kind::tangent ? is_in(4, 4)
-                    : attribute.kind == Kind::colour  ? is_in(3, 4)
-                                                      : is_in(1, 16);
-  if (fits) return;
-  throw UsageError(
-      fmt::format("attributes: {} cannot have {} numbers a row", key, attribute.components));
 }
 
 TriangleLabels labels_of(const std::string& key, const py::dict& arrays, const TriangleSoup& soup) {
@@ -235,7 +197,7 @@ py::dict dict_of(const Attributes& attributes, const TriangleSoup& soup) {
   py::dict arrays;
   std::map<Kind, std::size_t> count;
   for (const CornerAttribute& attribute : attributes.corners) {
-    arrays[name_of(key_of(attribute, count[attribute.kind]++))] = array_of(attribute, soup);
+    arrays[name_of(attribute_key(attribute, count[attribute.kind]++))] = array_of(attribute, soup);
   }
   for (const auto& [name, labels] : kLabels) {
     const TriangleLabels& of = attributes.*labels;
@@ -262,7 +224,7 @@ Attributes attributes_of(const py::dict& arrays, const TriangleSoup& soup,
     const auto array = py::array::ensure(value);
     if (!array) throw UsageError("attributes: " + key + " is no array");
     attributes.corners.push_back(corner_attribute(key, array, soup));
-    check_components(key, attributes.corners.back());
+    check_components(attributes.corners.back(), "attributes: " + key);
   }
   std::stable_sort(attributes.corners.begin(), attributes.corners.end(),
                    [](const auto& a, const auto& b) { return a.kind < b.kind; });

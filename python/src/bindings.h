@@ -10,7 +10,7 @@
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
 
-#include "session.h"
+#include "calls/session.h"
 
 namespace meshrepair {
 

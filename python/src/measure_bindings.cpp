@@ -2,14 +2,10 @@
 #include <pybind11/stl.h>
 #include <utility>
 
-#include <check/check_surface.h>
-#include <check/mesh_distance.h>
-
 #include "arrays.h"
 #include "bindings.h"
-#include "common/check_report.h"
-#include "common/check_steps.h"
-#include "common/distance_report.h"
+#include "calls/measure_calls.h"
+#include "without_lock.h"
 
 namespace meshrepair {
 namespace {
@@ -24,47 +20,23 @@ py::array marks_of(std::vector<std::uint16_t> marks) {
 // Also "marks": of each face a bit for each defect that it has, in the order of "defects".
 py::dict check_mesh(const py::array& vertices, const py::array& faces, const Keywords& keywords,
                     const py::object& told) {
-  Session session("meshcheck");
-  CheckRequest request;
-  add_check_options(session.options(), request);
-  session.parse(keywords, {});
-  request.check.mark_triangles = true;
-  const TriangleSoup soup = soup_of(vertices, faces, true);
-  SurfaceCheck check;
-  const Outcome outcome = session.run(told, [&](Run& run) {
-    request.check.progress = &run.progress;
-    check = check_surface(soup, request.check);
-    Json section = check_section(check);
-    (void)add_openings(soup, check, request, section);
-    run.report.set_section("check", std::move(section));
-    return check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
-  });
+  CheckOutcome outcome = check_call(soup_of(vertices, faces, true), keywords, without_lock(told));
   py::dict result = dict_of(outcome);
   std::vector<std::string> defects;
   for (std::size_t d = 0; d < kDefects; ++d) {
     defects.emplace_back(defect_name(static_cast<Defect>(d)));
   }
   result["defects"] = defects;
-  result["marks"] = marks_of(std::move(check.marks));
+  result["marks"] = marks_of(std::move(outcome.check.marks));
   return result;
 }
 
 py::dict distance_of(const py::array& vertices, const py::array& faces,
                      const py::array& other_vertices, const py::array& other_faces,
                      const Keywords& keywords, const py::object& told) {
-  Session session("meshdist");
-  DistanceOptions options;
-  add_distance_options(session.options(), options);
-  session.parse(keywords, {});
-  const TriangleSoup first = soup_of(vertices, faces, true);
-  const TriangleSoup second = soup_of(other_vertices, other_faces, true);
-  const Outcome outcome = session.run(told, [&](Run& run) {
-    options.progress = &run.progress;
-    const MeshDistance distance = mesh_distance(first, second, options);
-    run.report.set_section("distance", distance_section(distance, options));
-    return ExitCode::done;
-  });
-  return dict_of(outcome);
+  return dict_of(distance_call(soup_of(vertices, faces, true),
+                               soup_of(other_vertices, other_faces, true), keywords,
+                               without_lock(told)));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ from documents import DOCUMENTS, ROOT, name_of
 PROGRAMS = pathlib.Path()  # set by main()
 MOST_LINES = 120  # of the README
 WIDEST = 140
-LANGUAGES = {"sh", "console", "cpp", "cmake", "python", "text"}
+LANGUAGES = {"sh", "console", "c", "cpp", "cmake", "python", "rust", "text"}
 SECONDS_OF_A_COMMAND = 60
 
 # What is not run here: it installs packages, builds, or takes minutes. What it starts with, and why.
@@ -212,13 +212,15 @@ class Snippets(unittest.TestCase):
 
     def test_code_is_quoted(self) -> None:
         sources = {"cpp": [*(ROOT / "samples").glob("*.cpp"), ROOT / "tests/package/main.cpp"],
+                   "c": [*(ROOT / "samples/c").glob("*.c")],
+                   "rust": [*(ROOT / "samples/rust/src").glob("*.rs")],
                    "cmake": [ROOT / "tests/package/CMakeLists.txt"]}
         for document in DOCUMENTS:
             for block in documents.blocks(document):
                 texts = [code_of(path) for path in sources.get(block.language, [])]
                 for line in block.lines if texts else ():
                     self.assertTrue(any(line.strip() in text for text in texts), f"{name_of(document)}:{block.line}: {line}")
-                if block.language == "cpp" and not block.lines[0].startswith("#include"):
+                if block.language in ("c", "cpp", "rust") and not block.lines[0].startswith("#include"):
                     whole = "\n".join(line.strip() for line in block.lines)
                     self.assertTrue(any(whole in text for text in texts), f"{name_of(document)}:{block.line}")
 

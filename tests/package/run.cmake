@@ -20,3 +20,16 @@ run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR} -D CMAKE_PR
     -D CMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer ${MESH})
+run(${WORK}/build/c_consumer ${MESH})
+
+# The same C program without CMake.
+find_program(PKG_CONFIG pkg-config)
+if(PKG_CONFIG)
+  file(GLOB_RECURSE description ${WORK}/prefix/*/meshrepair.pc)
+  cmake_path(GET description PARENT_PATH folder)
+  set(ENV{PKG_CONFIG_PATH} ${folder})
+  cmake_path(GET folder PARENT_PATH libraries)
+  set(ENV{LD_LIBRARY_PATH} ${libraries})
+  run(sh -c "cc '${CONSUMER}/main.c' $(pkg-config --cflags --libs meshrepair) -o '${WORK}/by_pkg_config'")
+  run(${WORK}/by_pkg_config ${MESH})
+endif()

@@ -149,8 +149,8 @@ class Errors(unittest.TestCase):
         self.assert_refused("^--inside: magic not in {auto,solidity,parity,winding}", CUBE, TRIANGLES, inside="magic")
         self.assert_refused("^no_such: there is no such option$", CUBE, TRIANGLES, no_such=1)
         self.assert_refused("^scene: is for files, and here are none$", CUBE, TRIANGLES, scene="each")
-        self.assert_refused("^always: is True or False$", CUBE, TRIANGLES, always="yes")
-        self.assert_refused("^sew: needs a value, not True or False$", CUBE, TRIANGLES, sew=False)
+        self.assert_refused("^always: is a flag, and takes no value$", CUBE, TRIANGLES, always="yes")
+        self.assert_refused("^sew: needs a value$", CUBE, TRIANGLES, sew=False)
         self.assert_refused("^nan: is 'keep', neither 'raise' nor 'drop'$", CUBE, TRIANGLES, nan="keep")
 
     def test_each_exit_code_has_an_exception(self):

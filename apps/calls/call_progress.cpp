@@ -1,10 +1,10 @@
-#include "python_progress.h"
+#include "calls/call_progress.h"
 
 #include <utility>
 
 namespace meshrepair {
 
-void PythonProgress::stage(std::string_view name) {
+void CallProgress::stage(std::string_view name) {
   ProgressBar::stage(name);
   const std::scoped_lock lock(mutex_);
   if (!has_new_) events_.clear();
@@ -12,7 +12,7 @@ void PythonProgress::stage(std::string_view name) {
   has_new_ = true;
 }
 
-void PythonProgress::advance(double share) {
+void CallProgress::advance(double share) {
   ProgressBar::advance(share);
   const std::scoped_lock lock(mutex_);
   if (events_.empty() || share <= events_.back().share) return;
@@ -20,7 +20,7 @@ void PythonProgress::advance(double share) {
   has_new_ = true;
 }
 
-std::vector<PythonProgress::Event> PythonProgress::take_events() {
+std::vector<CallProgress::Event> CallProgress::take_events() {
   const std::scoped_lock lock(mutex_);
   if (!std::exchange(has_new_, false)) return {};
   std::vector<Event> taken = events_;

@@ -1,9 +1,8 @@
-// The frame of a call from Python: what Program is for a command line. Options have the names
-// and values of the programs' long ones, and come out of the same tables.
+// The frame of a call from another language: what Program is for a command line. Options have the
+// names and values of the programs' long ones, and come out of the same tables.
 #pragma once
 
 #include <functional>
-#include <pybind11/pybind11.h>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,22 +11,22 @@
 
 #include <CLI/App.hpp>
 
+#include "calls/call_progress.h"
 #include "common/common_options.h"
 #include "common/exit_code.h"
 #include "common/program.h"
-#include "python_progress.h"
 
 namespace meshrepair {
 
-// Of one keyword: its name with "-" for "_", and its value as the command line would have it, or
-// for flags whether they are set.
+// Of one option: its name, which may have "_" for "-", and its value as the command line would have
+// it, or for flags whether they are set.
 using Keyword = std::pair<std::string, std::variant<bool, std::string>>;
 using Keywords = std::vector<Keyword>;
 
 // What came of a call, whether it went well or not.
 struct Outcome {
   ExitCode code = ExitCode::internal;
-  std::string error;   // one line; empty where nothing was thrown
+  std::string error;   // one line; empty where nothing was wrong
   std::string report;  // JSON
   std::vector<std::string> warnings;
 };
@@ -38,6 +37,8 @@ void collect_warnings();
 
 class Session {
  public:
+  using Body = std::function<ExitCode(Run&)>;
+
   // `program`: whose options and report these are.
   explicit Session(const std::string& program);
 
@@ -45,21 +46,23 @@ class Session {
   [[nodiscard]] CLI::App& options() { return app_; }
   [[nodiscard]] CommonOptions& common() { return common_; }
 
-  // Throws UsageError, also for keywords that are among `refused`: they are about files, and there
-  // are none.
+  // Throws UsageError, which begins with the name as it is in the keyword; also for those that are
+  // among `refused`: they are about files, and there are none.
   void parse(const Keywords& keywords, const std::vector<std::string_view>& refused);
 
-  // Runs `body` on a thread of its own; see run_without_lock().
-  [[nodiscard]] Outcome run(const pybind11::object& told,
-                            const std::function<ExitCode(Run&)>& body);
+  // As the options say; what the observer of run() is made with.
+  [[nodiscard]] ProgressBar::Options limits() const;
+
+  // Whatever the body throws is in the outcome.
+  [[nodiscard]] Outcome run(CallProgress& progress, const Body& body) const;
 
  private:
-  [[nodiscard]] Outcome run_here(PythonProgress& progress,
-                                 const std::function<ExitCode(Run&)>& body) const;
-
   CLI::App app_;
   CommonOptions common_;
   std::vector<std::string> command_;  // as the command line would be
 };
+
+// How a caller has the body of a session run: on a thread of which kind, and who is told.
+using Runner = std::function<Outcome(const Session&, const Session::Body&)>;
 
 }  // namespace meshrepair

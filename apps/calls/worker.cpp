@@ -1,4 +1,4 @@
-#include "worker.h"
+#include "calls/worker.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -12,10 +12,10 @@
 
 #include <base/error.h>
 
+#include "calls/plain_locale.h"
+
 namespace meshrepair {
 namespace {
-
-namespace py = pybind11;
 
 constexpr std::chrono::milliseconds kBetweenLooks(50);
 
@@ -53,6 +53,7 @@ class Worker {
 
  private:
   [[noreturn]] void work_for_ever() {
+    const PlainLocale plain;
     std::unique_lock lock(mutex_);
     for (;;) {
       changed_.wait(lock, [this] { return work_ != nullptr; });
@@ -126,36 +127,23 @@ class HiredWorker {
   Worker& worker_;
 };
 
-void tell(PythonProgress& progress, const py::object& told) {
-  if (told.is_none()) return;
-  for (const PythonProgress::Event& event : progress.take_events()) {
-    told(py::str(event.stage), event.share);
-  }
-}
-
 }  // namespace
 
-void run_without_lock(PythonProgress& progress, const py::object& told,
-                      const std::function<void()>& work) {
-  std::exception_ptr raised;  // by Python
+void run_watched(const std::function<void()>& work, const std::function<void()>& look) {
+  std::exception_ptr raised;  // by `look`
   {
-    const py::gil_scoped_release unlocked;
     HiredWorker worker(work);
     while (!worker.get().wait()) {
-      if (progress.is_asked_to_stop()) continue;
-      const py::gil_scoped_acquire locked;
+      if (raised) continue;
       try {
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        tell(progress, told);
+        look();
       } catch (...) {
         raised = std::current_exception();
-        progress.ask_to_stop();
       }
     }
     if (!raised) worker.get().rethrow();
   }
   if (raised) std::rethrow_exception(raised);
-  tell(progress, told);
 }
 
 }  // namespace meshrepair

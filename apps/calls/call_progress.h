@@ -1,4 +1,4 @@
-// The observer of a call from Python: what the work tells is kept for the thread that waits for it.
+// The observer of a call: what the work tells is kept for the thread that waits for it.
 #pragma once
 
 #include <atomic>
@@ -11,14 +11,14 @@
 
 namespace meshrepair {
 
-class PythonProgress : public ProgressBar {
+class CallProgress : public ProgressBar {
  public:
   struct Event {
     std::string stage;
     double share = 0;
   };
 
-  explicit PythonProgress(const Options& options) : ProgressBar(options) {}
+  explicit CallProgress(const Options& options) : ProgressBar(options) {}
 
   void stage(std::string_view name) override;
   void advance(double share) override;

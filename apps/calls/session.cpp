@@ -1,4 +1,4 @@
-#include "session.h"
+#include "calls/session.h"
 
 #include <algorithm>
 #include <exception>
@@ -6,14 +6,15 @@
 #include <new>
 #include <optional>
 
+#include <spdlog/logger.h>
 #include <spdlog/sinks/base_sink.h>
-#include <spdlog/spdlog.h>
 
 #include <base/error.h>
 #include <base/parallel.h>
 
+#include "calls/plain_locale.h"
+#include "common/logging.h"
 #include "common/memory_limit.h"
-#include "worker.h"
 
 namespace meshrepair {
 namespace {
@@ -40,9 +41,9 @@ bool is_among(const Names& names, std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// As the caller wrote it.
-std::string keyword_of(std::string name) {
-  std::replace(name.begin(), name.end(), '-', '_');
+// As the programs have it.
+std::string option_name(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
   return name;
 }
 
@@ -51,19 +52,19 @@ std::string word_of(const CLI::Option& option, const Keyword& keyword) {
   const auto& [name, value] = keyword;
   const bool is_flag = option.get_items_expected_max() == 0;
   if (const bool* set = std::get_if<bool>(&value)) {
-    if (!is_flag) throw UsageError(keyword_of(name) + ": needs a value, not True or False");
-    return *set ? "--" + name : std::string();
+    if (!is_flag) throw UsageError(name + ": needs a value");
+    return *set ? "--" + option_name(name) : std::string();
   }
-  if (is_flag) throw UsageError(keyword_of(name) + ": is True or False");
-  return "--" + name + "=" + std::get<std::string>(value);
+  if (is_flag) throw UsageError(name + ": is a flag, and takes no value");
+  return "--" + option_name(name) + "=" + std::get<std::string>(value);
 }
 
 }  // namespace
 
 void collect_warnings() {
-  auto logger = std::make_shared<spdlog::logger>("meshrepair", std::make_shared<WarningSink>());
-  logger->set_level(spdlog::level::warn);
-  spdlog::set_default_logger(std::move(logger));
+  auto collecting = std::make_shared<spdlog::logger>("meshrepair", std::make_shared<WarningSink>());
+  collecting->set_level(spdlog::level::warn);
+  set_logger(std::move(collecting));
 }
 
 Session::Session(const std::string& program) : app_("", program), command_({program}) {
@@ -72,14 +73,15 @@ Session::Session(const std::string& program) : app_("", program), command_({prog
 }
 
 void Session::parse(const Keywords& keywords, const std::vector<std::string_view>& refused) {
+  const PlainLocale plain;
   for (const Keyword& keyword : keywords) {
-    const std::string& name = keyword.first;
+    const std::string name = option_name(keyword.first);
     const CLI::Option* const option = app_.get_option_no_throw("--" + name);
     if (option == nullptr || is_among(kOfPrograms, name)) {
-      throw UsageError(keyword_of(name) + ": there is no such option");
+      throw UsageError(keyword.first + ": there is no such option");
     }
     if (is_among(refused, name)) {
-      throw UsageError(keyword_of(name) + ": is for files, and here are none");
+      throw UsageError(keyword.first + ": is for files, and here are none");
     }
     if (std::string word = word_of(*option, keyword); !word.empty()) command_.push_back(word);
   }
@@ -91,18 +93,14 @@ void Session::parse(const Keywords& keywords, const std::vector<std::string_view
   common_.quiet = true;
 }
 
-Outcome Session::run(const pybind11::object& told, const std::function<ExitCode(Run&)>& body) {
+ProgressBar::Options Session::limits() const {
   ProgressBar::Options limits;
   limits.time_limit = common_.time_limit;
   limits.memory_limit = parse_memory_limit(common_.max_memory).bytes;
-  PythonProgress progress(limits);
-  Outcome outcome;
-  run_without_lock(progress, told, [&] { outcome = run_here(progress, body); });
-  return outcome;
+  return limits;
 }
 
-Outcome Session::run_here(PythonProgress& progress,
-                          const std::function<ExitCode(Run&)>& body) const {
+Outcome Session::run(CallProgress& progress, const Body& body) const {
   Outcome outcome;
   warnings_of_call = &outcome.warnings;
   JsonReport report(command_.front(), command_);
@@ -123,7 +121,7 @@ Outcome Session::run_here(PythonProgress& progress,
   std::optional<Failure> failure;
   if (error) failure = describe_failure(error);
   if (failure) outcome.code = failure->code;
-  if (failure) outcome.error = failure->message;
+  outcome.error = failure ? failure->message : report.error().value_or("");
   outcome.report = report.text(outcome.code, failure, progress);
   return outcome;
 }

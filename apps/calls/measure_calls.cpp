@@ -1,0 +1,45 @@
+#include "calls/measure_calls.h"
+
+#include <utility>
+
+#include <check/mesh_distance.h>
+
+#include "common/check_report.h"
+#include "common/check_steps.h"
+#include "common/distance_report.h"
+
+namespace meshrepair {
+
+CheckOutcome check_call(const TriangleSoup& soup, const Keywords& keywords, const Runner& runner) {
+  Session session("meshcheck");
+  CheckRequest request;
+  add_check_options(session.options(), request);
+  session.parse(keywords, {});
+  request.check.mark_triangles = true;
+  CheckOutcome outcome;
+  static_cast<Outcome&>(outcome) = runner(session, [&](Run& run) {
+    request.check.progress = &run.progress;
+    outcome.check = check_surface(soup, request.check);
+    Json section = check_section(outcome.check);
+    (void)add_openings(soup, outcome.check, request, section);
+    run.report.set_section("check", std::move(section));
+    return outcome.check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
+  });
+  return outcome;
+}
+
+Outcome distance_call(const TriangleSoup& first, const TriangleSoup& second,
+                      const Keywords& keywords, const Runner& runner) {
+  Session session("meshdist");
+  DistanceOptions options;
+  add_distance_options(session.options(), options);
+  session.parse(keywords, {});
+  return runner(session, [&](Run& run) {
+    options.progress = &run.progress;
+    const MeshDistance distance = mesh_distance(first, second, options);
+    run.report.set_section("distance", distance_section(distance, options));
+    return ExitCode::done;
+  });
+}
+
+}  // namespace meshrepair
