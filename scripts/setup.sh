@@ -12,8 +12,8 @@ Usage: scripts/setup.sh [build|python|all|bench|package]
           network then
   all     the same, and what the checks need: clang-format, clang-tidy, the
           runtime of clang's fuzzer, man, the shells whose completions are
-          tested, Blender, OpenSCAD, what makes the manual's site, and the
-          validator of glTF, for node (default)
+          tested, Blender, OpenSCAD, mypy, what makes the manual's site, and
+          the validator of glTF, for node (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
   package
@@ -74,6 +74,7 @@ check_packages=(
   man-db
   mkdocs
   mkdocs-material
+  mypy
   openscad
   zsh
 )
