@@ -134,7 +134,7 @@ def option_rows(option: Option) -> Iterator[tuple[str, str, str]]:
     texts: list[str] = []
     choices: list[tuple[str, str]] = []
     for line in option.lines:
-        choice = re.match(r"  (\S+)\s+(.*)", line)
+        choice = re.match(r"  (a number(?=:)|\S+):?\s+(.*)", line)
         if choice and not line.startswith("   "):
             choices.append((choice[1], choice[2]))
         elif choices and line.startswith("   "):
@@ -145,7 +145,7 @@ def option_rows(option: Option) -> Iterator[tuple[str, str, str]]:
             texts.append(line)
     yield f"`{option.spec}`", f"`{option.default}`" if option.default else "", " ".join(texts)
     for name, meaning in choices:
-        yield "", "", f"`{name}`: {meaning}" if name else meaning
+        yield "", "", f"{name if ' ' in name else f'`{name}`'}: {meaning}" if name else meaning
 
 
 def option_table(options: list[Option]) -> list[str]:

@@ -28,7 +28,7 @@ def joined(above: str, below: str) -> str:
     """A sentence goes on, a new one gets a line of its own."""
     if not above or not below:
         return above + below
-    return above + ("<br>" if above[-1] in ".:" or re.match(r"`[^`]*`:", below) else " ") + below
+    return above + ("<br>" if above[-1] in ".:" or re.match(r"(`[^`]*`|a number):", below) else " ") + below
 
 
 def with_whole_rows(text: str) -> str:
@@ -43,7 +43,12 @@ def with_whole_rows(text: str) -> str:
             continue
         lines.append(line)
         above = cells if cells and not re.fullmatch(r"[|\-: ]+", line) else None
-    return "\n".join(lines)
+    return "\n".join(with_plain_bars(line) if line.startswith("|") else line for line in lines)
+
+
+def with_plain_bars(row: str) -> str:
+    """Forges want a backslash before a bar in the code of a table, and Python's Markdown shows it."""
+    return re.sub(r"`[^`]*`", lambda match: match[0].replace("\\|", "|"), row)
 
 
 def title_of(page: pathlib.Path) -> str:

@@ -7,6 +7,7 @@ Skipped where mkdocs or doxygen are missing.
 """
 
 import html.parser
+import json
 import os
 import pathlib
 import re
@@ -80,7 +81,14 @@ class Site(unittest.TestCase):
     def test_each_document_is_in_the_navigation(self) -> None:
         text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
         named = set(re.findall(r"docs/[\w-]+\.md", text))
-        self.assertEqual(named, {path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("*.md")})
+        documents = {path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("*.md")}
+        self.assertEqual(named, documents, "mkdocs.yml has to name each document under nav")
+
+    def test_each_document_is_found(self) -> None:
+        index = json.loads((self.site / "search/search_index.json").read_text(encoding="utf-8"))
+        found = {entry["location"].partition("#")[0] for entry in index["docs"]}
+        for path in (ROOT / "docs").glob("*.md"):
+            self.assertIn(f"docs/{path.stem}.html", found)
 
     def test_nothing_is_loaded_from_the_network(self) -> None:
         for path, page in self.pages.items():
@@ -107,6 +115,7 @@ class Site(unittest.TestCase):
             if "api" not in path.relative_to(self.site).parts:
                 found = [text for text in page.paragraphs if re.search(r"^(- |\d+\. |\||```|#+ )", text, re.MULTILINE)]
                 self.assertEqual(found, [], path)
+                self.assertNotIn("\\|", path.read_text(encoding="utf-8"), path)
 
     def test_each_header_is_in_the_reference(self) -> None:
         files = (self.site / "api/cpp/files.html").read_text(encoding="utf-8")
