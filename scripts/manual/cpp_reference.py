@@ -20,12 +20,9 @@ def libraries() -> list[tuple[str, str]]:
 
 
 def front_page() -> str:
-    """Comments that define the front page and a group for each library."""
-    lines = ["/** @mainpage C++ reference", "", "All public headers, by library:", ""]
+    lines = ["# C++ reference", "", "All public headers, by library:", ""]
     lines += [f"- @ref lib{name} \"meshrepair::{name}\": {about}" for name, about in libraries()]
-    lines += ["", 'How the libraries are used: <a href="../../docs/library.html">the manual</a>.', "*/", ""]
-    lines += [f"/** @defgroup lib{name} meshrepair::{name}\n{about} */" for name, about in libraries()]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "", 'How the libraries are used: <a href="../../docs/library.html">the manual</a>.', ""])
 
 
 def drop_dead_links(folder: pathlib.Path) -> None:
@@ -39,20 +36,22 @@ def drop_dead_links(folder: pathlib.Path) -> None:
 
 def make(folder: pathlib.Path, run: Callable[..., None]) -> None:
     folder.mkdir(parents=True)
-    extra = folder.with_name("front_page.dox")
-    extra.write_text(front_page(), encoding="utf-8")
+    page = folder.with_name("front_page.md")
+    page.write_text(front_page(), encoding="utf-8")
     include_roots = sorted(ROOT.glob("lib*/include"))
     roots = " ".join(f'"{path}"' for path in include_roots)
     config = folder.with_name("Doxyfile")
     config.write_text((HERE / "Doxyfile").read_text(encoding="utf-8") + f"""
-INPUT = "{extra}" {roots}
-STRIP_FROM_PATH = {roots}
+INPUT = "{page}" {roots}
+USE_MDFILE_AS_MAINPAGE = "{page}"
+STRIP_FROM_PATH = "{folder.parent}" {roots}
 STRIP_FROM_INC_PATH = {roots}
 OUTPUT_DIRECTORY = "{folder.parent}"
 HTML_OUTPUT = {folder.name}
+HTML_FOOTER = "{HERE / 'footer.html'}"
 FILTER_PATTERNS = "*.h={sys.executable} {HERE / 'doxygen_filter.py'}"
 """, encoding="utf-8")
     run("doxygen", config)
     drop_dead_links(folder)
-    extra.unlink()
+    page.unlink()
     config.unlink()

@@ -72,7 +72,7 @@ def documented(lines: list[str]) -> list[str]:
 def main() -> None:
     path = pathlib.Path(sys.argv[1])
     lines = path.read_text(encoding="utf-8").splitlines()
-    group = [f"/// @addtogroup lib{path.parent.name}", "/// @{"]
+    group = [f"/// @addtogroup lib{path.parent.name} meshrepair::{path.parent.name}", "/// @{"]
     end = next(number for number, line in enumerate(lines) if not COMMENT.fullmatch(line))
     about = [f"/// {escaped(COMMENT.fullmatch(line)[2])}" for line in lines[:end]]
     code = []
