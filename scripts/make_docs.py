@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes the tables of docs/options.md and docs/report.md.
+"""Makes the tables of docs/options.md and docs/report.md, and docs/python-reference.md.
 
 The tables of options are made from what the programs print with --help, the tables of keys from the descriptions in
 docs/report.schema.json. Only the text between the markers "<!-- made by scripts/make_docs.py: NAME -->" and
-"<!-- end -->" is replaced.
+"<!-- end -->" is replaced. The reference of Python is made from the docstrings of the package.
 """
 
 import argparse
@@ -16,6 +16,10 @@ import subprocess
 import sys
 import textwrap
 from collections.abc import Iterator
+
+sys.dont_write_bytecode = True
+
+from manual import python_reference  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
@@ -130,7 +134,7 @@ def option_rows(option: Option) -> Iterator[tuple[str, str, str]]:
     texts: list[str] = []
     choices: list[tuple[str, str]] = []
     for line in option.lines:
-        choice = re.match(r"  (\S+)\s+(.*)", line)
+        choice = re.match(r"  (a number(?=:)|\S+):?\s+(.*)", line)
         if choice and not line.startswith("   "):
             choices.append((choice[1], choice[2]))
         elif choices and line.startswith("   "):
@@ -141,7 +145,7 @@ def option_rows(option: Option) -> Iterator[tuple[str, str, str]]:
             texts.append(line)
     yield f"`{option.spec}`", f"`{option.default}`" if option.default else "", " ".join(texts)
     for name, meaning in choices:
-        yield "", "", f"`{name}`: {meaning}" if name else meaning
+        yield "", "", f"{name if ' ' in name else f'`{name}`'}: {meaning}" if name else meaning
 
 
 def option_table(options: list[Option]) -> list[str]:
@@ -282,7 +286,8 @@ def made(programs: pathlib.Path) -> dict[pathlib.Path, str]:
     for name, lines in (("programs", program_lines(helps)), ("options", shared_lines(helps)),
                         ("matrix", matrix_lines(helps))):
         text = replaced(text, name, lines)
-    return {options: text, report: replaced(report.read_text(encoding="utf-8"), "keys", key_lines(schema))}
+    return {options: text, report: replaced(report.read_text(encoding="utf-8"), "keys", key_lines(schema)),
+            DOCS / "python-reference.md": python_reference.page(table)}
 
 
 def main() -> int:
@@ -293,11 +298,11 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 if a table is not up to date")
     arguments = parser.parse_args()
     stale = [(path, text) for path, text in made(arguments.programs.resolve()).items()
-             if text != path.read_text(encoding="utf-8")]
+             if not path.exists() or text != path.read_text(encoding="utf-8")]
     for path, text in stale:
         name = os.path.relpath(path, ROOT)
         if arguments.check:
-            print(f"{name}: tables are not up to date: run scripts/make_docs.py", file=sys.stderr)
+            print(f"{name}: is not up to date: run scripts/make_docs.py", file=sys.stderr)
         else:
             path.write_text(text, encoding="utf-8")
             print(f"written: {name}")

@@ -13,12 +13,10 @@ import tempfile
 
 sys.dont_write_bytecode = True
 
-from textured_meshes import files, shapes  # noqa: E402
+from textured_meshes import files, shapes, stored_pictures  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-PICTURES = ROOT / "docs" / "pictures"
 SIZE = "320x240"
-MOST_BYTES = 60_000  # of a picture
 # How each is written, made and looked at.
 MESHES = {"globe.obj": (files.obj, shapes.globe, "40,20"),
           "twins.glb": (files.glb, shapes.twins, "10,20"),
@@ -61,19 +59,7 @@ def main() -> int:
         arguments.meshes.mkdir(parents=True, exist_ok=True)
         make_meshes(arguments.meshes)
         return 0
-    faults = 0
-    for name, data in pictures(arguments.programs.resolve()):
-        path = PICTURES / name
-        if len(data) > MOST_BYTES:
-            print(f"{path.relative_to(ROOT)}: {len(data)} bytes, more than {MOST_BYTES}", file=sys.stderr)
-            faults += 1
-        if arguments.check and not (path.exists() and path.read_bytes() == data):
-            print(f"{path.relative_to(ROOT)}: is not up to date: run scripts/make_textured_pictures.py", file=sys.stderr)
-            faults += 1
-        elif not arguments.check:
-            path.write_bytes(data)
-            print(f"written: {path.relative_to(ROOT)}")
-    return 1 if faults else 0
+    return stored_pictures.store(pictures(arguments.programs.resolve()), arguments.check, pathlib.Path(__file__).name)
 
 
 if __name__ == "__main__":

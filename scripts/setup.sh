@@ -11,8 +11,9 @@ Usage: scripts/setup.sh [build|python|all|bench|package]
   python  the same, and what the Python package needs; "pip install ." uses no
           network then
   all     the same, and what the checks need: clang-format, clang-tidy, the
-          runtime of clang's fuzzer, abidiff, man, the shells whose completions are
-          tested, Blender, OpenSCAD, and the validator of glTF, for node (default)
+          runtime of clang's fuzzer, abidiff, man, the shells whose completions
+          are tested, Blender, OpenSCAD, mypy, what makes the manual's site, and
+          the validator of glTF, for node (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
   package
@@ -67,11 +68,15 @@ check_packages=(
   clang
   clang-format-14
   clang-tidy
+  doxygen
   fish
   libclang-rt-dev
   lld
   locales
   man-db
+  mkdocs
+  mkdocs-material
+  mypy
   openscad
   pkg-config
   zsh

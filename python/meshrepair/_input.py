@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from .errors import Error, LimitError, UsageError
@@ -16,9 +17,9 @@ from .errors import Error, LimitError, UsageError
 class GivenMesh(NamedTuple):
     """Of each face in ``faces``, ``face_of`` has the row of the polygon that it is a piece of; None: its own."""
 
-    vertices: np.ndarray
-    faces: np.ndarray
-    face_of: np.ndarray | None
+    vertices: npt.NDArray[Any]
+    faces: npt.NDArray[Any]
+    face_of: npt.NDArray[Any] | None
     attributes: Any
     unit: str | None
 
@@ -36,11 +37,11 @@ def only_our_exceptions(name: str) -> Iterator[None]:
         raise UsageError(f"{name}: cannot be read: {_first_line(error)}") from error
 
 
-def as_array(value: Any, name: str) -> np.ndarray:
+def as_array(value: Any, name: str) -> npt.NDArray[Any]:
     """An array of numbers that the extension takes, without a copy where it is one."""
     if value is None:
         raise UsageError(f"{name}: is None")
-    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
         raise UsageError(f"{name}: has masked elements")
     try:
         array = np.asarray(value)
@@ -61,7 +62,7 @@ def _first_line(error: Exception) -> str:
     return (str(error) or type(error).__name__).strip().splitlines()[0]
 
 
-def rows_of(value: Any, name: str) -> np.ndarray:
+def rows_of(value: Any, name: str) -> npt.NDArray[Any]:
     """For lists of lists: names the row that is not like the others."""
     if isinstance(value, (list, tuple)):
         for number, row in enumerate(value):
@@ -75,7 +76,7 @@ def _shown(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _polygons(vertices: np.ndarray, corners: Any, sizes: Any) -> tuple[np.ndarray, np.ndarray]:
+def _polygons(vertices: npt.NDArray[Any], corners: Any, sizes: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
     corners = np.asarray(corners)
     if corners.size == 0:
         corners = corners.astype(np.int64)
@@ -84,7 +85,7 @@ def _polygons(vertices: np.ndarray, corners: Any, sizes: Any) -> tuple[np.ndarra
     return _core.triangulated(vertices, np.ravel(corners), np.asarray(sizes, dtype=np.int64))
 
 
-def _faces_of(vertices: np.ndarray, faces: Any) -> tuple[np.ndarray, np.ndarray | None]:
+def _faces_of(vertices: npt.NDArray[Any], faces: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None]:
     """Triangles; polygons are triangulated as the readers of files do."""
     if isinstance(faces, (list, tuple)):
         sizes = []
@@ -105,12 +106,13 @@ def _faces_of(vertices: np.ndarray, faces: Any) -> tuple[np.ndarray, np.ndarray 
     return array, None
 
 
-def _padded(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _padded(faces: npt.NDArray[Any]) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
     """Of VTK's list, in which the number of corners stands before each face: all corners, and the numbers."""
     if len(faces) % 4 == 0 and (faces[::4] == 3).all():
         return faces.reshape(-1, 4)[:, 1:], np.full(len(faces) // 4, 3)
     is_corner = np.ones(len(faces), dtype=bool)
-    sizes, at = [], 0
+    sizes: list[int] = []
+    at = 0
     while at < len(faces):
         size = int(faces[at])
         if size < 0 or at + size >= len(faces):
@@ -121,7 +123,7 @@ def _padded(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return faces[is_corner], np.asarray(sizes, dtype=np.int64)
 
 
-def _of_cells(vertices: np.ndarray, cells: Any) -> tuple[np.ndarray, np.ndarray]:
+def _of_cells(vertices: npt.NDArray[Any], cells: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
     """Of meshio's blocks those that are faces."""
     corners, sizes = [], []
     for block in cells:
@@ -161,6 +163,7 @@ def mesh_of(mesh: Any, faces: Any = None, attributes: Any = None) -> GivenMesh:
 
 def _mesh_of(mesh: Any, faces: Any, attributes: Any) -> GivenMesh:
     unit = None
+    face_of: npt.NDArray[Any] | None
     if faces is None and hasattr(mesh, "points") and (hasattr(mesh, "faces") or hasattr(mesh, "cells")):
         vertices = as_array(mesh.points, "vertices")
         if hasattr(mesh, "faces"):  # pyvista
@@ -179,7 +182,7 @@ def _mesh_of(mesh: Any, faces: Any, attributes: Any) -> GivenMesh:
     return GivenMesh(vertices, triangles, face_of, attributes, unit)
 
 
-def _for_pieces(attributes: Any, face_of: np.ndarray, vertices: int) -> dict[str, Any]:
+def _for_pieces(attributes: Any, face_of: npt.NDArray[Any], vertices: int) -> dict[str, Any]:
     """What polygons have, their triangles have, too."""
     polygons = int(face_of.max()) + 1 if len(face_of) else 0
     found = {}
@@ -190,13 +193,13 @@ def _for_pieces(attributes: Any, face_of: np.ndarray, vertices: int) -> dict[str
     return found
 
 
-def points_of(points: Any, normals: Any) -> tuple[np.ndarray, np.ndarray | None]:
+def points_of(points: Any, normals: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None]:
     """From arrays, or from one object that has points, and maybe normals."""
     with only_our_exceptions("points"):
         return _points_of(points, normals)
 
 
-def _points_of(points: Any, normals: Any) -> tuple[np.ndarray, np.ndarray | None]:
+def _points_of(points: Any, normals: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any] | None]:
     if not isinstance(points, (np.ndarray, list, tuple)):
         for name in ("points", "vertices"):
             if hasattr(points, name):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from ._input import mesh_of
@@ -43,7 +44,7 @@ def read(path: Any, *, attributes: bool = True, progress: Progress | bool | None
 
 
 def write(path: Any, mesh: Any, faces: Any = None, *, attributes: Any = None, unit: str | None = None,
-          sources: bool | np.ndarray = False, progress: Progress | bool | None = None, **options: Any) -> list[str]:
+          sources: bool | npt.NDArray[Any] = False, progress: Progress | bool | None = None, **options: Any) -> list[str]:
     """Writes a mesh to a file; it is there in full or not at all.
 
     Args:
@@ -78,7 +79,7 @@ def write(path: Any, mesh: Any, faces: Any = None, *, attributes: Any = None, un
     return warnings
 
 
-def _sources_of(sources: Any, mesh: Any) -> np.ndarray | None:
+def _sources_of(sources: Any, mesh: Any) -> npt.NDArray[Any] | None:
     """All ones for -1, as the extension has it."""
     if sources is False or sources is None:
         return None

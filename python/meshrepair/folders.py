@@ -36,7 +36,8 @@ def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: 
         target: the folder to write to; it is made. The same call again goes on where the last one stopped.
         format: of all outputs; by the input's name unless given.
         jobs: number of processes; as many as there are cores unless given.
-        timeout: seconds for a file, 0: any. grace: seconds to end by itself then.
+        timeout: seconds for a file, 0: any.
+        grace: seconds that a file has then to end by itself.
         max_memory: for a file, such as "2G".
         restart: do all files anew.
         quiet: print nothing but the errors.

@@ -6,11 +6,12 @@ import sys
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from .errors import UsageError
 
 
-def mesh_like(other: Any, vertices: np.ndarray, faces: np.ndarray) -> Any:
+def mesh_like(other: Any, vertices: npt.NDArray[Any], faces: npt.NDArray[Any]) -> Any:
     """A mesh of the type of ``other``, an object of trimesh, open3d, pyvista or meshio."""
     kind = type(other)
     if hasattr(other, "points") and hasattr(other, "cells") and not hasattr(other, "faces"):  # meshio

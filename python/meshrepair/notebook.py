@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 if TYPE_CHECKING:
     from .results import Mesh
@@ -28,15 +29,16 @@ def _rows_of(mesh: Mesh) -> list[tuple[str, str]]:
         rows.append(("unit", mesh.unit))
     found: dict[str, Any] = mesh.report.get("result", {})
     rows += [(name, f"{found[name]:.6g}") for name in ("volume", "area") if isinstance(found.get(name), float)]
-    if hasattr(mesh, "certified"):
-        rows.append(("certified", "yes" if mesh.certified else f"no: {mesh.report['error']}"))
-        closed = int(np.count_nonzero(mesh.source < 0))
+    certified: bool | None = getattr(mesh, "certified", None)
+    if certified is not None:  # a result
+        rows.append(("certified", "yes" if certified else f"no: {mesh.report['error']}"))
+        closed = int(np.count_nonzero(getattr(mesh, "source") < 0))
         rows.append(("faces that close gaps", f"{closed:,}"))
     rows += [("warning", line) for line in mesh.warnings]
     return rows
 
 
-def _text_of(array: np.ndarray) -> str:
+def _text_of(array: npt.NDArray[Any]) -> str:
     return base64.b64encode(np.ascontiguousarray(array).tobytes()).decode()
 
 

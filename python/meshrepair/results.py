@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import notebook
 from .attributes import Attributes
@@ -22,7 +23,8 @@ class _WithReport:
     def report(self) -> dict[str, Any]:
         """The JSON report that the program would write: see docs/report.md."""
         if isinstance(self._report, str):
-            self._report = json.loads(self._report)
+            found: dict[str, Any] = json.loads(self._report)
+            self._report = found
         return self._report
 
 
@@ -42,8 +44,8 @@ class Mesh(_WithReport):
 
     def __init__(self, outcome: dict[str, Any], unit: str | None = None) -> None:
         super().__init__(outcome)
-        self.vertices: np.ndarray = outcome["vertices"]
-        self.faces: np.ndarray = outcome["faces"]
+        self.vertices: npt.NDArray[Any] = outcome["vertices"]
+        self.faces: npt.NDArray[Any] = outcome["faces"]
         self.attributes = Attributes(outcome["attributes"], outcome["kept"])
         self.unit = unit
 
@@ -68,11 +70,11 @@ class Result(Mesh):
         certified: whether every guarantee was shown, by an exact test of these vertices and faces.
     """
 
-    def __init__(self, outcome: dict[str, Any], unit: str | None = None, face_of: np.ndarray | None = None) -> None:
+    def __init__(self, outcome: dict[str, Any], unit: str | None = None, face_of: npt.NDArray[Any] | None = None) -> None:
         super().__init__(outcome, unit)
         self.certified: bool = outcome["code"] == 0
         source = outcome["source"]
-        self.source: np.ndarray = source if face_of is None else np.where(source < 0, -1, face_of[source])
+        self.source: npt.NDArray[Any] = source if face_of is None else np.where(source < 0, -1, face_of[source])
 
     def __repr__(self) -> str:
         seal = "certified" if self.certified else "not certified"
@@ -91,8 +93,8 @@ class Points(_WithReport):
 
     def __init__(self, outcome: dict[str, Any]) -> None:
         super().__init__(outcome)
-        self.points: np.ndarray = outcome["points"]
-        self.normals: np.ndarray | None = outcome["normals"]
+        self.points: npt.NDArray[Any] = outcome["points"]
+        self.normals: npt.NDArray[Any] | None = outcome["normals"]
 
     def __repr__(self) -> str:
         return f"<Points: {len(self.points)} points, {'with' if self.normals is not None else 'without'} normals>"
@@ -120,14 +122,14 @@ class Check(_WithReport):
         self.oriented: bool = found["oriented"]
         self.outward: bool = found["outward"]
         self.defects: dict[str, int] = {name: found["defects"][name]["count"] for name in outcome["defects"]}
-        self.marks: np.ndarray = outcome["marks"]
+        self.marks: npt.NDArray[Any] = outcome["marks"]
         self.volume: float | None = found["volume"]
         self.area: float = found["area"]
 
     def __bool__(self) -> bool:
         return self.valid_solid
 
-    def faces_with(self, defect: str) -> np.ndarray:
+    def faces_with(self, defect: str) -> npt.NDArray[Any]:
         """The rows of the faces that have this defect."""
         bit = list(self.defects).index(defect)
         return np.flatnonzero(self.marks >> bit & 1)

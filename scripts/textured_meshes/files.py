@@ -132,3 +132,10 @@ def glb(name: str, mesh: Mesh) -> Files:
     text += b" " * (-len(text) % 4)
     data = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer.bytes), b"BIN\0") + buffer.bytes
     return {f"{name}.glb": struct.pack("<4sII", b"glTF", 2, 12 + len(data)) + data}
+
+
+def stl(name: str, mesh: Mesh) -> Files:
+    """Binary, without textures and normals."""
+    rows = b"".join(struct.pack("<12fH", 0, 0, 0, *(number for p, _ in triangle for number in mesh.points[p]), 0)
+                    for triangle in mesh.triangles)
+    return {f"{name}.stl": bytes(80) + struct.pack("<I", len(mesh.triangles)) + rows}

@@ -30,7 +30,7 @@ from documents import DOCUMENTS, ROOT, name_of
 PROGRAMS = pathlib.Path()  # set by main()
 MOST_LINES = 120  # of the README
 WIDEST = 140
-LANGUAGES = {"sh", "console", "c", "cpp", "cmake", "python", "rust", "text"}
+LANGUAGES = {"sh", "console", "c", "cpp", "cmake", "python", "py", "rust", "text"}  # python is ours, and run; py that of others
 SECONDS_OF_A_COMMAND = 60
 
 # What is not run here: it installs packages, builds, or takes minutes. What it starts with, and why.
@@ -39,6 +39,7 @@ NOT_RUN = {
     "scripts/test.sh": "installs packages, builds and runs this test",
     "scripts/setup.sh": "installs packages",
     "scripts/fuzz.sh": "builds with clang, and runs for minutes",
+    "scripts/make_site.py": "needs mkdocs and doxygen; site_test.py runs it",
     "scripts/package.sh": "builds packages, and a bare system to try them",
     "bench/compare.py": "takes minutes",
     "bench/make_hard_inputs.py": "needs python3-numpy",
@@ -224,6 +225,20 @@ class Snippets(unittest.TestCase):
                     whole = "\n".join(line.strip() for line in block.lines)
                     self.assertTrue(any(whole in text for text in texts), f"{name_of(document)}:{block.line}")
 
+    def test_python_of_others_compiles(self) -> None:
+        for document in DOCUMENTS:
+            for block in documents.blocks(document):
+                if block.language == "py":
+                    compile("\n".join(block.lines), f"{name_of(document)}:{block.line}", "exec")
+
+    def test_lines_beside_those_of_others_are_counted_right(self) -> None:
+        document = ROOT / "docs/beside.md"
+        theirs, ours = ([len([line for line in block.lines if starts(line)]) for block in documents.blocks(document)
+                         if block.language == language]
+                        for language, starts in (("py", str.strip), ("python", lambda line: line.startswith((">>>", "...")))))
+        rows = re.findall(r"^\| \[[^|]*\| (\d+) \| (\d+) \|", document.read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual([tuple(map(int, row)) for row in rows], list(zip(theirs, ours, strict=True)))
+
     def test_all_samples_are_compiled(self) -> None:
         build = (ROOT / "samples/CMakeLists.txt").read_text(encoding="utf-8")
         for sample in (ROOT / "samples").glob("*.cpp"):
@@ -297,8 +312,9 @@ class Tables(unittest.TestCase):
             self.skipTest("python3-numpy is not installed")
         subprocess.run([sys.executable, ROOT / "scripts/make_pictures.py", "--check", "--programs", PROGRAMS], check=True)
 
-    def test_pictures_of_textures_are_as_the_script_makes_them(self) -> None:
-        subprocess.run([sys.executable, ROOT / "scripts/make_textured_pictures.py", "--check", "--programs", PROGRAMS], check=True)
+    def test_pictures_of_pages_are_as_the_scripts_make_them(self) -> None:
+        for script in ("make_textured_pictures.py", "make_task_pictures.py"):
+            subprocess.run([sys.executable, ROOT / "scripts" / script, "--check", "--programs", PROGRAMS], check=True)
 
 
 def main() -> None:

@@ -12,6 +12,7 @@ MESHES = ROOT / "samples" / "meshes"
 sys.path.insert(0, str(ROOT / "tests" / "apps"))
 sys.path.insert(0, str(ROOT / "scripts"))
 import make_cli_inputs  # noqa: E402
+import make_task_pictures  # noqa: E402
 import make_textured_pictures  # noqa: E402
 
 COPIES = {"broken.stl": "broken_torus_box.stl", "broken.obj": "broken_spheres.obj", "part.stl": "cube.stl",
@@ -53,6 +54,7 @@ def make_folder(folder: pathlib.Path, programs: pathlib.Path) -> None:
     for name, data in {**clouds(), "triangle.obj": make_cli_inputs.SINGLE_TRIANGLE}.items():
         (folder / name).write_bytes(data)
     make_textured_pictures.make_meshes(folder)
+    make_task_pictures.make_meshes(folder)
     (folder / "scan.stl.gz").write_bytes(gzip.compress((folder / "broken.stl").read_bytes()))
     (folder / "part.zip").write_bytes(make_cli_inputs.zip_of({"a/part.stl": (folder / "part.stl").read_bytes(), "read.me": b""}))
     os.symlink(ROOT / "samples", folder / "samples")

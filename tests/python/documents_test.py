@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "tests" / "docs"))
 import documents
 
 # What the examples read.
-MESHES = {"broken.stl": "broken_torus_box.stl", "part.stl": "cube.stl"}
+MESHES = {"broken.stl": "broken_torus_box.stl", "part.stl": "cube.stl", "scans/one.stl": "broken_torus_box.stl"}
 
 
 def examples_of(document):
@@ -46,6 +46,7 @@ def main():
         test = doctest.DocTestParser().get_doctest(text, {}, documents.name_of(document), str(document), 0)
         with tempfile.TemporaryDirectory(prefix="documents_") as folder:
             for name, mesh in MESHES.items():
+                (pathlib.Path(folder) / name).parent.mkdir(exist_ok=True)
                 shutil.copy(ROOT / "samples" / "meshes" / mesh, pathlib.Path(folder) / name)
             os.chdir(folder)
             result = doctest.DocTestRunner().run(test)

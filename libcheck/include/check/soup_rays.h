@@ -29,8 +29,8 @@ class SoupRays {
   // down, 0 where it is parallel to z.
   [[nodiscard]] int facing(std::uint32_t triangle) const;
 
-  // Whether certainly nothing lies between the two points, or nothing but that triangle.
   static constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
+  // Whether certainly nothing lies between the two points, or nothing but that triangle.
   [[nodiscard]] bool sees(const Vec3d& from, const Vec3d& to,
                           std::uint32_t but = kNoTriangle) const;
 

@@ -13,10 +13,11 @@ namespace meshrepair {
 // 2-manifold: each edge has two triangles that pass it in opposite directions, each vertex one fan.
 // Where parts touch, or one part itself, points have equal coordinates and different indices.
 struct Surface {
+  static constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
+
   TriangleSoup mesh;
   // For each triangle the index of the input triangle that it lies in, or of one of them where
   // triangles of one plane were cut and merged; kNoSource where a gap was closed.
-  static constexpr std::uint32_t kNoSource = ~std::uint32_t{0};
   std::vector<std::uint32_t> source;
   // For each point whether it is one of the input's, with its coordinates.
   std::vector<char> input_point;
