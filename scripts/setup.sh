@@ -52,6 +52,7 @@ build_packages=(
   pkg-config
   python3
   python3-jsonschema
+  python3-yaml
   zlib1g-dev
 )
 python_packages=(
