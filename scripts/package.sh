@@ -4,7 +4,7 @@ set -euo pipefail
 
 usage() {
   cat <<TEXT
-Usage: scripts/package.sh [deb|archive|wheel|addon|check|all] [OUT_DIR]
+Usage: scripts/package.sh [deb|archive|wheel|addon|check|container|all] [OUT_DIR]
 
   deb      Debian packages of what is committed: meshrepair, libmeshrepair-dev, python3-meshrepair.
            lintian reads them.
@@ -14,14 +14,17 @@ Usage: scripts/package.sh [deb|archive|wheel|addon|check|all] [OUT_DIR]
   addon    meshrepair-blender-VERSION.zip: the add-on, for Blender's preferences.
   check    tries the packages of OUT_DIR in a bare Debian 12: scripts/check_packages.sh.
            Needs root and the packages of Debian.
-  all      all of these in turn (default)
+  container
+           builds and tries the image of packaging/container: scripts/check_container.sh.
+           Needs root and the packages of Debian.
+  all      all but the container in turn (default)
 
 OUT_DIR: build/packages. scripts/setup.sh package installs what is needed.
 TEXT
 }
 
 case "${1:-all}" in
-  deb | archive | wheel | addon | check | all) what=${1:-all} ;;
+  deb | archive | wheel | addon | check | container | all) what=${1:-all} ;;
   -h | --help) usage; exit 0 ;;
   *) usage >&2; exit 2 ;;
 esac
@@ -90,6 +93,7 @@ case "$what" in
   wheel) make_wheel ;;
   addon) make_addon ;;
   check) scripts/check_packages.sh "$out" ;;
+  container) scripts/check_container.sh ;;
   all)  # no && between: it would turn off that the first failure ends the script
     make_deb
     make_archive

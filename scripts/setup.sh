@@ -88,6 +88,7 @@ bench_packages=(
 )
 
 package_packages=(
+  buildah
   debhelper
   debootstrap
   dh-python
