@@ -85,10 +85,18 @@ def _install(build, folder):
         _run("cmake", "--install", build, "--prefix", folder, "--component", component, "--strip")
 
 
+def _extension(folder):
+    """The extension module, for the Python that this is; a build tree that was there may be another's."""
+    extension = folder / "meshrepair" / f"_core{sysconfig.get_config_var('EXT_SUFFIX')}"
+    if not extension.exists():
+        sys.exit(f"build_backend.py: the build tree is not for Python {sys.version_info.major}.{sys.version_info.minor}")
+    return extension
+
+
 def _add_libraries(folder, info):
     """Puts the libraries inside, and returns the platforms on which the package runs then."""
     libraries = folder / "meshrepair.libs"
-    files = [*folder.glob("meshrepair/_core.*.so"), folder / "meshrepair" / "bin" / "meshrepair"]
+    files = [_extension(folder), folder / "meshrepair" / "bin" / "meshrepair"]
     try:
         bundled_libraries.bundle(files, libraries, folder / info / "licenses", rename=True)
         return bundled_libraries.platform_of([*files, *libraries.iterdir()])
@@ -146,6 +154,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with tempfile.TemporaryDirectory(prefix="meshrepair_wheel_") as name:
         folder = Path(name)
         _install(build, folder)
+        _extension(folder)
         platform = _add_libraries(folder, _info(project)) if is_inside else _this_platform()
         name = f"{_name(project)}-{_tag(platform)}.whl"
         _write_wheel(Path(wheel_directory) / name, project, folder, platform)

@@ -13,7 +13,10 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import unittest.mock
 import zipfile
+
+sys.dont_write_bytecode = True
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 USE = """
@@ -70,8 +73,22 @@ def check_wheel(build, *settings):
             sys.exit(f"the program says {version}")
 
 
+def check_other_python(build):
+    """A build tree of another Python gives no wheel that says it is for this one."""
+    sys.path.insert(0, str(ROOT / "python"))
+    import build_backend
+    with unittest.mock.patch("sysconfig.get_config_var", return_value=".cpython-399-x86_64-linux-gnu.so"):
+        try:
+            build_backend._extension(pathlib.Path(build) / "python")
+        except SystemExit as error:
+            if str(error).startswith("build_backend.py: the build tree is not for Python"):
+                return
+    sys.exit("a build tree of another Python was taken")
+
+
 def main():
     build = os.path.abspath(sys.argv[1])
+    check_other_python(build)
     check_wheel(build)
     check_wheel(build, "libraries=inside")
 
