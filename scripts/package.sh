@@ -1,25 +1,30 @@
 #!/usr/bin/env bash
-# Makes what users install without compiling: Debian packages, and an archive that runs from any folder.
+# Makes what users install without compiling: Debian packages, an archive that runs from any folder, and a wheel.
 set -euo pipefail
 
 usage() {
   cat <<TEXT
-Usage: scripts/package.sh [deb|archive|addon|check|all] [OUT_DIR]
+Usage: scripts/package.sh [deb|archive|wheel|addon|check|container|all] [OUT_DIR]
 
-  deb      Debian packages of what is committed: meshrepair, libmeshrepair-dev. lintian reads them.
+  deb      Debian packages of what is committed: meshrepair, libmeshrepair-dev, python3-meshrepair.
+           lintian reads them.
   archive  meshrepair-VERSION-ARCH.tar.gz: the programs and the libraries that they need, but for those of
            the C and C++ compilers. Runs from any folder.
+  wheel    the Python package, for pip: with those libraries inside. Its name says which Linux it needs.
   addon    meshrepair-blender-VERSION.zip: the add-on, for Blender's preferences.
-  check    installs the packages of OUT_DIR into a bare Debian 12, and repairs a mesh there; the archive, too.
+  check    tries the packages of OUT_DIR in a bare Debian 12: scripts/check_packages.sh.
            Needs root and the packages of Debian.
-  all      all of these in turn (default)
+  container
+           builds and tries the image of packaging/container: scripts/check_container.sh.
+           Needs root and the packages of Debian.
+  all      all but the container in turn (default)
 
 OUT_DIR: build/packages. scripts/setup.sh package installs what is needed.
 TEXT
 }
 
 case "${1:-all}" in
-  deb | archive | addon | check | all) what=${1:-all} ;;
+  deb | archive | wheel | addon | check | container | all) what=${1:-all} ;;
   -h | --help) usage; exit 0 ;;
   *) usage >&2; exit 2 ;;
 esac
@@ -32,8 +37,8 @@ mkdir -p "$out"
 
 # What is committed, as a Debian source package.
 make_source() {
-  local source="$work/meshrepair-$version"
-  rm -rf "$work"
+  local source="$work/source/meshrepair-$version"
+  rm -rf "$work/source"
   mkdir -p "$source"
   git archive HEAD | tar -x -C "$source"
   mv "$source/packaging/debian" "$source/debian"
@@ -45,93 +50,56 @@ make_source() {
 
 make_deb() {
   make_source
-  (cd "$work/meshrepair-$version" && DEB_BUILD_OPTIONS="parallel=$(nproc) noautodbgsym" dpkg-buildpackage --build=binary --no-sign)
+  (cd "$work/source/meshrepair-$version" && DEB_BUILD_OPTIONS="parallel=$(nproc) noautodbgsym" dpkg-buildpackage --build=binary --no-sign)
   rm -f "$out"/*.deb
-  cp "$work"/*.deb "$out"
-  lintian --fail-on error,warning "$work"/*.changes
+  cp "$work"/source/*.deb "$out"
+  lintian --fail-on error,warning "$work"/source/*.changes
 }
 
-# Libraries that each system has, and must not have twice.
-is_of_system() {
-  case "$1" in
-    libc.so* | libm.so* | libdl.so* | libpthread.so* | librt.so* | ld-linux* | libstdc++.so* | libgcc_s.so*) return 0 ;;
-    *) return 1 ;;
-  esac
+# The wheel and the archive are of one build, as the wheel's backend makes it.
+build() {
+  cmake -S . -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMESHREPAIR_BUILD_TESTS=OFF -DMESHREPAIR_BUILD_PYTHON=ON
+  cmake --build "$work/build" --parallel "$(nproc)"
 }
 
 make_archive() {
   local name
   name=meshrepair-$version-$(dpkg --print-architecture)
   local root="$work/archive/$name"
-  cmake -S . -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMESHREPAIR_BUILD_TESTS=OFF
-  cmake --build "$work/build" --parallel "$(nproc)"
+  build
   rm -rf "$work/archive"
   cmake --install "$work/build" --prefix "$PWD/$root" --strip
   rm -rf "${root:?}/include" "${root:?}/lib"
-  mkdir -p "$root/lib" "$root/share/doc/meshrepair/licences"
+  mkdir -p "$root/share/doc/meshrepair"
   cp LICENSE README.md "$root/share/doc/meshrepair"
-  for program in "$root"/bin/*; do
-    add_libraries "$program" "$root"
-    patchelf --set-rpath "\$ORIGIN/../lib" "$program"
-  done
+  python/bundled_libraries.py --into "$root/lib" --licences "$root/share/doc/meshrepair/licences" "$root"/bin/*
+  rm -f "$out"/*.tar.gz
   tar -C "$work/archive" --sort=name --owner=0 --group=0 --mtime="@$(git log -1 --format=%ct)" -c "$name" |
     gzip -n9 > "$out/$name.tar.gz"
 }
 
-# All that the program is linked with, directly or not, with their licences.
-add_libraries() {
-  local program=$1 root=$2 library package
-  ldd "$program" | sed -n 's/.* => \(\/[^ ]*\).*/\1/p' | while read -r library; do
-    if is_of_system "$(basename "$library")" || [ -e "$root/lib/$(basename "$library")" ]; then continue; fi
-    cp -L "$library" "$root/lib"
-    patchelf --set-rpath "\$ORIGIN" "$root/lib/$(basename "$library")"
-    # One of the two names is not known where /lib is a link.
-    package=$({ dpkg -S "$(realpath "$library")" "$library" 2>/dev/null || true; } | head -n 1 | cut -d: -f1)
-    cp "/usr/share/doc/$package/copyright" "$root/share/doc/meshrepair/licences/$package"
-  done
+make_wheel() {
+  build
+  rm -f "$out"/*.whl
+  PIP_NO_INDEX=1 PIP_DISABLE_PIP_VERSION_CHECK=1 /usr/bin/python3 -m pip wheel --no-deps --config-settings build-dir="$PWD/$work/build" \
+    --config-settings libraries=inside --wheel-dir "$out" .
 }
 
 make_addon() { git archive --format=zip -o "$out/meshrepair-blender-$version.zip" HEAD:integrations/blender; }
 
-# The commands run in the bare system, whose folder /packages has what was made.
-in_bare() {
-  # Programs find the libraries beside them through /proc.
-  unshare --mount bash -c 'mount -t proc proc "$0/proc" &&
-    exec chroot "$0" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"' "$work/bare" "$@"
-}
-
-make_bare() {
-  rm -rf "$work/bare"
-  mkdir -p "$work/bare"
-  debootstrap --variant=minbase bookworm "$work/bare" http://deb.debian.org/debian >"$work/debootstrap.log"
-  mkdir "$work/bare/packages"
-  cp "$out"/*.deb "$out"/*.tar.gz samples/meshes/broken_torus_box.stl samples/meshes/cube.stl "$work/bare/packages"
-}
-
-check_packages() {
-  make_bare
-  # Before any package is there: the archive needs nothing but the C++ library, which apt itself needs.
-  in_bare bash -c "cd /packages && tar -xzf meshrepair-*.tar.gz && mv meshrepair-*/ /opt/meshrepair &&
-    /opt/meshrepair/bin/meshrepair broken_torus_box.stl archive.obj && /opt/meshrepair/bin/meshcheck archive.obj"
-  in_bare bash -c "apt-get update -q && apt-get install -qy --no-install-recommends /packages/meshrepair_*.deb" >"$work/install.log"
-  in_bare bash -c "cd /packages && meshrepair broken_torus_box.stl package.obj && meshcheck package.obj && cmp archive.obj package.obj"
-  in_bare apt-get install -qy --no-install-recommends g++ cmake make "/packages/$(basename "$out"/libmeshrepair-dev_*.deb)" \
-    >>"$work/install.log"
-  cp -r tests/package "$work/bare/packages/consumer"
-  in_bare bash -c "cd /packages/consumer && cmake -B build && cmake --build build && build/consumer ../cube.stl"
-  echo "package.sh: packages and archive work in a bare Debian 12"
-}
-
 case "$what" in
   deb) make_deb ;;
   archive) make_archive ;;
+  wheel) make_wheel ;;
   addon) make_addon ;;
-  check) check_packages ;;
+  check) scripts/check_packages.sh "$out" ;;
+  container) scripts/check_container.sh ;;
   all)  # no && between: it would turn off that the first failure ends the script
     make_deb
     make_archive
+    make_wheel
     make_addon
-    check_packages
+    scripts/check_packages.sh "$out"
     ;;
 esac
 ls -l "$out"

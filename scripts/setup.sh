@@ -17,7 +17,7 @@ Usage: scripts/setup.sh [build|python|all|bench|package]
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
   package
-          what is needed to build, and to make and to check packages
+          the same as python, and what is needed to make and to check packages
 
 Asks for nothing, and does nothing if all is there. Without npm's registry the validator is left out, with a
 warning; tests that need it are skipped. Needs Debian 12 or a relative of it, and root or sudo
@@ -50,11 +50,14 @@ build_packages=(
   libzstd-dev
   ninja-build
   nlohmann-json3-dev
+  pkg-config
   python3
   python3-jsonschema
+  python3-yaml
   zlib1g-dev
 )
 python_packages=(
+  patchelf
   pybind11-dev
   python3-dev
   python3-numpy
@@ -93,12 +96,13 @@ bench_packages=(
 )
 
 package_packages=(
+  buildah
   debhelper
   debootstrap
+  dh-python
   dpkg-dev
   fakeroot
   lintian
-  patchelf
 )
 
 case "${1:-all}" in
@@ -106,7 +110,7 @@ case "${1:-all}" in
   python) packages=("${build_packages[@]}" "${python_packages[@]}") ;;
   all) packages=("${build_packages[@]}" "${python_packages[@]}" "${check_packages[@]}") ;;
   bench) packages=("${build_packages[@]}" "${bench_packages[@]}") ;;
-  package) packages=("${build_packages[@]}" "${package_packages[@]}") ;;
+  package) packages=("${build_packages[@]}" "${python_packages[@]}" "${package_packages[@]}") ;;
   -h | --help) usage; exit 0 ;;
   *) usage >&2; exit 2 ;;
 esac

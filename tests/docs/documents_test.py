@@ -48,6 +48,14 @@ NOT_RUN = {
     "cmake": "builds and installs",
     "ctest": "runs this test",
     "pip": "builds and installs",
+    "apt": "installs packages",
+    "podman": "need not be there",
+    "vcpkg": "need not be there",
+    "conan": "need not be there",
+    "conda": "need not be there",
+    "brew": "need not be there",
+    "makepkg": "need not be there",
+    "scripts/fill_recipes.py": "changes the recipes; tests/scripts/recipes_test.py runs it",
 }
 
 
