@@ -8,7 +8,7 @@ Usage: scripts/check_packages.sh PACKAGES
 
 Installs what scripts/package.sh has made in the folder PACKAGES into a bare Debian 12, one after another: the archive, the wheel, the
 Debian packages. A mesh is repaired with each; those with the same program have to give the same bytes. The Python package has to do
-what README.md says, and a program has to find the C++ libraries.
+what README.md says, and programs have to find the C and C++ libraries.
 
 Needs root, the packages of Debian, and what scripts/setup.sh package installs.
 TEXT
@@ -70,11 +70,12 @@ check_debian() {
     cmp archive.obj package.obj"
   install /packages/python3-meshrepair_*.deb
   in_bare "python3 try_python.py README.md broken_torus_box.stl package.obj"
-  install g++ cmake make /packages/libmeshrepair-dev_*.deb
+  install g++ cmake make /packages/libmeshrepair0_*.deb /packages/libmeshrepair-dev_*.deb
   in_bare "cd consumer
     cmake -B build
     cmake --build build
-    build/consumer ../cube.stl"
+    build/consumer ../cube.stl
+    build/c_consumer ../cube.stl"
 }
 
 make_bare

@@ -6,8 +6,8 @@ usage() {
   cat <<TEXT
 Usage: scripts/package.sh [deb|archive|wheel|addon|check|container|all] [OUT_DIR]
 
-  deb      Debian packages of what is committed: meshrepair, libmeshrepair-dev, python3-meshrepair.
-           lintian reads them.
+  deb      Debian packages of what is committed: meshrepair, libmeshrepair0, libmeshrepair-dev,
+           python3-meshrepair. lintian reads them.
   archive  meshrepair-VERSION-ARCH.tar.gz: the programs and the libraries that they need, but for those of
            the C and C++ compilers. Runs from any folder.
   wheel    the Python package, for pip: with those libraries inside. Its name says which Linux it needs.

@@ -81,7 +81,6 @@ check_packages=(
   mkdocs-material
   mypy
   openscad
-  pkg-config
   zsh
 )
 # From wherever they are: others than Debian's have npm in the package of node.

@@ -59,6 +59,7 @@ class MeshrepairConan(ConanFile):
         dependencies.generate()
         PkgConfigDeps(self).generate()
         toolchain = CMakeToolchain(self)
+        toolchain.cache_variables["MESHREPAIR_BUILD_C"] = False
         toolchain.cache_variables["MESHREPAIR_BUILD_TESTS"] = False
         toolchain.cache_variables["MESHREPAIR_WARNINGS_AS_ERRORS"] = False
         toolchain.generate()

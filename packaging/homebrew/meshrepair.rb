@@ -40,6 +40,7 @@ class Meshrepair < Formula
     end
     options = %W[
       -DCMAKE_PREFIX_PATH=#{buildpath}/meshoptimizer
+      -DMESHREPAIR_BUILD_C=OFF
       -DMESHREPAIR_BUILD_TESTS=OFF
       -DMESHREPAIR_WARNINGS_AS_ERRORS=OFF
     ]

@@ -11,6 +11,7 @@
 
 #include "c_handles.h"
 #include "degenerate_soups.h"
+#include "share_of_cases.h"
 #include "temporary_folder.h"
 
 namespace meshrepair::testing {
@@ -107,7 +108,7 @@ TEST(CHostile, AnySoupWithAnyOptionsEndsWithACodeAndALine) {
       {"sew", "-1"},        {"seal", "auto"},    {"holes", "plain"},    {"precision", "float32"},
       {"time-limit", "60"}, {"time-limit", "x"}, {"strict", nullptr},   {"threads", "2"},
       {"threads", "-2"},    {"always", nullptr}, {"cells", ""},         {"simplify", "1e309"}};
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < tried_share() * 300; ++round) {
     const auto seed = static_cast<std::uint64_t>(round);
     TriangleSoup soup = round % 3 == 0   ? random_soup(30, 4, seed)
                         : round % 3 == 1 ? coplanar_soup(20, seed)
