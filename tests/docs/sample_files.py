@@ -19,7 +19,7 @@ COPIES = {"broken.stl": "broken_torus_box.stl", "broken.obj": "broken_spheres.ob
           "part.obj": "hollow_sphere.obj", "original.stl": "broken_torus_box.stl", "body.stl": "cube.stl",
           "drill.obj": "hollow_sphere.obj", "a.obj": "hollow_sphere.obj", "b.off": "overlapping_spheres.off",
           "open_bowl.ply": "open_bowl.ply", "hollow_sphere.obj": "hollow_sphere.obj",
-          "scans/one.stl": "broken_torus_box.stl", "scans/more/two.ply": "open_bowl.ply"}
+          "scans/one.stl": "broken_torus_box.stl", "scans/more/two.ply": "open_bowl.ply", "sheets/bowl.ply": "open_bowl.ply"}
 
 # In place of programs that need not be there. The key that is asked of jq has to be in the report.
 CURL = '#!/bin/sh\nexec cat "{mesh}"\n'
