@@ -19,10 +19,11 @@ _SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scripts", "r
 def _words(options: dict[str, Any]) -> list[str | bytes]:
     words: list[str | bytes] = []
     for name, value in keywords_of(options):
+        word = "--" + name.replace("_", "-")
         if value is True:
-            words.append(f"--{name}")
+            words.append(word)
         elif value is not False:
-            words.append(f"--{name}=".encode() + value)
+            words.append(f"{word}=".encode() + value)
     return words
 
 
