@@ -42,7 +42,7 @@ in_bare() {
       bash -euc "$1"' "$bare" "$1"
 }
 
-install() { in_bare "apt-get install -qy --no-install-recommends $*" >>"$log"; }
+install() { in_bare "apt-get -o Dpkg::Use-Pty=0 install -qy --no-install-recommends $*" >>"$log"; }
 
 # Before any package is there: the archive needs nothing but the C++ library, which apt itself needs.
 check_archive() {
