@@ -84,8 +84,8 @@ MESHREPAIR_API const uint32_t* meshrepair_mesh_triangles(const meshrepair_mesh* 
 /* What corners carry. An attribute has values of `components` numbers, and of each corner the
  * number of its value: of corner k of triangle t at 3 t + k. Its name is "texture" (2 or 3
  * numbers), "normal" (3), "tangent" (4) or "colour" (3 or 4, from 0 to 1), for further ones of a
- * kind with "_1" and so on behind it, or any other (1 to 16). Attributes of kinds come first, in
- * this order. */
+ * kind with "_1" and so on behind it, in the order in which they are added, or any other (1 to 16).
+ * Attributes of kinds come first, in this order. */
 MESHREPAIR_API size_t meshrepair_mesh_attribute_count(const meshrepair_mesh* mesh);
 /* NULL or 0 where there is no such attribute; so for those that follow. */
 MESHREPAIR_API const char* meshrepair_mesh_attribute_name(const meshrepair_mesh* mesh,
@@ -132,7 +132,8 @@ MESHREPAIR_API meshrepair_code meshrepair_mesh_set_labels(meshrepair_mesh* mesh,
 MESHREPAIR_API meshrepair_options* meshrepair_options_new(void);
 MESHREPAIR_API void meshrepair_options_free(meshrepair_options* options);
 /* One of the long options of the program that does the same, without "--": "for" and "print". The
- * value is NULL for those that take none. The call that works says whether it knows the option. */
+ * value is NULL for those that take none. What was set before under this name is replaced. The call
+ * that works says whether it knows the option. */
 MESHREPAIR_API meshrepair_code meshrepair_options_set(meshrepair_options* options, const char* name,
                                                       const char* value);
 
@@ -170,7 +171,8 @@ MESHREPAIR_API meshrepair_result* meshrepair_distance(const meshrepair_mesh* mes
                                                       const meshrepair_mesh* other,
                                                       const meshrepair_options* options);
 /* The mesh as the file has it, with what it carries. Points of a scan are a mesh without triangles,
- * which remembers that it is one: meshrepair_repair() makes a solid of it. */
+ * which remembers that it is one: meshrepair_repair() makes a solid of it. It carries nothing, and
+ * the other calls refuse it. */
 MESHREPAIR_API meshrepair_result* meshrepair_read(const char* path,
                                                   const meshrepair_options* options);
 /* The option "format" says what is written where the name of the file does not.

@@ -45,8 +45,23 @@ std::vector<std::uint32_t> numbers_of(const std::uint32_t* numbers, std::size_t 
   return copy;
 }
 
+// Points have no triangles to carry anything; a repair would take what they carry for that of the
+// triangles it makes.
 void check_mesh(const meshrepair_mesh* mesh) {
   if (mesh == nullptr) throw UsageError("there is NULL for a mesh");
+  if (mesh->it.cloud) throw UsageError("the mesh is points of a scan, which carry nothing");
+}
+
+// Numbers in names say nothing but the order in which attributes of a kind were added.
+void check_number(const meshrepair_mesh& mesh, const CornerAttribute& attribute,
+                  const std::string& name) {
+  if (attribute.kind == CornerAttribute::Kind::other) return;
+  const std::vector<CornerAttribute>& all = mesh.it.attributes.corners;
+  const auto count = std::count_if(all.begin(), all.end(),
+                                   [&](const auto& a) { return a.kind == attribute.kind; });
+  const std::string next = attribute_key(attribute, static_cast<std::size_t>(count));
+  if (name == next || name == attribute_key(attribute, 0)) return;
+  throw UsageError(fmt::format("{}: the next of its kind is {}", name, next));
 }
 
 CornerAttribute attribute_of(const std::string& name, std::size_t components, const double* values,
@@ -105,6 +120,7 @@ meshrepair_code meshrepair_mesh_add_attribute(meshrepair_mesh* mesh, const char*
     CornerAttribute attribute = attribute_of(name, components, values, value_count);
     attribute.of_corner =
         numbers_of(corners, 3 * mesh->it.soup.triangles.size(), value_count, name);
+    check_number(*mesh, attribute, name);
     share_values(attribute);
     meshrepair_mesh changed;
     changed.it.attributes.corners = mesh->it.attributes.corners;

@@ -65,8 +65,15 @@ meshrepair_result* called(const meshrepair_options* options, const Work& work) n
 
 AnySoup copy_of(const meshrepair_mesh* mesh) { return mesh == nullptr ? AnySoup() : mesh->it; }
 
-const TriangleSoup& soup_behind(const meshrepair_mesh* mesh) {
+// Of calls that would take points of a scan for a mesh of nothing.
+void refuse_points(const meshrepair_mesh* mesh, const std::string& name) {
+  if (mesh == nullptr || !mesh->it.cloud) return;
+  throw UsageError(name + ": is points of a scan, not a mesh: repair them first");
+}
+
+const TriangleSoup& soup_behind(const meshrepair_mesh* mesh, const std::string& name) {
   static const TriangleSoup nothing;
+  refuse_points(mesh, name);
   return mesh == nullptr ? nothing : mesh->it.soup;
 }
 
@@ -147,30 +154,33 @@ meshrepair_result* meshrepair_boolean(const meshrepair_mesh* const* meshes, size
                   if (meshes == nullptr && mesh_count > 0)
                     throw UsageError("there is NULL for meshes");
                   std::vector<AnySoup> operands;
-                  for (std::size_t i = 0; i < mesh_count; ++i)
+                  for (std::size_t i = 0; i < mesh_count; ++i) {
+                    refuse_points(meshes[i], operand_name(i));
                     operands.push_back(copy_of(meshes[i]));
+                  }
                   keep(boolean_call(std::move(operands), false, keywords, runner), result);
                 });
 }
 
 meshrepair_result* meshrepair_check(const meshrepair_mesh* mesh,
                                     const meshrepair_options* options) {
-  return called(options,
-                [&](meshrepair_result& result, const Keywords& keywords, const Runner& runner) {
-                  CheckOutcome outcome = check_call(soup_behind(mesh), keywords, runner);
-                  result.marks = std::move(outcome.check.marks);
-                  result.outcome = std::move(outcome);
-                  if (result.outcome.code == ExitCode::not_certified) {
-                    result.outcome.error = "the mesh is not the boundary of a solid";
-                  }
-                });
+  return called(
+      options, [&](meshrepair_result& result, const Keywords& keywords, const Runner& runner) {
+        CheckOutcome outcome = check_call(soup_behind(mesh, "the mesh"), keywords, runner);
+        result.marks = std::move(outcome.check.marks);
+        result.outcome = std::move(outcome);
+        if (result.outcome.code == ExitCode::not_certified) {
+          result.outcome.error = "the mesh is not the boundary of a solid";
+        }
+      });
 }
 
 meshrepair_result* meshrepair_distance(const meshrepair_mesh* mesh, const meshrepair_mesh* other,
                                        const meshrepair_options* options) {
   return called(
       options, [&](meshrepair_result& result, const Keywords& keywords, const Runner& runner) {
-        result.outcome = distance_call(soup_behind(mesh), soup_behind(other), keywords, runner);
+        result.outcome = distance_call(soup_behind(mesh, "the first mesh"),
+                                       soup_behind(other, "the second mesh"), keywords, runner);
       });
 }
 
@@ -188,7 +198,7 @@ meshrepair_result* meshrepair_write(const char* path, const meshrepair_mesh* mes
   return called(options,
                 [&](meshrepair_result& result, const Keywords& keywords, const Runner& runner) {
                   GivenForFile given;
-                  given.soup = &soup_behind(mesh);
+                  given.soup = &soup_behind(mesh, "the mesh");
                   if (mesh != nullptr) given.attributes = &mesh->it.attributes;
                   result.outcome = write_call(path_of(path), given, keywords, runner);
                 });

@@ -1,7 +1,22 @@
 // Options of the C interface: kept as they are said; the calls know which there are.
+#include <algorithm>
+#include <string>
+
 #include <base/error.h>
 
 #include "handles.h"
+
+namespace meshrepair {
+namespace {
+
+bool is_same_name(const std::string& a, const std::string& b) {
+  const auto plain = [](char c) { return c == '_' ? '-' : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return plain(x) == plain(y); });
+}
+
+}  // namespace
+}  // namespace meshrepair
 
 using namespace meshrepair;
 
@@ -20,7 +35,13 @@ meshrepair_code meshrepair_options_set(meshrepair_options* options, const char* 
     if (name == nullptr || *name == '\0') throw UsageError("the option has no name");
     Keyword keyword(name, true);
     if (value != nullptr) keyword.second = std::string(value);
-    options->keywords.push_back(std::move(keyword));
+    const auto is_set = [&](const Keyword& set) { return is_same_name(set.first, keyword.first); };
+    const auto before = std::find_if(options->keywords.begin(), options->keywords.end(), is_set);
+    if (before == options->keywords.end()) {
+      options->keywords.push_back(std::move(keyword));
+    } else {
+      *before = std::move(keyword);
+    }
   });
 }
 

@@ -87,6 +87,21 @@ TEST(CAttributes, OfOneKindAreNumbered) {
   EXPECT_EQ(names, (std::vector<std::string>{"texture", "texture_1", "colour", "temperature"}));
 }
 
+TEST(CAttributes, OfOneKindAreAddedInTheOrderOfTheirNumbers) {
+  const Mesh mesh = mesh_of(cube());
+  const std::vector<double> values(36 * 2, 0.5);
+  const auto add = [&](const char* name) {
+    return meshrepair_mesh_add_attribute(mesh.get(), name, 2, values.data(), 36,
+                                         each_corner(12).data());
+  };
+  EXPECT_EQ(add("texture_1"), MESHREPAIR_USAGE);
+  EXPECT_STREQ(meshrepair_last_error(), "texture_1: the next of its kind is texture");
+  EXPECT_EQ(add("texture"), MESHREPAIR_DONE);
+  EXPECT_EQ(add("texture_2"), MESHREPAIR_USAGE);
+  EXPECT_EQ(add("texture_1"), MESHREPAIR_DONE);
+  EXPECT_EQ(meshrepair_mesh_attribute_count(mesh.get()), 2U);
+}
+
 TEST(CAttributes, ThatMakeNoSenseAreRefusedAndChangeNothing) {
   const Mesh mesh = painted_cube();
   const std::vector<double> values(36 * 4, 0.5);

@@ -2,6 +2,7 @@
 #include <array>
 #include <clocale>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <string>
@@ -85,6 +86,50 @@ TEST(CHostile, OptionsThatAreNoneAreNamed) {
   const Options options = options_of({});
   EXPECT_EQ(meshrepair_options_set(options.get(), "", "x"), MESHREPAIR_USAGE);
   EXPECT_EQ(meshrepair_options_set(options.get(), nullptr, "x"), MESHREPAIR_USAGE);
+}
+
+TEST(CHostile, AnOptionThatIsSetAgainIsReplaced) {
+  const Mesh mesh = mesh_of(cube());
+  const Options options = options_of({{"inside", "magic"},
+                                      {"max-hole", "wide"},
+                                      {"always", nullptr},
+                                      {"always", nullptr},
+                                      {"max_hole", "0.5"},
+                                      {"inside", "winding"}});
+  const Result result(meshrepair_repair(mesh.get(), options.get()));
+  EXPECT_EQ(code_of(result), MESHREPAIR_DONE) << error_of(result);
+}
+
+// A repair makes triangles of points; what else they carried would be taken for that of triangles.
+TEST(CHostile, PointsAreNoMesh) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "scan.xyz";
+  std::ofstream file(path);
+  for (const Vec3d& p : sphere(500).points) file << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  file.close();
+  const Mesh points(
+      meshrepair_result_take_mesh(Result(meshrepair_read(path.c_str(), nullptr)).get()));
+  ASSERT_EQ(meshrepair_mesh_vertex_count(points.get()), sphere(500).points.size());
+  const double value = 1;
+  EXPECT_EQ(meshrepair_mesh_add_attribute(points.get(), "heat", 1, &value, 1, nullptr),
+            MESHREPAIR_USAGE);
+  const char* const name = "one";
+  EXPECT_EQ(meshrepair_mesh_set_labels(points.get(), MESHREPAIR_GROUP, &name, 1, nullptr),
+            MESHREPAIR_USAGE);
+  EXPECT_EQ(code_of(Result(meshrepair_repair(points.get(), nullptr))), MESHREPAIR_DONE);
+
+  const Mesh mesh = mesh_of(cube());
+  const std::string out = folder.path() / "out.ply";
+  EXPECT_EQ(code_of(Result(meshrepair_write(out.c_str(), points.get(), nullptr))),
+            MESHREPAIR_USAGE);
+  EXPECT_FALSE(std::ifstream(out).is_open());
+  EXPECT_EQ(code_of(Result(meshrepair_check(points.get(), nullptr))), MESHREPAIR_USAGE);
+  EXPECT_EQ(code_of(Result(meshrepair_distance(mesh.get(), points.get(), nullptr))),
+            MESHREPAIR_USAGE);
+  const meshrepair_mesh* const both[] = {mesh.get(), points.get()};
+  const Result united(meshrepair_boolean(both, 2, options_of({{"op", "union"}}).get()));
+  EXPECT_EQ(code_of(united), MESHREPAIR_USAGE);
+  EXPECT_EQ(error_of(united), "operand 1: is points of a scan, not a mesh: repair them first");
 }
 
 TEST(CHostile, FilesThatAreNotThereAreNamed) {
