@@ -82,6 +82,8 @@ def _polygons(vertices: npt.NDArray[Any], corners: Any, sizes: Any) -> tuple[npt
         corners = corners.astype(np.int64)
     if corners.dtype.kind not in "iu":
         raise UsageError(f"faces: has elements of type {corners.dtype}, not integers")
+    if corners.dtype.kind == "u":  # what is too large for int64 is no vertex, either
+        corners = np.minimum(corners, np.iinfo(np.int64).max).astype(np.int64)
     return _core.triangulated(vertices, np.ravel(corners), np.asarray(sizes, dtype=np.int64))
 
 
@@ -101,7 +103,7 @@ def _faces_of(vertices: npt.NDArray[Any], faces: Any) -> tuple[npt.NDArray[Any],
     array = as_array(faces, "faces")
     if array.size == 0 and array.ndim == 2 and array.shape[1] == 3 and array.dtype.kind == "f":
         return array.astype(np.int32), None
-    if array.ndim == 2 and array.shape[1] > 3 and array.dtype.kind in "iu":
+    if array.ndim == 2 and array.shape[1] > 3:
         return _polygons(vertices, array, np.full(len(array), array.shape[1]))
     return array, None
 
@@ -152,6 +154,8 @@ def _parts_of(mesh: Any) -> tuple[Any, Any]:
         return np.asarray(mesh.vertices), np.asarray(mesh.triangles)
     if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):  # open3d.t
         return _in_numpy(mesh.vertex.positions), _in_numpy(mesh.triangle.indices)
+    if hasattr(mesh, "points"):
+        raise UsageError(f"mesh: {type(mesh).__name__} has points, but no faces; repair_points() makes a solid of points")
     raise UsageError(f"mesh: {type(mesh).__name__} has no vertices and faces that are known here")
 
 

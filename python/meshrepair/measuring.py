@@ -16,7 +16,8 @@ def check(mesh: Any, faces: Any = None, *, progress: Progress | bool | None = No
     """Says what is wrong with a mesh as the boundary of a solid. Vertices need not be finite.
 
     Args:
-        mesh, faces, progress: as in :func:`repair`. Polygons are triangulated first.
+        mesh, faces, progress: as in :func:`repair`. Polygons are triangulated first, and the report is about triangles;
+            a polygon has the marks of all its triangles.
         **options: of the program ``meshcheck``: ``weld=True``, ``places=20``, ``openings=True``, and those of limits.
 
     Returns:
@@ -34,7 +35,7 @@ def check(mesh: Any, faces: Any = None, *, progress: Progress | bool | None = No
     with observer(progress) as told:
         outcome = _core.check(given.vertices, given.faces, keywords, told)
     raise_unless(outcome, 0, 1)
-    return Check(outcome)
+    return Check(outcome, given.face_of)
 
 
 def distance(first: Any, second: Any, *, progress: Progress | bool | None = None, **options: Any) -> Distance:

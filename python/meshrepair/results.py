@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import notebook
 from .attributes import Attributes
+from .errors import UsageError
 
 
 class _WithReport:
@@ -106,14 +107,14 @@ class Check(_WithReport):
     Attributes:
         valid_solid, closed, manifold, oriented, outward: bool.
         defects: dict, how many there are of each kind.
-        marks: (m,) uint16, of each face a bit for each kind of defect that it has, in the order of ``defects``.
+        marks: (m,) uint16, of each face (a triangle or polygon as given) a bit for each kind of defect that it has, in the order of ``defects``.
         volume: float in the unit of the input, cubed, or None where the mesh is not closed.
         area: float in the unit of the input, squared.
         report: dict; the section "check" has more, and the first places of each defect.
         warnings: list of lines.
     """
 
-    def __init__(self, outcome: dict[str, Any]) -> None:
+    def __init__(self, outcome: dict[str, Any], face_of: npt.NDArray[Any] | None = None) -> None:
         super().__init__(outcome)
         found = self.report["check"]
         self.valid_solid: bool = found["valid_solid"]
@@ -123,6 +124,9 @@ class Check(_WithReport):
         self.outward: bool = found["outward"]
         self.defects: dict[str, int] = {name: found["defects"][name]["count"] for name in outcome["defects"]}
         self.marks: npt.NDArray[Any] = outcome["marks"]
+        if face_of is not None:  # of polygons
+            self.marks = np.zeros(int(face_of.max(initial=-1)) + 1, np.uint16)
+            np.bitwise_or.at(self.marks, face_of, outcome["marks"])
         self.volume: float | None = found["volume"]
         self.area: float = found["area"]
 
@@ -131,6 +135,8 @@ class Check(_WithReport):
 
     def faces_with(self, defect: str) -> npt.NDArray[Any]:
         """The rows of the faces that have this defect."""
+        if defect not in self.defects:
+            raise UsageError(f"defect: {defect!r} is none of {', '.join(self.defects)}")
         bit = list(self.defects).index(defect)
         return np.flatnonzero(self.marks >> bit & 1)
 

@@ -171,8 +171,13 @@ TriangleLabels labels_of(const std::string& key, const py::dict& arrays, const T
     throw UsageError("attributes: " + key + " is no list of integers, one for each face");
   }
   TriangleLabels labels;
-  for (const py::handle name : arrays[names_key.c_str()]) labels.names.push_back(bytes_of(name));
-  const auto numbers = py::array_t<std::int64_t, py::array::c_style>::ensure(given);
+  const py::object names = arrays[names_key.c_str()];
+  if (py::isinstance<py::str>(names)) throw UsageError("attributes: " + names_key + " is no list");
+  for (const py::handle name : names) labels.names.push_back(bytes_of(name));
+  // Numbers that int64 cannot hold become negative ones, which are none.
+  const auto numbers =
+      py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(given);
+  if (!numbers) throw UsageError("attributes: " + key + " cannot be read as integers");
   labels.of_triangle.reserve(soup.triangles.size());
   for (py::ssize_t i = 0; i < numbers.size(); ++i) {
     const std::int64_t number = numbers.at(i);
@@ -210,6 +215,28 @@ py::dict dict_of(const Attributes& attributes, const TriangleSoup& soup) {
   return arrays;
 }
 
+namespace {
+
+// "texture_2" comes after "texture_1", wherever both stand in the dict.
+bool is_before(const std::string& a, const std::string& b) {
+  const Kind kind = kind_of_key(a);
+  if (kind != kind_of_key(b)) return kind < kind_of_key(b);
+  return kind != Kind::other && std::pair(a.size(), a) < std::pair(b.size(), b);
+}
+
+// Throws UsageError where a key is no text.
+std::vector<std::string> keys_in_order(const py::dict& arrays) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : arrays) {
+    if (!py::isinstance<py::str>(key)) throw UsageError("attributes: keys are names");
+    keys.push_back(bytes_of(key));
+  }
+  std::stable_sort(keys.begin(), keys.end(), is_before);
+  return keys;
+}
+
+}  // namespace
+
 Attributes attributes_of(const py::dict& arrays, const TriangleSoup& soup,
                          const Attributes* known) {
   Attributes attributes;
@@ -217,17 +244,13 @@ Attributes attributes_of(const py::dict& arrays, const TriangleSoup& soup,
     const std::string key(name);
     if (arrays.contains(key)) attributes.*labels = labels_of(key, arrays, soup);
   }
-  for (const auto& [key_object, value] : arrays) {
-    if (!py::isinstance<py::str>(key_object)) throw UsageError("attributes: keys are names");
-    const std::string key = bytes_of(key_object);
+  for (const std::string& key : keys_in_order(arrays)) {
     if (is_label(key)) continue;
-    const auto array = py::array::ensure(value);
+    const auto array = py::array::ensure(arrays[name_of(key)]);
     if (!array) throw UsageError("attributes: " + key + " is no array");
     attributes.corners.push_back(corner_attribute(key, array, soup));
     check_components(attributes.corners.back(), "attributes: " + key);
   }
-  std::stable_sort(attributes.corners.begin(), attributes.corners.end(),
-                   [](const auto& a, const auto& b) { return a.kind < b.kind; });
   if (known != nullptr && known->materials.names == attributes.materials.names) {
     attributes.looks = known->looks;
     attributes.images = known->images;

@@ -40,7 +40,13 @@ Attributes given_attributes(const py::object& given, const py::object& known,
   if (!py::isinstance<py::dict>(given)) throw UsageError("attributes: are no dict of arrays");
   const Attributes* more =
       known.is_none() ? nullptr : &known.cast<const KeptAttributes&>().attributes;
-  return attributes_of(given.cast<py::dict>(), soup, more);
+  try {
+    return attributes_of(given.cast<py::dict>(), soup, more);
+  } catch (py::error_already_set& error) {  // what is in the dict cannot be looked at
+    if (!error.matches(PyExc_Exception)) throw;
+    const std::string said = error.what();
+    throw UsageError("attributes: cannot be read: " + said.substr(0, said.find('\n')));
+  }
 }
 
 py::str text_of(const std::string& bytes) {

@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "without_lock.h"
 
 namespace meshrepair {
 namespace {
@@ -40,6 +41,7 @@ PYBIND11_MODULE(_core, module) {
   using namespace meshrepair;
   namespace py = pybind11;
   collect_warnings();
+  stop_work_at_exit();
   py::register_exception_translator(&translate);
   const py::class_<KeptAttributes> kept(module, "KeptAttributes");
   module.attr("version") = program_version();

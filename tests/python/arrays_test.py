@@ -41,6 +41,9 @@ class Arrays(unittest.TestCase):
         for kind in "bBhHiIlLqQ":
             self.assertTrue(same(meshrepair.repair(CUBE, TRIANGLES.astype(kind)), plain), kind)
         self.assertTrue(same(meshrepair.repair(CUBE, TRIANGLES.astype(">i4")), plain))
+        quads = meshrepair.repair(CUBE, QUADS)
+        for kind in ("u1", "u8", ">u8"):
+            self.assertTrue(same(meshrepair.repair(CUBE, np.array(QUADS, kind)), quads), kind)
 
     def test_what_is_given_stays_as_it_is(self):
         vertices, faces = CUBE.copy(), TRIANGLES[1:].copy()
@@ -124,12 +127,27 @@ class Attributes(unittest.TestCase):
         result = meshrepair.repair(CUBE, QUADS, attributes={"part": np.arange(6)})
         self.assertTrue((result.attributes["part"].ravel() == result.source).all())
 
+    def test_any_integers_are_labels(self):
+        for kind in "bBhHiIlLqQ":
+            group = np.zeros(12, kind)
+            result = meshrepair.repair(CUBE, TRIANGLES, attributes={"group": group, "group_names": ["a"]})
+            self.assertEqual(result.attributes["group"].tolist(), [0] * 12)
+
+    def test_numbers_of_sets_are_kept_in_any_order(self):
+        sets = {name: np.full((8, 2), number) for number, name in enumerate(("texture", "texture_1", "texture_2"))}
+        found = meshrepair.repair(CUBE, TRIANGLES, attributes=dict(reversed(sets.items()))).attributes
+        self.assertEqual({name: value[0, 0] for name, value in found.items()}, {"texture": 0, "texture_1": 1, "texture_2": 2})
+
     def test_what_does_not_fit_is_refused(self):
         for attributes, words in (({"colour": np.zeros((5, 3))}, r"^attributes: colour has shape \(5, 3\)"),
                                   ({"colour": np.zeros((8, 7))}, "^attributes: colour cannot have 7 numbers a row"),
                                   ({"colour": "red"}, "^attributes: colour"), ([1], "^attributes: list is no dict"),
                                   ({"group": np.zeros(12, int)}, "^attributes: group needs group_names"),
-                                  ({"group": np.full(12, 3), "group_names": ["a"]}, "^attributes: group: row 0 is 3")):
+                                  ({"group": np.full(12, 3), "group_names": ["a"]}, "^attributes: group: row 0 is 3"),
+                                  ({"group": np.zeros(12, int), "group_names": "ab"}, "^attributes: group_names is no list"),
+                                  ({"group": np.zeros(12, int), "group_names": 5}, "^attributes: cannot be read: TypeError"),
+                                  ({"group": np.zeros(12, int), "group_names": ["\ud800"]}, "^attributes: cannot be read"),
+                                  ({"heat": np.ma.array(np.zeros(8), mask=[1] * 8)}, "^attributes: heat has masked")):
             with self.assertRaisesRegex(meshrepair.UsageError, words):
                 meshrepair.repair(CUBE, TRIANGLES, attributes=attributes)
         other = meshrepair.repair(CUBE, TRIANGLES, attributes={"colour": CUBE}).attributes

@@ -141,6 +141,13 @@ class Measures(unittest.TestCase):
         self.assertTrue(meshrepair.check(CUBE, TRIANGLES))
         self.assertEqual(meshrepair.check(CUBE, TRIANGLES).volume, 1)
 
+    def test_a_check_marks_polygons(self):
+        check = meshrepair.check(CUBE, QUADS[:5])
+        self.assertEqual(len(check.marks), 5)
+        self.assertEqual(check.faces_with("open_edges").tolist(), [0, 1, 2, 3])
+        with self.assertRaisesRegex(meshrepair.UsageError, "^defect: 'holes' is none of open_edges, "):
+            check.faces_with("holes")
+
     def test_a_check_is_that_of_the_program(self):
         mesh = MESHES / "broken_torus_box.stl"
         text = subprocess.run([os.path.join(os.path.dirname(os.path.realpath(program_path())), "meshcheck"), "--json", mesh],
@@ -243,6 +250,16 @@ class Interrupting(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             meshrepair.repair(*soup(5000), progress=told)
         self.assertNotIn("check", stages)
+
+    def test_python_ends_while_others_work(self):
+        script = ("import sys, threading, time; sys.path[:0] = sys.argv[1:]; import meshrepair; from package_under_test import soup\n"
+                  "begun = threading.Event()\n"
+                  "work = lambda: meshrepair.repair(*soup(5000), progress=lambda stage, share: begun.set())\n"
+                  "threading.Thread(target=work, daemon=True).start(); begun.wait()")
+        folders = [os.path.dirname(os.path.dirname(meshrepair.__file__)), os.path.dirname(os.path.abspath(package.__file__))]
+        ended = subprocess.run([sys.executable, "-c", script, *folders], stderr=subprocess.PIPE, text=True, timeout=120)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertNotIn("FATAL", ended.stderr)
 
     def test_others_run_meanwhile(self):
         """A thread counts while another one works: Python's lock is free."""
