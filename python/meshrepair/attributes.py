@@ -44,7 +44,7 @@ def for_core(attributes: Any) -> tuple[Any, Any]:
         return dict(attributes), attributes._kept
     if isinstance(attributes, _core.KeptAttributes) or not isinstance(attributes, dict):
         raise UsageError(f"attributes: {type(attributes).__name__} is no dict of arrays")
-    for key, value in attributes.items():
+    for key, value in dict.items(attributes):
         if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
             raise UsageError(f"attributes: {key} has masked elements")
     return attributes, None

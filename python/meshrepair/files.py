@@ -88,6 +88,15 @@ def _sources_of(sources: Any, mesh: Any) -> npt.NDArray[Any] | None:
             raise UsageError("sources: the mesh has none; True is for results")
         sources = mesh.source
     try:
-        return np.asarray(sources).astype(np.int64, casting="same_kind").astype(np.uint32)
-    except (TypeError, ValueError) as error:
+        rows = np.asarray(sources)
+        if rows.dtype.kind == "u":  # what is too large for int64 is so for a file, too
+            rows = np.minimum(rows, np.iinfo(np.int64).max)
+        rows = rows.astype(np.int64, casting="same_kind")
+    except (TypeError, ValueError, OverflowError) as error:
         raise UsageError(f"sources: {error}") from None
+    if rows.ndim != 1:
+        raise UsageError(f"sources: has shape {rows.shape}, not (faces,)")
+    wrong = np.flatnonzero((rows < -1) | (rows > np.iinfo(np.int32).max))
+    if len(wrong):
+        raise UsageError(f"sources: row {wrong[0]} is {rows[wrong[0]]}, which is neither -1 nor a row of faces")
+    return rows.astype(np.uint32)

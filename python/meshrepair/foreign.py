@@ -14,6 +14,8 @@ from .errors import UsageError
 def mesh_like(other: Any, vertices: npt.NDArray[Any], faces: npt.NDArray[Any]) -> Any:
     """A mesh of the type of ``other``, an object of trimesh, open3d, pyvista or meshio."""
     kind = type(other)
+    if hasattr(other, "_is_of_meshrepair"):
+        raise UsageError("mesh: is one of meshrepair already")
     if hasattr(other, "points") and hasattr(other, "cells") and not hasattr(other, "faces"):  # meshio
         return kind(vertices, [("triangle", faces)])
     if hasattr(other, "points") and hasattr(other, "faces"):  # pyvista

@@ -47,6 +47,10 @@ class Files(unittest.TestCase):
         self.assertIn(b"source_triangle", (self.folder / "a.ply").read_bytes())
         with self.assertRaisesRegex(meshrepair.UsageError, "only PLY"):
             meshrepair.write(self.folder / "a.obj", result, sources=True)
+        for sources, words in (([2 ** 40] * 12, "^sources: row 0 is 1099511627776"), ([-2] * 12, "^sources: row 0 is -2"),
+                               ([[0, 1]] * 12, r"^sources: has shape \(12, 2\)"), ([0.5] * 12, "^sources: ")):
+            with self.assertRaisesRegex(meshrepair.UsageError, words):
+                meshrepair.write(self.folder / "b.ply", CUBE, TRIANGLES, sources=sources)
 
     def test_units_go_along(self):
         meshrepair.write(self.folder / "a.3mf", CUBE, TRIANGLES, unit="inch")
@@ -78,7 +82,8 @@ class Files(unittest.TestCase):
         (self.folder / "in").mkdir()
         for name in ("cube.stl", "broken_torus_box.stl"):
             (self.folder / "in" / name).symlink_to(MESHES / name)
-        summary = meshrepair.repair_folder(self.folder / "in", self.folder / "out", format="obj", jobs=2, inside="winding")
+        summary = meshrepair.repair_folder(self.folder / "in", self.folder / "out", format="obj", jobs=2, max_memory="2G",
+                                           inside="winding", max_hole=0.5)
         self.assertEqual(sorted(path.name for path in (self.folder / "out").glob("*.obj")), ["broken_torus_box.obj", "cube.obj"])
         self.assertIsInstance(summary, dict)
         with self.assertRaisesRegex(meshrepair.UsageError, "refuses the options"):
