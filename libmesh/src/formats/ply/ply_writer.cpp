@@ -3,8 +3,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,7 +35,20 @@ struct PlyColumns {
   std::vector<std::string> names;      // one for each component; of a list one
   std::vector<std::uint32_t> of_item;  // of each point or face its value, or kNone; not of a list
   bool is_list = false;
+  Storage storage = Storage::real64;
 };
+
+// Double for integers that int cannot hold.
+Storage storage_in_file(const CornerAttribute& attribute) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  const auto fits = [](double value) {
+    return std::isnan(value) || (value >= Limits::min() && value <= Limits::max());
+  };
+  const std::vector<double>& values = attribute.values;
+  const bool is_int = attribute.storage == Storage::integer;
+  return is_int && !std::all_of(values.begin(), values.end(), fits) ? Storage::real64
+                                                                    : attribute.storage;
+}
 
 // An integer property of faces.
 struct PlyNumbers {
@@ -89,6 +105,8 @@ class PlyLayout {
   PlyLayout(const TriangleSoup& soup, const SoupExtras& extras) : soup_(soup), extras_(extras) {
     MESHREPAIR_ASSERT(extras.sources.empty() || extras.sources.size() == soup.triangles.size());
     if (extras.attributes != nullptr) {
+      if (!extras.attributes->materials.empty()) used_of_faces_.emplace(kPlyMaterial);
+      if (!extras.attributes->images.empty()) used_of_faces_.emplace(kPlyTexture);
       for (const CornerAttribute& attribute : extras.attributes->corners) add(attribute);
       add_materials(*extras.attributes);
     }
@@ -119,7 +137,7 @@ class PlyLayout {
     for (const PlyColumns& column : columns) {
       for (const std::string& name : column.names) {
         out += column.is_list ? "property list uchar " : "property ";
-        out.append(type_name(column.attribute->storage)).append(" ").append(name).append("\n");
+        out.append(type_name(column.storage)).append(" ").append(name).append("\n");
       }
     }
   }
@@ -142,16 +160,23 @@ class PlyLayout {
     add_columns(attribute, first_values_by_point(soup_, attribute), points);
   }
 
-  static void add_columns(const CornerAttribute& attribute, std::vector<std::uint32_t> of_item,
-                          std::vector<PlyColumns>& columns) {
-    columns.push_back({&attribute, component_names(attribute), std::move(of_item), false});
+  void add_columns(const CornerAttribute& attribute, std::vector<std::uint32_t> of_item,
+                   std::vector<PlyColumns>& columns) {
+    std::set<std::string, std::less<>>& used =
+        &columns == &points ? used_of_points_ : used_of_faces_;
+    std::vector<std::string> names = component_names(attribute);
+    for (std::string& name : names) {
+      while (!used.insert(name).second) name += '_';
+    }
+    columns.push_back(
+        {&attribute, std::move(names), std::move(of_item), false, storage_in_file(attribute)});
   }
 
   // Lists have two numbers for each corner.
   void add_list(const CornerAttribute& attribute) {
     std::string name(kPlyTextureList);
     if (textures_ > 1) name += std::to_string(textures_ - 1);
-    faces.push_back({&attribute, {std::move(name)}, {}, true});
+    faces.push_back({&attribute, {std::move(name)}, {}, true, storage_in_file(attribute)});
   }
 
   void add_comment(std::string_view word, std::string_view what) {
@@ -189,6 +214,9 @@ class PlyLayout {
   const SoupExtras& extras_;
   std::size_t textures_ = 0;
   std::string comments_;
+  // A name that is there twice would be read as that of one property.
+  std::set<std::string, std::less<>> used_of_points_ = {"x", "y", "z", std::string(kPlySource)};
+  std::set<std::string, std::less<>> used_of_faces_ = {"vertex_indices", std::string(kPlySource)};
 };
 
 // Appends numbers as bytes, without blanks between.
@@ -233,25 +261,27 @@ void append_stored(std::string& out, double value, Storage storage) {
 }
 
 template <class Numbers>
-void append_value(std::string& out, const CornerAttribute& attribute, std::uint32_t value) {
+void append_value(std::string& out, const PlyColumns& column, std::uint32_t value) {
+  const CornerAttribute& attribute = *column.attribute;
   for (std::size_t i = 0; i < attribute.components; ++i) {
     append_stored<Numbers>(out,
                            value == kNone ? std::numeric_limits<double>::quiet_NaN()
                                           : attribute.values[attribute.components * value + i],
-                           attribute.storage);
+                           column.storage);
   }
 }
 
 // Of a triangle; without a single number if a corner has none.
 template <class Numbers>
-void append_list(std::string& out, const CornerAttribute& attribute, std::size_t t) {
+void append_list(std::string& out, const PlyColumns& column, std::size_t t) {
+  const CornerAttribute& attribute = *column.attribute;
   const std::uint32_t* const values = attribute.of_corner.data() + 3 * t;
   const bool has_all = std::find(values, values + 3, kNone) == values + 3;
   Numbers::append(out, static_cast<std::uint8_t>(has_all ? 6 : 0));
   for (std::size_t k = 0; has_all && k < 3; ++k) {
     for (std::size_t i = 0; i < 2; ++i) {
       append_stored<Numbers>(out, attribute.values[attribute.components * values[k] + i],
-                             attribute.storage);
+                             column.storage);
     }
   }
 }
@@ -260,9 +290,9 @@ template <class Numbers>
 void append_face_values(std::string& out, const PlyLayout& layout, std::size_t t) {
   for (const PlyColumns& column : layout.faces) {
     if (column.is_list) {
-      append_list<Numbers>(out, *column.attribute, t);
+      append_list<Numbers>(out, column, t);
     } else {
-      append_value<Numbers>(out, *column.attribute, column.of_item[t]);
+      append_value<Numbers>(out, column, column.of_item[t]);
     }
   }
   for (const PlyNumbers& list : layout.numbers) {
@@ -280,7 +310,7 @@ std::string format_ply_binary(const TriangleSoup& soup, const SoupExtras& extras
   for (std::size_t p = 0; p < soup.points.size(); ++p) {
     out.append(reinterpret_cast<const char*>(soup.points[p].data()), 3 * sizeof(double));
     for (const PlyColumns& column : layout.points) {
-      append_value<PlyBytes>(out, *column.attribute, column.of_item[p]);
+      append_value<PlyBytes>(out, column, column.of_item[p]);
     }
   }
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -297,7 +327,7 @@ std::string format_ply_ascii(const TriangleSoup& soup, const SoupExtras& extras)
   append_lines(out, soup.points.size(), [&](std::string& lines, std::size_t p) {
     append_triple(lines, soup.points[p]);
     for (const PlyColumns& column : layout.points) {
-      append_value<PlyDigits>(lines, *column.attribute, column.of_item[p]);
+      append_value<PlyDigits>(lines, column, column.of_item[p]);
     }
     lines += '\n';
   });

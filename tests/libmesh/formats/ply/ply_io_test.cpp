@@ -5,6 +5,7 @@
 #include <cstring>
 #include <gmock/gmock.h>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -241,6 +242,60 @@ TEST(WritePly, SourcesAreAPropertyThatReadersPassOver) {
   expect_both_triangles(binary);
   EXPECT_TRUE(binary.ends_with(raw(std::int32_t{-1}, false)));
   EXPECT_EQ(binary.substr(binary.size() - 21, 4), raw(std::int32_t{7}, false));
+}
+
+// Numbers of points, from `first` on, under this name.
+CornerAttribute numbered_points(const TriangleSoup& soup, const std::string& name, double first) {
+  CornerAttribute numbers;
+  numbers.name = name;
+  numbers.kind = CornerAttribute::Kind::other;
+  numbers.place = CornerAttribute::Place::point;
+  numbers.storage = CornerAttribute::Storage::integer;
+  numbers.components = 1;
+  for (std::size_t p = 0; p < soup.points.size(); ++p) {
+    numbers.values.push_back(first + static_cast<double>(p));
+  }
+  for (const auto& triangle : soup.triangles) {
+    numbers.of_corner.insert(numbers.of_corner.end(), triangle.begin(), triangle.end());
+  }
+  return numbers;
+}
+
+Attributes read_back(const TriangleSoup& soup, const Attributes& attributes, SoupFormat format) {
+  ReadOptions options;
+  options.attributes = true;
+  ReadResult back =
+      read_soup(format_soup(soup, format, {.attributes = &attributes}), "a.ply", options);
+  EXPECT_EQ(back.soup.points, soup.points);
+  return std::move(back.attributes);
+}
+
+TEST(WritePly, IntegersBeyondIntStayWhatTheyAre) {
+  const TriangleSoup soup = tetrahedron();
+  Attributes attributes;
+  for (const double first : {7.0, 4e9, -9e15}) {
+    attributes.corners = {numbered_points(soup, "id", first)};
+    for (const SoupFormat format : {SoupFormat::ply_ascii, SoupFormat::ply_binary}) {
+      const Attributes back = read_back(soup, attributes, format);
+      ASSERT_EQ(back.corners.size(), 1U);
+      EXPECT_TRUE(std::is_permutation(back.corners[0].values.begin(), back.corners[0].values.end(),
+                                      attributes.corners[0].values.begin(),
+                                      attributes.corners[0].values.end()));
+    }
+  }
+}
+
+TEST(WritePly, NoNameIsThereTwice) {
+  const TriangleSoup soup = tetrahedron();
+  Attributes attributes;
+  for (const char* name : {"x", "a b", "a_b", "source_triangle"}) {
+    attributes.corners.push_back(numbered_points(soup, name, 1));
+  }
+  std::vector<std::string> names;
+  for (const CornerAttribute& one : read_back(soup, attributes, SoupFormat::ply_binary).corners) {
+    names.push_back(one.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"x_", "a_b", "a_b_", "source_triangle_"}));
 }
 
 TEST(WritePly, SourcesNeedPly) {
