@@ -148,6 +148,35 @@ class AddOn(unittest.TestCase):
         self.assertLess(abs(ball - 4 / 3 * math.pi), 0.15)
         self.assertGreater(volumes["union"], ball)
 
+    def combine_balls(self, first, second):
+        second.location = (0.5, 0, 0)
+        bpy.context.view_layer.update()
+        first.select_set(True)
+        second.select_set(True)
+        bpy.context.view_layer.objects.active = first
+        return bpy.ops.mesh.meshrepair_boolean(operation="union")
+
+    def test_an_object_with_the_same_mesh_keeps_it(self):
+        second = textured_ball("ball")
+        count = len(second.data.polygons)
+        first = add_object("again", second.data)
+        self.assertEqual(self.combine_balls(first, second), {"FINISHED"})
+        self.assertNotEqual(len(first.data.polygons), count)
+        self.assertEqual(len(second.data.polygons), count)
+
+    def test_what_has_no_material_gets_none_of_another_object(self):
+        first, second = textured_ball("one"), textured_ball("two")
+        first.data.materials.clear()
+        self.assertEqual(self.combine_balls(first, second), {"FINISHED"})
+        self.assertEqual([slot.material for slot in first.material_slots], [None, second.data.materials[0]])
+        self.assertEqual({polygon.material_index for polygon in first.data.polygons if polygon.center.x < -0.6}, {0})
+
+    def test_an_object_without_extent_is_refused(self):
+        first, second = textured_ball("flat"), textured_ball("ball")
+        first.scale = (1, 1, 0)
+        with self.assertRaisesRegex(RuntimeError, "^Error: flat has a scale of 0"):
+            self.combine_balls(first, second)
+
     def test_a_failure_is_told_and_changes_nothing(self):
         mesh = bpy.data.meshes.new("sheet")
         mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])

@@ -38,6 +38,8 @@ class Triangles:
     def join(self, other):
         """Puts another one behind it. Materials are those of both, each once."""
         numbers = []
+        if not self.materials:
+            self.materials.append(None)  # an empty slot, lest its faces get the first of the others
         for material in other.materials or [None]:
             if material not in self.materials:
                 self.materials.append(material)
@@ -56,8 +58,12 @@ class Triangles:
         return np.array([tree.find_nearest(Vector(centre))[2] for centre in centres], np.int64)
 
 
-def put(item, given, answer):
-    """Makes the mesh of the object the answer's, carrying what was given."""
+def put(item, given, answer, alone=False):
+    """Makes the mesh of the object the answer's, carrying what was given.
+
+    With `alone`, other objects that have the same mesh keep it as it is."""
+    if alone and item.data.users > 1:
+        item.data = item.data.copy()
     mesh = item.data
     source = answer.source if answer.source is not None else given.sources_of(answer.vertices, answer.triangles)
     source = _without_gaps(np.asarray(source, np.int64), answer.triangles)

@@ -33,10 +33,10 @@ class MeshOperator:
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
         finally:
-            if item.mode != mode and not self.chooses_mode:
+            if item.mode != mode and not self.has_chosen_mode:
                 bpy.ops.object.mode_set(mode=mode)
 
-    chooses_mode = False
+    has_chosen_mode = False
 
 
 class MESHREPAIR_OT_repair(MeshOperator, bpy.types.Operator):
@@ -69,7 +69,6 @@ class MESHREPAIR_OT_check(MeshOperator, bpy.types.Operator):
 
     bl_idname = "mesh.meshrepair_check"
     bl_label = "Check"
-    chooses_mode = True
 
     def work(self, context, item):
         given = layers.Triangles(item, Matrix())
@@ -86,6 +85,7 @@ class MESHREPAIR_OT_check(MeshOperator, bpy.types.Operator):
             return {"FINISHED"}
         context.tool_settings.mesh_select_mode = (False, False, True)
         bpy.ops.object.mode_set(mode="EDIT")
+        self.has_chosen_mode = True
         counts = ", ".join(f"{name.replace('_', ' ')}: {count}" for name, count in defects.items() if count)
         self.report({"WARNING"}, f"No valid solid: {counts}")
         return {"FINISHED"}
@@ -105,6 +105,8 @@ class MESHREPAIR_OT_boolean(MeshOperator, bpy.types.Operator):
 
     def work(self, context, item):
         others = [other for other in context.selected_objects if other.type == "MESH" and other != item]
+        if item.matrix_world.determinant() == 0:
+            raise engine.Failed(f"{item.name} has a scale of 0")
         to_active = item.matrix_world.inverted()
         given = layers.Triangles(item, Matrix())
         meshes = [(given.vertices, given.triangles)]
@@ -113,7 +115,7 @@ class MESHREPAIR_OT_boolean(MeshOperator, bpy.types.Operator):
             meshes.append((more.vertices, more.triangles))
             given.join(more)
         answer = engine.combine(meshes, self.operation)
-        layers.put(item, given, answer)
+        layers.put(item, given, answer, alone=True)
         for other in others:
             other.hide_set(True)
         return _told(self, answer)
