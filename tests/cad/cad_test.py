@@ -49,6 +49,7 @@ class FreeCAD(unittest.TestCase):
             lines = [line for line in told.replace("\t", "\n").splitlines() if line and "%" not in line]
             self.assertEqual(lines[-1], "fine", told[-2000:])
             self.assertIn("sheet: all triangles lie in one plane", told)
+            self.assertIn("sheet: is not closed", lines)
 
 
 def main() -> int:

@@ -4,6 +4,7 @@ nothing."""
 import os
 import runpy
 import sys
+import tempfile
 
 import FreeCAD
 import Mesh
@@ -26,5 +27,14 @@ assert inside.isInside(mesh.BoundBox), (broken.Mesh.BoundBox, mesh.BoundBox)
 assert abs(mesh.Volume - 3.60955) < 1e-4, mesh.Volume
 walls = macro["repair_objects"](document, [sheet], ["--thicken", "0.1"])
 assert len(walls) == 1 and walls[0].Mesh.isSolid()
+
+# A program that makes a mesh, and says that it lacks a guarantee.
+with tempfile.TemporaryDirectory() as folder:
+    program = os.path.join(folder, "meshrepair")
+    with open(program, "w", encoding="utf-8") as file:
+        file.write('#!/bin/sh\ncp "$1" "$2"\necho "meshrepair: $2: is not closed" >&2\nexit 1\n')
+    os.chmod(program, 0o755)
+    os.environ["MESHREPAIR_FOLDER"] = folder
+    assert len(macro["repair_objects"](document, [sheet])) == 1
 print("fine")
 sys.stdout.flush()
