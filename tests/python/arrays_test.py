@@ -8,6 +8,7 @@ PACKAGES is the folder that holds the package meshrepair, as build/release/pytho
 Example: tests/python/arrays_test.py build/release/python Arrays
 """
 
+import copy
 import os
 import pathlib
 import sys
@@ -122,6 +123,25 @@ class Attributes(unittest.TestCase):
         result.attributes["colour"] = 1 - CUBE
         again = meshrepair.repair(result)
         self.assertTrue((again.attributes["colour"] == 1 - CUBE).all())
+
+    def test_copies_keep_what_arrays_do_not_say(self):
+        """A material has a colour, in no array."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            (path / "a.mtl").write_text("newmtl red\nKd 1 0 0\n")
+            (path / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
+            mesh = meshrepair.read(path / "a.obj")
+
+            def written(attributes):
+                meshrepair.write(path / "b.glb", mesh, attributes=attributes)
+                return (path / "b.glb").read_bytes()
+            expected = written(mesh.attributes)
+            self.assertNotEqual(written(dict(mesh.attributes)), expected)
+            for made in (copy.copy, copy.deepcopy):
+                self.assertEqual(written(made(mesh.attributes)), expected)
+            emptied = copy.copy(mesh.attributes)
+            emptied.clear()
+            self.assertEqual(written(copy.copy(emptied)), written({}))
 
     def test_polygons_share_theirs(self):
         result = meshrepair.repair(CUBE, QUADS, attributes={"part": np.arange(6)})
