@@ -77,7 +77,9 @@ def _shown(value: Any) -> str:
 
 
 def _polygons(vertices: npt.NDArray[Any], corners: Any, sizes: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-    corners = np.asarray(corners)
+    given, corners = corners, np.asarray(corners)
+    if corners.dtype.kind == "f" and isinstance(given, list) and all(isinstance(corner, (int, np.integer)) for corner in given):
+        corners = np.array([int(corner) for corner in given])  # numpy makes floats of integers of several types
     if corners.size == 0:
         corners = corners.astype(np.int64)
     if corners.dtype.kind not in "iu":
@@ -134,6 +136,8 @@ def _of_cells(vertices: npt.NDArray[Any], cells: Any) -> tuple[npt.NDArray[Any],
             rows = np.asarray(data)
             corners.append(rows.ravel())
             sizes.append(np.full(len(rows), rows.shape[1]))
+        elif kind.startswith(("triangle", "quad")):  # of higher order: a mesh without them has holes
+            raise UsageError(f"mesh: has cells of type {kind}, which are not flat")
     if not sizes:
         raise UsageError("mesh: has no cells that are triangles, quads or polygons")
     return _polygons(vertices, np.concatenate(corners), np.concatenate(sizes))

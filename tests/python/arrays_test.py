@@ -79,6 +79,8 @@ class Arrays(unittest.TestCase):
     def test_polygons_are_triangulated_as_files_are(self):
         by_lists = meshrepair.repair(CUBE, QUADS[:5] + [(1, 5, 7), (1, 7, 3)])
         self.assertEqual(sorted(set(by_lists.source.tolist())), list(range(7)))
+        of_types = meshrepair.repair(CUBE, [*np.array(QUADS[:5], np.uint64), (1, 5, 7), (1, 7, 3)])
+        self.assertTrue(same(of_types, by_lists))
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "cube.off"
             rows = [" ".join(map(str, row)) for row in CUBE.tolist()] + ["4 " + " ".join(map(str, quad)) for quad in QUADS]
@@ -225,6 +227,9 @@ class Foreign(unittest.TestCase):
         for thing in (object(), "text", 3, types.SimpleNamespace(vertices=CUBE)):
             with self.assertRaises(meshrepair.UsageError):
                 meshrepair.repair(thing)
+        curved = self.Meshio(CUBE, [("triangle", TRIANGLES), ("triangle6", np.zeros((1, 6), int))])
+        with self.assertRaisesRegex(meshrepair.UsageError, "^mesh: has cells of type triangle6"):
+            meshrepair.repair(curved)
 
 
 class Points(unittest.TestCase):
