@@ -18,8 +18,6 @@ struct DataUri {
 // Nothing if it is none, or its base64 is broken.
 [[nodiscard]] std::optional<DataUri> decode_data_uri(std::string_view uri);
 
-[[nodiscard]] std::string encode_base64(std::string_view bytes);
-
 // "a%20b" is "a b". What is no such number stays.
 [[nodiscard]] std::string decode_percent(std::string_view uri);
 // Of a path with '/' between folders.

@@ -4,9 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include <base/base64.h>
 #include <base/error.h>
-
-#include "formats/common/uri.h"
 
 namespace meshrepair {
 namespace {
