@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages that the project needs, Debian's and npm's. This is the only place that names Debian's; those
-# of npm stand in tests/node/package.json.
+# of npm stand in tests/node/package.json and web/viewer/package.json.
 set -euo pipefail
 
 usage() {
@@ -12,15 +12,16 @@ Usage: scripts/setup.sh [build|python|all|bench|package]
           network then
   all     the same, and what the checks need: clang-format, clang-tidy, the
           runtime of clang's fuzzer, abidiff, man, the shells whose completions
-          are tested, Blender, OpenSCAD, mypy, what makes the manual's site, and
-          the validator of glTF, for node (default)
+          are tested, Blender, OpenSCAD, mypy, Chromium, what makes the manual's
+          site, and of npm the validator of glTF, playwright, esbuild and
+          three.js (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
   package
           the same as python, and what is needed to make and to check packages
 
-Asks for nothing, and does nothing if all is there. Without npm's registry the validator is left out, with a
-warning; tests that need it are skipped. Needs Debian 12 or a relative of it, and root or sudo
+Asks for nothing, and does nothing if all is there. Without npm's registry its packages are left out, with a
+warning; tests that need them are skipped. Needs Debian 12 or a relative of it, and root or sudo
 if something is missing.
 TEXT
 }
@@ -68,6 +69,7 @@ check_packages=(
   abigail-tools
   bash-completion
   blender
+  chromium
   clang
   clang-format-14
   clang-tidy
@@ -140,23 +142,23 @@ install_packages() {
   apt install --yes --no-install-recommends "$@"
 }
 
-# What the lock file of tests/node names, unless just that is there. Only tests of glTF need it, and are skipped without:
-# a registry that cannot be reached is no failure, all else is.
+# What the lock file of a folder names, unless just that is there. Only tests need it, and the making of the viewer: a
+# registry that cannot be reached is no failure, all else is.
 install_node_packages() {
   local folder installed said
-  folder=$(dirname "${BASH_SOURCE[0]}")/../tests/node
+  folder=$(dirname "${BASH_SOURCE[0]}")/../$1
   installed=$folder/node_modules/.installed-lock.json
   if cmp --silent "$folder/package-lock.json" "$installed"; then return; fi
-  echo "setup: installing the packages of tests/node"
+  echo "setup: installing the packages of $1"
   if said=$(npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --loglevel=error \
     --fetch-retries=1 --fetch-timeout=60000 2>&1); then
     cp "$folder/package-lock.json" "$installed"
   elif [[ $said =~ (ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ETIMEDOUT|ERR_SOCKET_TIMEOUT|ENETUNREACH|EHOSTUNREACH|E[45][0-9][0-9]) ]]; then
-    echo "setup.sh: warning: the registry of npm cannot be reached (${BASH_REMATCH[0]}); tests with the validator of" \
-      "glTF will be skipped, all else is installed" >&2
+    echo "setup.sh: warning: the registry of npm cannot be reached (${BASH_REMATCH[0]}); tests with the packages of" \
+      "$1 will be skipped, all else is installed" >&2
   else
     echo "$said" >&2
-    echo "setup.sh: npm cannot install the packages of tests/node" >&2
+    echo "setup.sh: npm cannot install the packages of $1" >&2
     exit 1
   fi
 }
@@ -170,4 +172,7 @@ if [ "${#missing[@]}" -gt 0 ]; then
 else
   echo "setup: all ${#packages[@]} packages are installed"
 fi
-if [ "${1:-all}" = all ]; then install_node_packages; fi
+if [ "${1:-all}" = all ]; then
+  install_node_packages tests/node
+  install_node_packages web/viewer
+fi

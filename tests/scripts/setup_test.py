@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+NODE_FOLDERS = ("tests/node", "web/viewer")
 FALSE_PROGRAMS = {
     "dpkg-query": "echo -n installed",
     "apt-get": "exit 1",
@@ -22,7 +23,7 @@ class NodePackages(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="setup_")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        for name in ("scripts/setup.sh", "tests/node/package-lock.json"):
+        for name in ("scripts/setup.sh", *(f"{folder}/package-lock.json" for folder in NODE_FOLDERS)):
             (self.folder / name).parent.mkdir(parents=True)
             shutil.copy(ROOT / name, self.folder / name)
         (self.folder / "bin").mkdir()
@@ -36,13 +37,15 @@ class NodePackages(unittest.TestCase):
                               capture_output=True, text=True, timeout=60)
 
     def is_noted(self):
-        return (self.folder / "tests/node/node_modules/.installed-lock.json").exists()
+        noted = {(self.folder / folder / "node_modules/.installed-lock.json").exists() for folder in NODE_FOLDERS}
+        self.assertEqual(len(noted), 1)
+        return noted.pop()
 
     def test_a_registry_out_of_reach_is_one_line_and_no_failure(self):
         for code in ("ENOTFOUND", "ECONNREFUSED", "E503"):
             result = self.run_setup(f"npm ERR! code {code}\nnpm ERR! more lines")
             self.assertEqual(result.returncode, 0)
-            self.assertRegex(result.stderr, rf"^setup.sh: warning: the registry of npm [^\n]*\({code}\)[^\n]*\n$")
+            self.assertRegex(result.stderr, rf"^(setup.sh: warning: the registry of npm [^\n]*\({code}\)[^\n]*\n){{2}}$")
             self.assertFalse(self.is_noted())
 
     def test_what_else_goes_wrong_is_a_failure(self):
