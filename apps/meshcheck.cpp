@@ -1,6 +1,8 @@
 // meshcheck IN: what is wrong with a mesh, and whether it is the boundary of a solid.
+#include <algorithm>
 #include <iostream>
 #include <string>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -16,6 +18,7 @@
 #include "common/repair_steps.h"
 #include "common/scene_steps.h"
 #include "common/summary.h"
+#include "page/html_report.h"
 
 namespace meshrepair {
 namespace {
@@ -26,6 +29,7 @@ struct Options {
   std::string marked;  // empty: no such file
   bool json = false;
   PictureRequest picture;
+  HtmlRequest html;
   CheckRequest request;
 };
 
@@ -52,18 +56,25 @@ struct Verdict {
   bool is_valid = true;
   std::vector<Colour> colours;  // if they are asked for
   std::string table;
+  SurfaceCheck check;  // if a page is asked for
 };
 
 Verdict check_one(const ReadResult& input, const Options& options, Run& run,
                   const Findings& findings) {
-  const SurfaceCheck check = check_surface(input.soup, options.request.check);
+  CheckOptions request = options.request.check;
+  if (options.html.wanted()) request.most_places = std::max(request.most_places, kMostPagePlaces);
+  SurfaceCheck check = check_surface(input.soup, request);
+  SurfaceCheck kept;
+  if (options.html.wanted()) kept = check;
+  keep_places(check, options.request.check.most_places);
   Json section = check_section(check);
   const std::string openings = add_openings(input.soup, check, options.request, section);
   run.report.set_section("check", std::move(section));
   return {check.valid_solid(), defect_colours(check),
           check_table(check, what_was_read(findings, input.soup),
                       attribute_words(input.soup, input.attributes), findings.unit) +
-              openings};
+              openings,
+          std::move(kept)};
 }
 
 // A line for each mesh, and a table for one that is no solid.
@@ -103,8 +114,9 @@ ExitCode check_mesh(Options& options, Run& run) {
   }
   check_files(options.input, options.marked, run);
   check_picture(options.picture, {options.input, options.marked}, run);
+  check_html(options.html, options.assets.by_mesh, {options.input, options.marked}, run);
   options.request.check.progress = &run.progress;
-  options.request.check.mark_triangles = !options.marked.empty();
+  options.request.check.mark_triangles = !options.marked.empty() || options.html.wanted();
   Findings findings(options.input, options.marked);
   return with_findings(run, findings, [&] {
     ReadOptions reading = read_options(run);
@@ -115,13 +127,16 @@ ExitCode check_mesh(Options& options, Run& run) {
     run.report.set_section("attributes", attributes_section(input.soup, input.attributes));
     StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
     meter.begin("check");
-    const Verdict verdict = options.assets.by_mesh ? check_each(input, options, run, findings)
-                                                   : check_one(input, options, run, findings);
+    Verdict verdict = options.assets.by_mesh ? check_each(input, options, run, findings)
+                                             : check_one(input, options, run, findings);
     meter.end();
     if (!options.marked.empty()) write_marked(input.soup, verdict.colours, options, run);
     place_instances(input.soup, input.attributes, input.scene);
     draw_picture_stage(options.picture, up_of(findings), {options.input},
                        {{input.soup, input.attributes}}, run, findings);
+    write_html_stage(options.html, up_of(findings),
+                     {"input", {}, input.soup, std::move(verdict.check), {}},
+                     options.request.check.most_places, run, findings);
     run.progress.finish();
     if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
     return verdict.is_valid ? ExitCode::done : ExitCode::not_certified;
@@ -162,6 +177,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
       ->group("Output");
   add_picture_options(app, options.picture, "IN");
+  add_html_options(app, options.html, "IN");
   return program.run(argc, argv, [&](Run& run) {
     if (options.json) program.report_to_standard_output();
     return check_mesh(options, run);

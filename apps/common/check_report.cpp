@@ -191,6 +191,20 @@ std::vector<Colour> defect_colours(const SurfaceCheck& check) {
   return colours;
 }
 
+std::vector<DefectLook> defect_looks() {
+  std::vector<DefectLook> looks;
+  for (const MarkColour& mark : kColours) {
+    looks.push_back({mark.defect, mark.meaning, mark.colour, true});
+  }
+  for (const DefectWords& words : kWords) {
+    const bool is_there = std::any_of(looks.begin(), looks.end(), [&](const DefectLook& look) {
+      return look.defect == words.defect;
+    });
+    if (!is_there) looks.push_back({words.defect, words.row, kSound, false});
+  }
+  return looks;
+}
+
 std::vector<std::string> colour_legend() {
   std::vector<std::string> lines;
   lines.reserve(kColours.size() + 1);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <check/check_surface.h>
@@ -24,6 +25,16 @@ namespace meshrepair {
 
 // The worst defect of each triangle as a colour; none if triangles are not marked.
 [[nodiscard]] std::vector<Colour> defect_colours(const SurfaceCheck& check);
+
+struct DefectLook {
+  Defect defect;
+  std::string_view words;
+  Colour colour;
+  bool is_marked;  // triangles have marks of it
+};
+
+// Of all defects; the worst that triangles are marked with first, then the others.
+[[nodiscard]] std::vector<DefectLook> defect_looks();
 
 // "red  triangles that intersect others", ...: one line for each colour.
 [[nodiscard]] std::vector<std::string> colour_legend();

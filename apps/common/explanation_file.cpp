@@ -222,7 +222,23 @@ std::string help_of(std::span<const Painted> kinds) {
   return text;
 }
 
+template <class Kind>
+std::vector<TriangleKind> kinds_of(std::span<const Painted> painted,
+                                   std::string_view (*name_of)(Kind)) {
+  std::vector<TriangleKind> kinds;
+  for (std::size_t i = 0; i < painted.size(); ++i) {
+    kinds.push_back({name_of(static_cast<Kind>(i)), painted[i].meaning, painted[i].colour});
+  }
+  return kinds;
+}
+
 }  // namespace
+
+std::vector<TriangleKind> kinds_of_fates() { return kinds_of<TriangleFate>(kFates, fate_name); }
+
+std::vector<TriangleKind> kinds_of_origins() {
+  return kinds_of<TriangleOrigin>(kOrigins, origin_name);
+}
 
 void add_explain_option(CLI::App& app, std::string& path) {
   app.add_option("--explain", path,

@@ -3,16 +3,28 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/App.hpp>
 
+#include <mesh/coloured_ply.h>
 #include <mesh/scene.h>
 #include <mesh/soup.h>
 
 #include "common/repair_steps.h"
 
 namespace meshrepair {
+
+// What a triangle can be, with the colour that says so.
+struct TriangleKind {
+  std::string_view name;  // as in the report
+  std::string_view meaning;
+  Colour colour;
+};
+// In the order of TriangleFate, and of TriangleOrigin.
+[[nodiscard]] std::vector<TriangleKind> kinds_of_fates();
+[[nodiscard]] std::vector<TriangleKind> kinds_of_origins();
 
 // The help names the colours.
 void add_explain_option(CLI::App& app, std::string& path);

@@ -9,6 +9,7 @@
 #include "common/purposes.h"
 #include "common/repair_options.h"
 #include "common/scene_steps.h"
+#include "page/html_report.h"
 
 namespace meshrepair {
 namespace {
@@ -34,7 +35,7 @@ void scale_lengths(double factor, RepairOptions& options) {
 void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
   keep_attributes(input.soup, input.attributes, options);
   options.keep_valid = !command.always && !input.cloud;
-  options.explain = !command.steps.explained.empty();
+  options.explain = !command.steps.explained.empty() || command.steps.html.wanted();
 }
 
 }  // namespace
@@ -67,6 +68,7 @@ void add_repair_command(CLI::App& app, RepairCommand& command) {
   add_certify_options(app, options.repair.certify, options.strict);
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
+  add_html_options(app, options.html, "IN and OUT");
   add_point_repair_options(app, command.points);
 }
 
@@ -96,6 +98,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   write_explanation_stage(options.explained, {input.soup, {}}, {surface.mesh, {}}, run, findings);
   draw_picture_stage(options.picture, up_of(findings), {options.input},
                      {{input.soup, given}, {surface.mesh, attributes}}, run, findings);
+  write_html_stage(options.html, up_of(findings), input.soup, surface.mesh, run, findings);
 }
 
 RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run& run,

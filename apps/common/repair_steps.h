@@ -21,6 +21,7 @@
 #include "common/picture_request.h"
 #include "common/program.h"
 #include "common/purposes.h"
+#include "page/html_request.h"
 
 namespace meshrepair {
 
@@ -81,6 +82,7 @@ struct StepOptions {
   bool strict = false;
   std::string staging;  // folder that OUT is written into first; empty: none
   PictureRequest picture;
+  HtmlRequest html;
   std::string explained;  // file that is to say what became of the triangles; empty: none
   Purpose purpose;
   RepairOptions repair;

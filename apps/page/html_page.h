@@ -1,0 +1,18 @@
+// The page of a report: the viewer, and what it shows, in one file that needs no other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/json_report.h"
+
+namespace meshrepair {
+
+// For the inside of a <script>: nothing in it ends the element or begins markup, and all of it is
+// ASCII. A byte that is not UTF-8 becomes the replacement character.
+[[nodiscard]] std::string json_for_html(const Json& json);
+
+// `facts` is what web/viewer/src/main.js reads; `packed` has the text of pack_mesh() of each mesh.
+[[nodiscard]] std::string html_page(const Json& facts, const std::vector<std::string>& packed);
+
+}  // namespace meshrepair

@@ -1,0 +1,109 @@
+#include "page/mesh_facts.h"
+
+#include <algorithm>
+#include <array>
+
+#include <base/assert.h>
+
+#include "common/check_report.h"
+
+namespace meshrepair {
+namespace {
+
+void append(const PageGrid::Steps& steps, Json& list) {
+  for (const std::int32_t step : steps) list.push_back(step);
+}
+
+bool is_of_edges(Defect defect) {
+  return defect == Defect::open_edge || defect == Defect::nonmanifold_edge ||
+         defect == Defect::inconsistent_edge;
+}
+
+// Where it is in steps, and, of an edge, where it ends.
+Json places_of(const ShownMesh& mesh, Defect defect, const PageGrid& grid) {
+  Json at = Json::array();
+  Json ends = Json::array();
+  const std::vector<Place>& places = mesh.check[defect].first;
+  for (std::size_t i = 0; i < std::min(kMostPagePlaces, places.size()); ++i) {
+    if (!places[i].at.allFinite()) continue;
+    append(grid.steps_of(places[i].at), at);
+    if (!is_of_edges(defect)) continue;
+    for (const std::uint32_t p : places[i].ids) append(grid.steps_of(mesh.soup.points[p]), ends);
+  }
+  return {{"at", at}, {"ends", ends}};
+}
+
+Json places_of(const ShownMesh& mesh, const PageGrid& grid) {
+  Json all = Json::object();
+  for (std::size_t d = 0; d < kDefects; ++d) {
+    const auto defect = static_cast<Defect>(d);
+    all[std::string(defect_name(defect))] = places_of(mesh, defect, grid);
+  }
+  return all;
+}
+
+Json kinds_of(const ShownMesh& mesh) {
+  std::vector<std::size_t> counts(mesh.kinds.size(), 0);
+  for (const std::uint32_t kind : mesh.kind_of) ++counts[kind];
+  Json list = Json::array();
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const TriangleKind& kind = mesh.kinds[k];
+    list.push_back({{"key", kind.name},
+                    {"words", kind.meaning},
+                    {"colour", kind.colour},
+                    {"count", counts[k]}});
+  }
+  return list;
+}
+
+// In the middle of a triangle of each part that the section lists.
+Json part_places(const ShownMesh& mesh, std::size_t listed, const PageGrid& grid) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < listed; ++i) {
+    Vec3d middle = Vec3d::Zero();
+    for (const std::uint32_t p : mesh.soup.triangles[mesh.check.parts[i].first_triangle]) {
+      middle += mesh.soup.points[p] / 3;
+    }
+    Json place = Json::array();
+    append(grid.steps_of(middle), place);
+    list.push_back(std::move(place));
+  }
+  return list;
+}
+
+}  // namespace
+
+void keep_places(SurfaceCheck& check, std::size_t most) {
+  for (DefectPlaces& places : check.defects) {
+    places.first.resize(std::min(most, places.first.size()));
+  }
+}
+
+Json facts_of(const ShownMesh& mesh, Json section, std::size_t shown, const PageGrid& grid) {
+  MESHREPAIR_ASSERT(mesh.kinds.empty() || mesh.kind_of.size() == mesh.soup.triangles.size());
+  const std::size_t listed = section["first_parts"].size();
+  return {{"role", mesh.role},
+          {"name", mesh.name},
+          {"shown", shown},
+          {"not_finite", mesh.check[Defect::not_finite_triangle].count},
+          {"size", sides_of(mesh.soup, grid)},
+          {"kinds", kinds_of(mesh)},
+          {"places", places_of(mesh, grid)},
+          {"part_places", part_places(mesh, listed, grid)},
+          {"check", std::move(section)}};
+}
+
+Json looks_of_defects() {
+  Json list = Json::array();
+  for (const DefectLook& look : defect_looks()) {
+    Json bit = nullptr;
+    if (look.is_marked) bit = static_cast<int>(look.defect);
+    list.push_back({{"key", defect_name(look.defect)},
+                    {"words", look.words},
+                    {"colour", look.colour},
+                    {"bit", bit}});
+  }
+  return list;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""What meshrepair and meshcheck write with --html: one page that needs nothing else, whatever is in names and meshes.
+
+Usage: html_test.py PROGRAMS
+"""
+
+import base64
+import gzip
+import hashlib
+import html.parser
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MESHES = ROOT / "samples/meshes"
+VIEWER = ROOT / "web/viewer/dist/viewer.html"
+PLACE = "@DATA@\n"
+MOST = 2**18 - 1  # steps of the grid
+HOSTILE = "<img src=x onerror=alert(1)>\u2028&<!--<script>'\"`${1}]]>\\.stl"
+
+
+class Elements(html.parser.HTMLParser):
+    """The elements of a page in their order, and what stands in each script and style."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.names: list[str] = []
+        self.scripts: dict[str, str] = {}
+        self.policy = ""
+        self.inside = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.names.append(tag)
+        attributes = dict(attrs)
+        if tag in ("script", "style"):
+            self.inside = attributes.get("id", tag)
+            self.scripts[self.inside] = ""
+        if attributes.get("http-equiv") == "Content-Security-Policy":
+            self.policy = attributes["content"]
+
+    def handle_endtag(self, tag):
+        self.inside = ""
+
+    def handle_data(self, data):
+        if self.inside:
+            self.scripts[self.inside] += data
+
+
+class Numbers:
+    """The numbers of a packed mesh, as apps/page/pack_mesh.h says."""
+
+    def __init__(self, text: str) -> None:
+        self.bytes = gzip.decompress(base64.b64decode(text, validate=True))
+        self.at = 0
+
+    def next(self) -> int:
+        value = shift = 0
+        while True:
+            byte = self.bytes[self.at]
+            self.at += 1
+            value |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                return value
+
+    def signed(self) -> int:
+        value = self.next()
+        return (value >> 1) ^ -(value & 1)
+
+
+def unpack(text: str, triangles: int) -> tuple[list[int], list[list[int]], list[int], list[int]]:
+    """Corners, places, kinds and marks."""
+    numbers = Numbers(text)
+    corners: list[int] = []
+    points = 0
+    for _ in range(3 * triangles):
+        back = numbers.next()
+        corners.append(points if back == 0 else points - back)
+        points += back == 0
+    axes = []
+    for _ in range(3):
+        value, axis = 0, []
+        for _ in range(points):
+            value += numbers.signed()
+            axis.append(value)
+        axes.append(axis)
+    kinds = [numbers.next() for _ in range(triangles)]
+    marks = [numbers.next() for _ in range(triangles)]
+    assert numbers.at == len(numbers.bytes)
+    return corners, [list(place) for place in zip(*axes)], kinds, marks
+
+
+class Pages(unittest.TestCase):
+    programs: pathlib.Path
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="html_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_program(self, program: str, *arguments: str | pathlib.Path) -> int:
+        return subprocess.run([self.programs / program, "-q", *arguments], cwd=self.folder, check=False, timeout=300,
+                              stdout=subprocess.DEVNULL).returncode
+
+    def page(self, name: str = "p.html") -> str:
+        return (self.folder / name).read_bytes().decode()
+
+    def facts(self, name: str = "p.html") -> dict:
+        return json.loads(Elements(self.page(name)).scripts["facts"])
+
+    def repaired(self, mesh: str | pathlib.Path, *more: str) -> dict:
+        code = self.run_program("meshrepair", mesh, "out.obj", "--html", "p.html", "--report", "r.json", *more)
+        self.assertEqual(code, 0)
+        return json.loads((self.folder / "r.json").read_text(encoding="utf-8"))
+
+    def test_the_page_is_the_viewer_around_data(self):
+        self.repaired(MESHES / "broken_torus_box.stl")
+        head, tail = VIEWER.read_text(encoding="utf-8").split(PLACE)
+        page = self.page()
+        self.assertTrue(page.startswith(head) and page.endswith(tail))
+        data = page[len(head):-len(tail)]
+        self.assertRegex(data, r'\A<script type="application/json" id="facts">[ -;=?-~]*</script>\n'
+                               r'(<script type="text/plain" id="mesh-\d">[A-Za-z0-9+/]*=*</script>\n){2}\Z')
+
+    def test_nothing_is_loaded_and_nothing_else_runs(self):
+        self.repaired(MESHES / "cube.stl")
+        elements = Elements(self.page())
+        for name in ("script", "style"):
+            digest = base64.b64encode(hashlib.sha256(elements.scripts[name].encode()).digest()).decode()
+            self.assertIn(f"{name}-src 'sha256-{digest}';", elements.policy)
+        self.assertTrue(elements.policy.startswith("default-src 'none';"))
+        self.assertNotRegex(elements.policy, r"unsafe|https?:|\*|connect-src|img-src")
+        self.assertNotRegex(self.page(), r"<[^>]*\s(src|href)=[\"']?\w")
+
+    def test_the_same_bytes_on_any_number_of_threads(self):
+        pages = []
+        for threads in ("1", "4", "4"):
+            self.repaired(MESHES / "broken_spheres.obj", "--threads", threads)
+            pages.append(self.page())
+        self.assertEqual(pages[0], pages[1])
+        self.assertEqual(pages[1], pages[2])
+
+    def test_names_are_no_markup(self):
+        names = [HOSTILE.encode(), b"\xff\xfe<b>.stl", b"a-->.stl", b"<script>.stl"]
+        self.repaired(MESHES / "cube.stl")
+        expected = Elements(self.page()).names
+        for name in names:
+            path = os.fsdecode(name)
+            (self.folder / path).write_bytes((MESHES / "cube.stl").read_bytes())
+            self.repaired(path)
+            self.assertEqual(Elements(self.page()).names, expected, name)
+            self.assertEqual(self.facts()["meshes"][0]["name"], name.decode(errors="replace"))
+
+    def test_triangles_are_where_they_were(self):
+        self.assertEqual(self.run_program("meshcheck", MESHES / "cube.stl", "--html", "p.html"), 0)
+        facts = self.facts()
+        grid, mesh = facts["grid"], facts["meshes"][0]
+        given = re.findall(r"vertex (\S+) (\S+) (\S+)", (MESHES / "cube.stl").read_text(encoding="ascii"))
+        self.assertEqual(3 * mesh["shown"], len(given))
+        corners, places, _, marks = unpack(Elements(self.page()).scripts["mesh-0"], mesh["shown"])
+        self.assertEqual(set(marks), {0})
+        for i, corner in enumerate(corners):
+            own = [grid["low"][k] + places[corner][k] / MOST * 2 * grid["half"] for k in range(3)]
+            for a, b in zip(own, given[i]):
+                self.assertAlmostEqual(a, float(b), delta=2 * grid["half"] / MOST)
+
+    def test_counts_are_those_of_the_report(self):
+        report = self.repaired(MESHES / "broken_torus_box.stl", "--explain", "e.glb")
+        self.assertEqual(self.run_program("meshcheck", MESHES / "broken_torus_box.stl", "--report", "c.json"), 1)
+        check = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))["check"]
+        self.assertEqual(report["html"]["input"]["check"], check)
+        meshes = self.facts()["meshes"]
+        for m, mesh in enumerate(meshes):
+            self.assertEqual(report["html"][mesh["role"]], {"triangles_shown": mesh["shown"], "check": mesh["check"]})
+            self.assertEqual({kind["key"]: kind["count"] for kind in mesh["kinds"]}, report["explain"][mesh["role"]])
+            _, _, kinds, marks = unpack(Elements(self.page()).scripts[f"mesh-{m}"], mesh["shown"])
+            for k, kind in enumerate(mesh["kinds"]):
+                self.assertEqual(kinds.count(k), kind["count"])
+            self.assertEqual(any(marks), not mesh["check"]["valid_solid"])
+        places = meshes[0]["places"]["open_edges"]
+        self.assertEqual((len(places["at"]), len(places["ends"])), (3 * 23, 6 * 23))
+
+    def test_meshcheck_lists_no_more_places_than_it_did(self):
+        mesh = MESHES / "broken_torus_box.stl"
+        self.assertEqual(self.run_program("meshcheck", mesh, "--places", "2", "--report", "a.json"), 1)
+        self.assertEqual(self.run_program("meshcheck", mesh, "--places", "2", "--report", "b.json", "--html", "p.html"), 1)
+        plain, paged = (json.loads((self.folder / name).read_text(encoding="utf-8")) for name in ("a.json", "b.json"))
+        self.assertEqual(plain["check"], paged["check"])
+        self.assertEqual(paged["html"]["input"]["check"], plain["check"])
+
+    def test_a_limit_keeps_what_is_at_fault(self):
+        self.repaired(MESHES / "broken_torus_box.stl")
+        mesh = self.facts()["meshes"][0]
+        *_, marks = unpack(Elements(self.page()).scripts["mesh-0"], mesh["shown"])
+        faults = sum(mark > 0 for mark in marks)
+        for limit in (faults + 100, faults - 100):
+            report = self.repaired(MESHES / "broken_torus_box.stl", "--html-triangles", str(limit))
+            self.assertEqual(report["html"]["input"]["triangles_shown"], limit)
+            *_, marks = unpack(Elements(self.page()).scripts["mesh-0"], limit)
+            self.assertEqual(sum(mark > 0 for mark in marks), min(limit, faults))
+
+    def write_obj(self, points: list[str], faces: list[str]) -> None:
+        text = "".join(f"v {p}\n" for p in points) + "".join(f"f {f}\n" for f in faces)
+        (self.folder / "in.obj").write_text(text)
+
+    def test_coordinates_of_any_size(self):
+        for points in (["1e308 0 0", "-1e308 0 0", "0 1e308 1"], ["5e-324 0 0", "0 0 0", "0 5e-324 0"], ["1 1 1", "1 1 1", "1 1 1"],
+                       ["nan 0 0", "0 1 0", "0 0 1"], ["inf 0 0", "0 -inf 0", "0 0 1"]):
+            self.write_obj(points, ["1 2 3"])
+            self.assertEqual(self.run_program("meshcheck", "in.obj", "--html", "p.html", "--report", "r.json"), 1)
+            mesh = self.facts()["meshes"][0]
+            finite = not re.search("nan|inf", " ".join(points))
+            self.assertEqual((mesh["shown"], mesh["not_finite"]), (1, 0) if finite else (0, 1))
+            _, places, _, _ = unpack(Elements(self.page()).scripts["mesh-0"], mesh["shown"])
+            self.assertTrue(all(0 <= step <= MOST for place in places for step in place))
+            self.assertFalse((self.folder / "p.html.tmp").exists())
+
+
+if __name__ == "__main__":
+    Pages.programs = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()

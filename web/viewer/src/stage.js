@@ -1,0 +1,169 @@
+// The canvas: one camera, and what it sees of one mesh, of both beside each other, or of both left and right of a line.
+import {Line, BufferGeometry, LineBasicMaterial, PerspectiveCamera, Raycaster, Vector2, Vector3, WebGLRenderer} from 'three';
+import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+
+const FLIGHT = 450;  // milliseconds
+
+export class Stage {
+  constructor(canvas, surfaces, cut, up) {
+    this.canvas = canvas;
+    this.surfaces = surfaces;
+    this.cut = cut;
+    this.mode = 'input';
+    this.split = 0.5;
+    this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
+    this.renderer.autoClear = false;
+    this.renderer.localClippingEnabled = true;
+    this.renderer.setClearColor(0, 0);
+    this.camera = new PerspectiveCamera(30, 1, 0.002, 60);
+    this.camera.up.set(0, up === 'y' ? 1 : 0, up === 'y' ? 0 : 1);
+    this.radius = Math.max(Math.hypot(...surfaces[0].grid.middle.map((m) => 2 * m / surfaces[0].grid.most)), 1e-6);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.minDistance = 0.003;
+    this.controls.maxDistance = 30;
+    this.controls.addEventListener('change', () => this.draw());
+    this.ruler = new Line(new BufferGeometry(), new LineBasicMaterial({color: 0x1d6ef0, depthTest: false}));
+    this.ruler.renderOrder = 4;
+    this.ruler.frustumCulled = false;
+    this.ruler.visible = false;
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    this.resize();
+    this.reset();
+  }
+
+  // The boxes of the canvas that show a mesh each, as shares of its width.
+  panes() {
+    const [first, last] = [this.surfaces[0], this.surfaces.at(-1)];
+    if (this.mode === 'both') return [{surface: first, from: 0, to: 0.5, own: true}, {surface: last, from: 0.5, to: 1, own: true}];
+    if (this.mode === 'slider') return [{surface: first, from: 0, to: this.split}, {surface: last, from: this.split, to: 1}];
+    return [{surface: this.mode === 'result' ? last : first, from: 0, to: 1}];
+  }
+
+  aspect() {
+    const {clientWidth, clientHeight} = this.canvas;
+    return clientWidth / Math.max(clientHeight, 1) * (this.mode === 'both' ? 0.5 : 1);
+  }
+
+  resize() {
+    const {clientWidth, clientHeight} = this.canvas.parentElement;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.draw();
+  }
+
+  draw() {
+    if (this.waiting) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = 0;
+      this.render();
+    });
+  }
+
+  render() {
+    const {clientWidth: width, clientHeight: height} = this.canvas;
+    this.camera.aspect = this.aspect();
+    this.camera.updateProjectionMatrix();
+    this.renderer.setScissorTest(false);
+    this.renderer.clear();
+    this.renderer.setScissorTest(true);
+    for (const {surface, from, to, own} of this.panes()) {
+      const [left, right] = [Math.round(from * width), Math.round(to * width)];
+      if (right <= left) continue;
+      if (own) this.renderer.setViewport(left, 0, right - left, height);
+      else this.renderer.setViewport(0, 0, width, height);
+      this.renderer.setScissor(left, 0, right - left, height);
+      surface.scene.add(this.ruler);
+      this.renderer.render(surface.scene, this.camera);
+    }
+    this.canvas.dataset.frames = Number(this.canvas.dataset.frames ?? 0) + 1;
+  }
+
+  // So far away that a ball of this size is seen whole.
+  distanceFor(radius) {
+    const half = this.camera.fov / 2 * Math.PI / 180;
+    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.aspect()));
+    return radius / Math.sin(narrow);
+  }
+
+  reset() {
+    const around = Math.PI / 4, above = 0.615;
+    const flat = [Math.sin(around) * Math.cos(above), -Math.cos(around) * Math.cos(above), Math.sin(above)];
+    const direction = this.camera.up.y === 1 ? new Vector3(flat[0], flat[2], -flat[1]) : new Vector3(...flat);
+    this.fly(new Vector3(), direction, this.distanceFor(0.88 * this.radius), true);
+  }
+
+  // Looks at a place from the side of it that is farther from the middle.
+  look(place, radius) {
+    const target = new Vector3(...place);
+    const direction = target.clone().normalize();
+    const now = this.camera.position.clone().sub(this.controls.target).normalize();
+    direction.lengthSq() > 0.1 ? direction.multiplyScalar(0.8).add(now.multiplyScalar(0.35)).normalize() : direction.copy(now);
+    // Straight along the axis that is up, left and right are anywhere.
+    if (Math.abs(direction.dot(this.camera.up)) > 0.98) direction.add(new Vector3(0.2, 0.15, 0.1)).normalize();
+    this.fly(target, direction, this.distanceFor(radius), false);
+  }
+
+  fly(target, direction, distance, at_once) {
+    const end = target.clone().addScaledVector(direction, distance);
+    const from = [this.camera.position.clone(), this.controls.target.clone()];
+    const still = at_once || matchMedia('(prefers-reduced-motion: reduce)').matches;
+    const begin = performance.now();
+    const flight = this.flight = {};
+    this.canvas.dataset.flying = 'yes';
+    const step = () => {
+      if (flight !== this.flight) return;
+      const t = still ? 1 : Math.min(1, (performance.now() - begin) / FLIGHT);
+      const eased = t * t * (3 - 2 * t);
+      this.camera.position.lerpVectors(from[0], end, eased);
+      this.controls.target.lerpVectors(from[1], target, eased);
+      this.controls.update();
+      this.draw();
+      if (t < 1) requestAnimationFrame(step);
+      else this.canvas.dataset.flying = 'no';
+    };
+    step();
+  }
+
+  // Turns by angles, and comes nearer by a factor.
+  turn(left, upward) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    const tilt = Math.acos(Math.max(-1, Math.min(1, offset.clone().normalize().dot(this.camera.up))));
+    offset.applyAxisAngle(side, -Math.max(-(Math.PI - 0.05 - tilt), Math.min(tilt - 0.05, upward)));
+    offset.applyAxisAngle(this.camera.up, left);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.draw();
+  }
+
+  near(factor) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const length = Math.max(this.controls.minDistance, Math.min(this.controls.maxDistance, offset.length() * factor));
+    this.camera.position.copy(this.controls.target).add(offset.setLength(length));
+    this.controls.update();
+    this.draw();
+  }
+
+  // What is seen at a place of the canvas, in its own pixels: the surface, the triangle and the place; or nothing.
+  hit(x, y) {
+    const {clientWidth: width, clientHeight: height} = this.canvas;
+    const pane = this.panes().find(({from, to}) => x >= from * width && x <= to * width);
+    if (!pane) return null;
+    const [left, right] = pane.own ? [pane.from * width, pane.to * width] : [0, width];
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2(2 * (x - left) / (right - left) - 1, 1 - 2 * y / height), this.camera);
+    const {cut, cutting} = this.cut;
+    const hits = caster.intersectObject(pane.surface.mesh, false);
+    const first = hits.find(({point}) => !cutting.value ||
+        point.x * cut.value.x + point.y * cut.value.y + point.z * cut.value.z <= cut.value.w);
+    return first ? {surface: pane.surface, triangle: first.faceIndex, place: first.point} : null;
+  }
+
+  measure(places) {
+    this.ruler.visible = places.length > 0;
+    this.ruler.geometry.dispose();
+    this.ruler.geometry = new BufferGeometry().setFromPoints(places.length === 1 ? [places[0], places[0]] : places);
+    this.draw();
+  }
+}
