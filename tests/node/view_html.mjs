@@ -27,10 +27,10 @@ function expect(holds, what) {
 }
 
 // The page and the report of a mesh.
-function made(program, mesh) {
+function made(program, mesh, ...more) {
   const [page, report] = ['html', 'json'].map((ending) => path.join(folder, `${program}_${mesh}.${ending}`));
   const out = program === 'meshrepair' ? [path.join(folder, 'out.obj')] : [];
-  spawnSync(path.join(programs, program), ['-q', path.join(meshes, mesh), ...out, '--html', page, '--report', report]);
+  spawnSync(path.join(programs, program), ['-q', path.join(meshes, mesh), ...out, '--html', page, '--report', report, ...more]);
   return {page, report: JSON.parse(readFileSync(report, 'utf8')).html};
 }
 
@@ -157,6 +157,14 @@ async function onAPhone(browser, file) {
   await page.close();
 }
 
+async function sayWhatIsLeftOut(browser) {
+  const {page: file, report} = made('meshcheck', 'broken_torus_box.stl', '--html-triangles', '900');
+  const page = await opened(browser, file);
+  expect(/: 900 of 2,325 triangles are drawn/.test(await page.textContent('#omitted')), 'does not say what is left out');
+  await compareCounts(page, report);
+  await page.close();
+}
+
 async function withoutWebGl(playwright, file) {
   const browser = await playwright.chromium.launch({executablePath: CHROMIUM, args: ['--no-sandbox', '--disable-3d-apis']});
   const page = await browser.newPage();
@@ -199,6 +207,7 @@ async function main() {
   await measureSomething(page);
   await page.close();
   await onAPhone(browser, file);
+  await sayWhatIsLeftOut(browser);
   await browser.close();
   await withoutWebGl(playwright, file);
   return faults === 0 ? 0 : 1;

@@ -189,7 +189,8 @@ class Viewer {
     if (this.paint !== 'defects') this.tools.rows[0].querySelector('[data-choice=defects]').click();
     if (this.stage.mode === 'result' && surface === this.surfaces[0]) this.tools.modes?.set('input');
     this.ringAt(place);
-    this.stage.look(place, NEAR);
+    const {bit} = this.page.looks.find((look) => look.key === key);
+    this.stage.look(place, NEAR, surface, surface.normalAt(place, bit));
     const count = surface.facts.check.defects[key].count;
     const words = this.layers.buttons.get(key).textContent;
     const where = place.map((value, axis) => coordinate(this.grid.own(value, axis), 2 * this.grid.half)).join(', ');
@@ -209,7 +210,7 @@ class Viewer {
     if (this.surfaces.length > 1 && ['input', 'result'].includes(this.stage.mode)) this.tools.modes.set(this.page.meshes[m].role);
     const at = this.grid.drawnPlace(place);
     this.ringAt(at);
-    this.stage.look(at, 3 * NEAR);
+    this.stage.look(at, 3 * NEAR, this.surfaces[m], this.surfaces[m].normalAt(at, null));
   }
 
   wholeView() {

@@ -93,15 +93,29 @@ export class Stage {
     this.fly(new Vector3(), direction, this.distanceFor(0.88 * this.radius), true);
   }
 
-  // Looks at a place from the side of it that is farther from the middle.
-  look(place, radius) {
+  // Looks at a place from where it is seen: from where the surface faces, else from behind, else from the side of it that is
+  // farther from the middle.
+  look(place, radius, surface, normal) {
     const target = new Vector3(...place);
-    const direction = target.clone().normalize();
     const now = this.camera.position.clone().sub(this.controls.target).normalize();
-    direction.lengthSq() > 0.1 ? direction.multiplyScalar(0.8).add(now.multiplyScalar(0.35)).normalize() : direction.copy(now);
-    // Straight along the axis that is up, left and right are anywhere.
+    const distance = this.distanceFor(radius);
+    const ways = [normal, normal.clone().negate(), target.clone().normalize()].filter((way) => way.lengthSq() > 0.1)
+        .map((way) => this.tilted(way, now));
+    const seen = ways.find((way) => this.sees(surface, target, way, distance));
+    this.fly(target, seen ?? ways[0] ?? now, distance, false);
+  }
+
+  // A little towards where the camera is, and never along the axis that is up: left and right would be anywhere.
+  tilted(way, now) {
+    const direction = way.clone().addScaledVector(now, 0.35).normalize();
+    if (direction.lengthSq() < 0.5) direction.copy(way);
     if (Math.abs(direction.dot(this.camera.up)) > 0.98) direction.add(new Vector3(0.2, 0.15, 0.1)).normalize();
-    this.fly(target, direction, this.distanceFor(radius), false);
+    return direction;
+  }
+
+  sees(surface, target, direction, distance) {
+    const caster = new Raycaster(target.clone().addScaledVector(direction, distance), direction.clone().negate(), 0, 0.97 * distance);
+    return caster.intersectObject(surface.mesh, false).length === 0;
   }
 
   fly(target, direction, distance, at_once) {

@@ -144,6 +144,31 @@ export class Surface {
     this.mesh.material.uniforms.wires.value = on;
   }
 
+  corner(triangle, which) {
+    return new Vector3().fromBufferAttribute(this.mesh.geometry.getAttribute('position'), 3 * triangle + which);
+  }
+
+  // The triangle whose middle is nearest to a place, of those that have the bit among their marks; undefined if none has.
+  nearest(place, bit) {
+    const {array} = this.mesh.geometry.getAttribute('position');
+    const along = (t, axis) => (array[9 * t + axis] + array[9 * t + 3 + axis] + array[9 * t + 6 + axis]) / 3 - place[axis];
+    let least = Infinity, found;
+    for (let t = 0; t < this.facts.shown; ++t) {
+      if (bit !== null && !(this.data.marks[t] >> bit & 1)) continue;
+      const distance = along(t, 0) ** 2 + along(t, 1) ** 2 + along(t, 2) ** 2;
+      if (distance < least) [least, found] = [distance, t];
+    }
+    return found;
+  }
+
+  // Where the surface faces at a place where there is a defect.
+  normalAt(place, bit) {
+    const triangle = this.nearest(place, bit) ?? this.nearest(place, null);
+    if (triangle === undefined) return new Vector3();
+    const [a, b, c] = [0, 1, 2].map((which) => this.corner(triangle, which));
+    return b.sub(a).cross(c.sub(a)).normalize();
+  }
+
   // What a triangle is, in words.
   describe(triangle) {
     const found = this.looks.filter((look) => look.bit !== null && this.data.marks[triangle] >> look.bit & 1).map((look) => look.words);
