@@ -257,7 +257,8 @@ class Interrupting(unittest.TestCase):
                   "work = lambda: meshrepair.repair(*soup(5000), progress=lambda stage, share: begun.set())\n"
                   "threading.Thread(target=work, daemon=True).start(); begun.wait()")
         folders = [os.path.dirname(os.path.dirname(meshrepair.__file__)), os.path.dirname(os.path.abspath(package.__file__))]
-        ended = subprocess.run([sys.executable, "-c", script, *folders], stderr=subprocess.PIPE, text=True, timeout=120)
+        environment = {**os.environ, **({"LD_PRELOAD": package.PRELOADED} if package.PRELOADED else {})}
+        ended = subprocess.run([sys.executable, "-c", script, *folders], env=environment, stderr=subprocess.PIPE, text=True, timeout=120)
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertNotIn("FATAL", ended.stderr)
 
