@@ -193,6 +193,7 @@ std::vector<Colour> defect_colours(const SurfaceCheck& check) {
 
 std::vector<DefectLook> defect_looks() {
   std::vector<DefectLook> looks;
+  looks.reserve(kColours.size());
   for (const MarkColour& mark : kColours) {
     looks.push_back({mark.defect, mark.meaning, mark.colour, true});
   }
