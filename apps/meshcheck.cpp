@@ -114,7 +114,8 @@ ExitCode check_mesh(Options& options, Run& run) {
   }
   check_files(options.input, options.marked, run);
   check_picture(options.picture, {options.input, options.marked}, run);
-  check_html(options.html, options.assets.by_mesh, {options.input, options.marked}, run);
+  check_html(options.html, options.assets.by_mesh,
+             {options.input, options.marked, options.picture.path}, run);
   options.request.check.progress = &run.progress;
   options.request.check.mark_triangles = !options.marked.empty() || options.html.wanted();
   Findings findings(options.input, options.marked);

@@ -5,7 +5,6 @@ meshrepair --picture draws a mesh before and after. Of two it also draws what is
 Writes docs/pictures/NAME.png.
 """
 
-import argparse
 import dataclasses
 import pathlib
 import subprocess
@@ -16,13 +15,8 @@ sys.dont_write_bytecode = True
 
 from textured_meshes import files, shapes, stored_pictures, tasks  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
 Vector = shapes.Vector
 Triangle = list[Vector]
-EXAMPLES = """examples:
-  scripts/make_task_pictures.py
-  scripts/make_task_pictures.py --check --programs build/dev/bin
-  scripts/make_task_pictures.py --meshes FOLDER"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -110,20 +104,5 @@ def pictures(programs: pathlib.Path):
                 yield f"{stem}_halves.png", picture_of_halves(mesh, task, folder, programs)
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, epilog=EXAMPLES,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build/release/bin", metavar="FOLDER",
-                        help="folder of the programs (default: build/release/bin)")
-    parser.add_argument("--meshes", type=pathlib.Path, metavar="FOLDER", help="write the meshes there, and draw nothing")
-    parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 if a picture is not up to date")
-    arguments = parser.parse_args()
-    if arguments.meshes:
-        arguments.meshes.mkdir(parents=True, exist_ok=True)
-        make_meshes(arguments.meshes)
-        return 0
-    return stored_pictures.store(pictures(arguments.programs.resolve()), arguments.check, pathlib.Path(__file__).name)
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(stored_pictures.main(pathlib.Path(__file__).name, __doc__, make_meshes, pictures))

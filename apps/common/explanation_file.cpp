@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <numeric>
 #include <span>
 #include <string_view>
@@ -19,6 +18,7 @@
 #include <repair/explain_repair.h>
 
 #include "common/file_kinds.h"
+#include "common/side_file.h"
 #include "common/summary.h"
 
 namespace meshrepair {
@@ -201,10 +201,6 @@ void write_glb(const std::string& path, std::array<PaintedMesh, 2> meshes,
   write_soup(all, path, options);
 }
 
-std::string extension_of(const std::string& path) {
-  return CLI::detail::to_lower(std::filesystem::path(path).extension().string());
-}
-
 Json counts_of(const Palette& palette) {
   const std::vector<std::size_t> counts = palette.counts();
   Json json = Json::object();
@@ -252,18 +248,10 @@ void add_explain_option(CLI::App& app, std::string& path) {
 
 void check_explanation(const std::string& path, const std::vector<std::string>& files, Run& run) {
   if (path.empty()) return;
-  if (extension_of(path) != ".ply" && extension_of(path) != ".glb") {
+  if (lower_extension(path) != ".ply" && lower_extension(path) != ".glb") {
     throw UsageError("--explain: " + path + " ends neither in .ply nor in .glb");
   }
-  if (!run.options.report.empty() && is_same_file(run.options.report, path)) {
-    run.report.withhold();
-    throw UsageError("--report: " + path + " is the explanation, too");
-  }
-  for (const std::string& file : files) {
-    if (file.empty() || !is_same_file(path, file)) continue;
-    throw UsageError("--explain: " + path + " is another file of this command, too");
-  }
-  check_folder(path);
+  check_side_file({"--explain", path, "explanation"}, files, run);
 }
 
 void write_explanation_stage(const std::string& path, const ExplainedMesh& input,
@@ -274,7 +262,7 @@ void write_explanation_stage(const std::string& path, const ExplainedMesh& input
   const std::array<Palette, 2> palettes = palettes_of(findings.repair.explanation);
   std::array<PaintedMesh, 2> meshes = {painted(input, palettes[0]), painted(result, palettes[1])};
   const Placement placement = beside(meshes[0].soup, meshes[1].soup);
-  if (extension_of(path) == ".ply") {
+  if (lower_extension(path) == ".ply") {
     write_file_atomically(path, ply_of(meshes, placement, palettes), &run.progress);
   } else {
     write_glb(path, std::move(meshes), placement, &run.progress);

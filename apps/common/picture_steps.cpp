@@ -15,6 +15,7 @@
 #include <picture/png_io.h>
 
 #include "common/file_kinds.h"
+#include "common/side_file.h"
 
 namespace meshrepair {
 namespace {
@@ -52,10 +53,6 @@ std::string why_no_view(const std::string& word) {
   if (view_of(word)) return {};
   return "'" + word +
          "' is no view: front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION";
-}
-
-bool is_png_name(const std::string& name) {
-  return CLI::detail::to_lower(std::filesystem::path(name).extension().string()) == ".png";
 }
 
 std::vector<std::filesystem::path> folders_of(const std::vector<std::string>& files) {
@@ -106,16 +103,9 @@ void add_picture_options(CLI::App& app, PictureRequest& request, const std::stri
 void check_picture(const PictureRequest& request, const std::vector<std::string>& files, Run& run) {
   if (!request.wanted()) return;
   const std::string& path = request.path;
-  if (!is_png_name(path)) throw UsageError("--picture: " + path + " does not end in .png");
-  if (!run.options.report.empty() && is_same_file(run.options.report, path)) {
-    run.report.withhold();
-    throw UsageError("--report: " + path + " is the picture, too");
-  }
-  for (const std::string& file : files) {
-    if (file.empty() || !is_same_file(path, file)) continue;
-    throw UsageError("--picture: " + path + " is another file of this command, too");
-  }
-  check_folder(path);
+  if (lower_extension(path) != ".png")
+    throw UsageError("--picture: " + path + " does not end in .png");
+  check_side_file({"--picture", path, "picture"}, files, run);
 }
 
 void check_picture(const PictureRequest& request, const Attributes& attributes) {

@@ -13,6 +13,7 @@
 #include "common/file_kinds.h"
 #include "common/numbers.h"
 #include "common/report_sections.h"
+#include "common/side_file.h"
 #include "common/summary.h"
 #include "page/html_page.h"
 
@@ -26,8 +27,7 @@ std::string name_of(const std::string& path, const std::string& otherwise) {
 }
 
 bool is_html_name(const std::string& name) {
-  const std::string extension =
-      CLI::detail::to_lower(std::filesystem::path(name).extension().string());
+  const std::string extension = lower_extension(name);
   return extension == ".html" || extension == ".htm";
 }
 
@@ -114,15 +114,7 @@ void check_html(const HtmlRequest& request, bool by_mesh, const std::vector<std:
   const std::string& path = request.path;
   if (!is_html_name(path)) throw UsageError("--html: " + path + " ends neither in .html nor .htm");
   if (by_mesh) throw UsageError("--html: shows a scene as one mesh, and excludes --scene each");
-  if (!run.options.report.empty() && is_same_file(run.options.report, path)) {
-    run.report.withhold();
-    throw UsageError("--report: " + path + " is the page, too");
-  }
-  for (const std::string& file : files) {
-    if (file.empty() || !is_same_file(path, file)) continue;
-    throw UsageError("--html: " + path + " is another file of this command, too");
-  }
-  check_folder(path);
+  check_side_file({"--html", path, "page"}, files, run);
 }
 
 void write_html_stage(const HtmlRequest& request, View::Up up, const TriangleSoup& input,
