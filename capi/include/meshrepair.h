@@ -120,7 +120,8 @@ MESHREPAIR_API const char* meshrepair_mesh_label_name(const meshrepair_mesh* mes
                                                       size_t index);
 /* Of each triangle the number of its name; NULL where none has one. */
 MESHREPAIR_API const uint32_t* meshrepair_mesh_labels(const meshrepair_mesh* mesh, int label);
-/* Copies; replaces what is there. `labels` has a number for each triangle. As above. */
+/* Copies; replaces what is there. `labels` has a number for each triangle; NULL without
+ * names removes them. As above. */
 MESHREPAIR_API meshrepair_code meshrepair_mesh_set_labels(meshrepair_mesh* mesh, int label,
                                                           const char* const* names,
                                                           size_t name_count,

@@ -159,7 +159,10 @@ meshrepair_code meshrepair_mesh_set_labels(meshrepair_mesh* mesh, int label,
       if (names == nullptr || names[i] == nullptr) throw UsageError("there is NULL for a name");
       made.names.emplace_back(names[i]);
     }
-    made.of_triangle = numbers_of(labels, mesh->it.soup.triangles.size(), name_count, "labels");
+    const bool is_removal = labels == nullptr && name_count == 0;
+    if (!is_removal) {
+      made.of_triangle = numbers_of(labels, mesh->it.soup.triangles.size(), name_count, "labels");
+    }
     Attributes& attributes = mesh->it.attributes;
     const bool is_known = label != MESHREPAIR_MATERIAL || made.names == attributes.materials.names;
     if (!is_known) {

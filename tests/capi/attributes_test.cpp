@@ -68,6 +68,15 @@ TEST(CAttributes, ComeThroughARepairAndAFile) {
   expect_painted(mesh_in(read));
 }
 
+TEST(CAttributes, LabelsCanBeRemoved) {
+  const Mesh mesh = painted_cube();
+  EXPECT_EQ(meshrepair_mesh_set_labels(mesh.get(), MESHREPAIR_MATERIAL, nullptr, 0, nullptr),
+            MESHREPAIR_DONE);
+  EXPECT_EQ(meshrepair_mesh_label_count(mesh.get(), MESHREPAIR_MATERIAL), 0U);
+  EXPECT_EQ(meshrepair_mesh_labels(mesh.get(), MESHREPAIR_MATERIAL), nullptr);
+  EXPECT_EQ(code_of(Result(meshrepair_repair(mesh.get(), nullptr))), MESHREPAIR_DONE);
+}
+
 TEST(CAttributes, OfOneKindAreNumbered) {
   const Mesh mesh = mesh_of(cube());
   const std::vector<double> values(36 * 4, 0.5);
