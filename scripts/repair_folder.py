@@ -33,7 +33,7 @@ from folder_repair.program import Program
 
 # Options of meshrepair that are set here, for each file.
 OWN_OPTIONS = ("--report", "--threads", "--time-limit", "--max-memory", "--format", "-q", "--quiet",
-               "--root", "--staging", "-v", "--verbose", "-h", "--help", "--version")
+               "--root", "--staging", "--html", "--picture", "-v", "--verbose", "-h", "--help", "--version")
 MEMORY_SHARE = 0.8  # of what is free
 
 EPILOG = """Options after -- go to meshrepair as they are.
@@ -42,6 +42,7 @@ Examples:
   repair_folder.py scans repaired
   repair_folder.py --format obj --jobs 4 --timeout 60 --max-memory 2G scans repaired
   repair_folder.py scans repaired -- --inside solidity --strict
+  repair_folder.py --html scans repaired -- --picture-view front --html-triangles 100000
 
 A mesh file is one by its extension: .stl, .obj, .off, .ply, .glb, .gltf or .3mf, in upper or lower case; with .gz or .zst
 behind it, it is packed, and so is its output. A .zip counts if just one file in it has such an extension; its
@@ -97,6 +98,9 @@ def command_line():
         help="format of all outputs: obj, stl, stl-ascii, off, ply, ply-ascii, glb, gltf, 3mf; a.stl becomes a.obj, and "
              "where there is an a.off, too, they become a.stl.obj and a.off.obj "
              "(default: by the input's name)")
+    add("--html", action="store_true",
+        help="also write index.html to OUT_DIR, a gallery of all meshes for browsers, with a picture and a page for each in "
+             "OUT_DIR/index.files")
     add("--jobs", type=number_of_jobs, metavar="N", default=len(os.sched_getaffinity(0)),
         help="number of workers, which share the cores (default: the cores, %(default)s here)")
     add("--timeout", type=seconds, metavar="SECONDS", default=600.0,
@@ -168,6 +172,8 @@ def run():
     options = parse_arguments(sys.argv[1:])
     check_folders(options)
     program = Program(options.meshrepair, options.passed)
+    if options.html and not program.makes_pages:
+        raise Stop(USAGE, f"{program.path} makes no pages, so there is none for --html")
     try:
         return FolderRun(options, program, OutFolder(options.out_dir)).run()
     except OSError as error:

@@ -29,7 +29,7 @@ def _words(options: dict[str, Any]) -> list[str | bytes]:
 
 def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: int | None = None, timeout: float = 600,
                   grace: float = 5, max_memory: str | int | None = None, restart: bool = False,
-                  quiet: bool = True, **options: Any) -> dict[str, Any]:
+                  html: bool = False, quiet: bool = True, **options: Any) -> dict[str, Any]:
     """Repairs all meshes in a folder and its sub-folders, several at a time, each in a process of its own.
 
     Args:
@@ -41,6 +41,7 @@ def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: 
         grace: seconds that a file has then to end by itself.
         max_memory: for a file, such as "2G".
         restart: do all files anew.
+        html: also write ``index.html`` into the target, a gallery for browsers.
         quiet: print nothing but the errors.
         **options: of the program ``meshrepair``, with _ for -, for each file.
 
@@ -48,7 +49,7 @@ def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: 
         The summary of the run, ``summary.json``: a dict; see docs/folders.md.
     """
     own = {"format": format, "jobs": jobs, "timeout": timeout, "grace": grace, "max_memory": max_memory,
-           "restart": restart, "quiet": quiet, "meshrepair": program_path()}
+           "restart": restart, "html": html, "quiet": quiet, "meshrepair": program_path()}
     folders = [path_of(source, "source"), path_of(target, "target")]
     command = [sys.executable, "-s", _SCRIPT, *_words(own), *folders,
                "--", *_words(options)]

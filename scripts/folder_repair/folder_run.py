@@ -8,7 +8,6 @@ import collections
 import errno
 import os
 import selectors
-import shutil
 import signal
 import subprocess
 import sys
@@ -16,6 +15,8 @@ import time
 
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
                      names_of, print_to, say, text, value_of)
+from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
+                      row_of)
 from .inputs import Job, find_meshes, name_outputs
 from .out_folder import Journal, key_of
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
@@ -40,7 +41,7 @@ class FolderRun:
         self.memory_allowed = options.max_memory
         if options.max_memory and program.limits_memory:
             self.memory_allowed = int(MEMORY_SLACK * options.max_memory)
-        self.settings = [program.version, program.digest, options.format or "",
+        self.settings = [program.version, program.digest, options.format or "", *(["--html"] if options.html else []),
                          *(os.fsencode(a).decode("utf-8", "surrogateescape") for a in options.passed)]
         self.workers, self.rows, self.serial = {}, {}, 0
 
@@ -50,6 +51,8 @@ class FolderRun:
         threads = max(1, len(os.sched_getaffinity(0)) // options.jobs)
         command = [program.path, "--quiet", "--threads", str(threads),
                    "--time-limit", f"{options.timeout:.10g}", *options.passed]
+        if options.html:
+            command += options_for(options.passed)
         if program.knows_roots:
             command += ["--root", options.in_dir]
         if program.limits_memory:
@@ -81,7 +84,7 @@ class FolderRun:
         outputs = name_outputs(meshes, self.options.format)
         jobs = [Job(name, mesh, outputs[name], self.options) for name, mesh in meshes.items()]
         if not self.options.restart:
-            self.out.refuse_foreign_files(jobs)
+            self.out.refuse_foreign_files(jobs, [INDEX, GALLERY] if self.options.html else [])
         self.keys_of_jobs = {key_of(job.name) for job in jobs}
         self.journal = Journal(self.out.journal_path, self.settings, self.options.restart)
         self.queue = collections.deque(self.without_finished(jobs))
@@ -147,7 +150,7 @@ class FolderRun:
         folder = os.path.join(self.out.work, b"%d" % self.serial)
         os.mkdir(folder)
         try:
-            worker = Worker(job, self.command, folder, self.out.lock)
+            worker = Worker(job, self.command, folder, self.out.lock, self.options.html)
         except (OSError, subprocess.SubprocessError) as error:
             row = job.row(INTERNAL, f"meshrepair cannot be started: {error}")
             return self.settle(job, row, final=False)
@@ -173,14 +176,14 @@ class FolderRun:
         # Somebody, or the system for want of memory, has killed it: once more, after all others.
         if code == KILLED and job.trials == 1:
             self.queue.append(job)
-            return shutil.rmtree(worker.folder, ignore_errors=True)
+            return worker.clear()
         row = job.row(code, error, report)
         job.note_needs(names_of(report, "files") + names_of(report, "pictures"))
         if code in WRITTEN and os.path.isfile(worker.mesh):
             row = self.take_output(worker, row, report)
         row["seconds"] = round(time.monotonic() - worker.started, 3)
         row["peak_memory_bytes"] = value_of(report, "peak_memory_bytes") or worker.peak_memory
-        shutil.rmtree(worker.folder, ignore_errors=True)
+        worker.clear()
         # What cannot be read may lack a buffer; which one, no report says.
         lacks_others = row["exit_code"] == INPUT and job.reads_others
         self.settle(job, row, final=row["exit_code"] in FINAL and not lacks_others)
@@ -192,6 +195,7 @@ class FolderRun:
             size = os.path.getsize(worker.mesh)
             self.take_files_beside(worker)
             self.take_pictures(job, report)
+            self.take_pages(worker, report)
             self.out.take(worker.mesh, job.target)
         except OSError as error:
             return job.row(OUTPUT, f"{text(job.output)}: cannot be written: {error.strerror}")
@@ -226,6 +230,16 @@ class FolderRun:
         self.warn(job, outside, "outside of IN_DIR: does not come along")
         self.warn(job, job.missing(), "which is not there")
 
+    def take_pages(self, worker, report):
+        """Those of the gallery."""
+        job = worker.job
+        for ending, made in worker.pages.items():
+            if os.path.isfile(made):
+                name = place_of(job, ending)
+                job.shown[name] = os.path.getsize(made)
+                self.out.take(made, os.path.join(self.out.path, name))
+        job.facts = facts_of(report)
+
     def warn(self, job, names, why):
         if names and not self.options.quiet:
             more = f" and {len(names) - 1:,} more" if len(names) > 1 else ""
@@ -256,7 +270,7 @@ class FolderRun:
 
     def remove_old(self, job, is_written):
         """What an earlier run has made and this one has not."""
-        old, new = self.journal.files_beside(job), job.beside.keys() | job.pictures.keys()
+        old, new = self.journal.files_beside(job), job.beside.keys() | job.pictures.keys() | job.shown.keys()
         old = old - new if is_written else old | new
         for name in old:
             if not self.journal.others_with(name, job):
@@ -283,9 +297,18 @@ class FolderRun:
         elapsed = time.monotonic() - self.started
         self.out.write(b"summary.csv", as_csv(rows))
         self.out.write(b"summary.json", as_json(rows, totals, left_out, self.settings, elapsed))
+        self.write_gallery(jobs, totals)
         if not self.options.quiet:
             print_to(sys.stdout, table(totals, elapsed))
         self.stop_if_told()
         has_unread_folder = any(name.endswith(b"/") for name in left_out)
         all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_unread_folder
         return DONE if all_passed else NOT_CERTIFIED
+
+    def write_gallery(self, jobs, totals):
+        """One of an earlier run, whose pages are gone, does not stay."""
+        if self.options.html:
+            rows = [row_of(job, self.rows[job.name], self.journal.entry_of(job)) for job in jobs if job.name in self.rows]
+            self.out.write(INDEX, as_html(rows, self.settings, totals))
+        elif is_gallery(index := os.path.join(self.out.path, INDEX)):
+            self.out.remove(index)

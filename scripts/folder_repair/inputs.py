@@ -155,6 +155,8 @@ class Job:
         self.trials = 0
         self.beside = {}  # what its output needs beside it, relative to OUT_DIR: name -> size
         self.pictures = {}  # that it names, the same
+        self.shown = {}  # its page and picture in the gallery, the same
+        self.facts = {}  # for the gallery
         self.needs = {}  # other files that it names, from its folder: name -> as state_of() has it, or UNKNOWN
 
     def look(self):

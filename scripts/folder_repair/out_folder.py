@@ -11,6 +11,7 @@ import stat
 import time
 
 from .basics import MEASURED, NAME, OUTPUT, SAME_IN_EACH_RUN, USAGE, Stop, text
+from .gallery import is_place
 from .inputs import STATE
 from .pictures import may_be_written
 
@@ -59,9 +60,10 @@ class OutFolder:
         shutil.rmtree(self.work, ignore_errors=True)
         os.makedirs(self.work, exist_ok=True)
 
-    def refuse_foreign_files(self, jobs):
-        """What no run of this script has written is not replaced unasked."""
+    def refuse_foreign_files(self, jobs, others):
+        """What no run of this script has written is not replaced unasked: outputs, and others with these names."""
         there = [job.output for job in jobs if os.path.lexists(job.target)] if self.is_new else []
+        there += [name for name in others if self.is_new and os.path.lexists(os.path.join(self.path, name))]
         if there:
             raise Stop(USAGE, f"{text(self.path)} holds files that would be replaced and are not from "
                               f"{NAME}, {len(there):,} of them, such as {text(there[0])}: "
@@ -123,8 +125,9 @@ class Journal:
     Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `beside`: names of the files that the output
     needs beside it, and their sizes, if there are any; `pictures`: the same of copies of pictures; `size` and
     `mtime_ns` of the input; `needs`: names of other files that it names, from its folder, with [size, mtime_ns] of
-    each, null where there is none, or "unknown"; `settings`: version of the program, first digits of its SHA-256,
-    --format, options after --; `final`: not to be tried again; `row`: as in the summary. The last line of a path
+    each, null where there is none, or "unknown"; `shown`: its page and picture in the gallery, and their sizes, and
+    `facts`, what the gallery says of it; `settings`: version of the program, first digits of its SHA-256, --format,
+    --html, options after --; `final`: not to be tried again; `row`: as in the summary. The last line of a path
     counts. A line that is not whole counts for nothing; at the end of the file it is cut off before the next one
     is written.
     """
@@ -152,6 +155,9 @@ class Journal:
                 entry["beside"] = {name: size for name, size in beside if os.path.dirname(name) == folder}
                 pictures = entry.get("pictures", {}).items()
                 entry["pictures"] = {name: size for name, size in pictures if may_be_written(bytes_of(name))}
+                shown = entry.get("shown", {}).items()
+                entry["shown"] = {name: size for name, size in shown if is_place(bytes_of(name))}
+                entry["facts"] = dict(entry.get("facts", {}))
                 entry["needs"] = dict(entry.get("needs", {}))
                 self.keep(entry)
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
@@ -167,7 +173,7 @@ class Journal:
     @staticmethod
     def files_of(entry):
         """Names -> sizes of what is in OUT_DIR besides the output."""
-        return {**entry.get("beside", {}), **entry.get("pictures", {})}
+        return {**entry.get("beside", {}), **entry.get("pictures", {}), **entry.get("shown", {})}
 
     def finished_row(self, job):
         """The row of a job that need not be done again, or None. job.look() was called."""
@@ -191,6 +197,9 @@ class Journal:
             return False
         return stat.S_ISREG(status.st_mode) and status.st_size == size
 
+    def entry_of(self, job):
+        return self.entries.get(key_of(job.name), {})
+
     def files_beside(self, job):
         """Names of what lies beside the output of the last run, and of its pictures."""
         return {bytes_of(name) for name in self.files_of(self.entries.get(key_of(job.name), {}))}
@@ -213,6 +222,9 @@ class Journal:
             entry["beside"] = {key_of(name): size for name, size in job.beside.items()}
         if row["output"] and job.pictures:
             entry["pictures"] = {key_of(name): size for name, size in job.pictures.items()}
+        if row["output"] and job.shown:
+            entry["shown"] = {key_of(name): size for name, size in job.shown.items()}
+            entry["facts"] = job.facts
         if job.needs:
             entry["needs"] = job.needs
         data = json.dumps(entry).encode() + b"\n"

@@ -3,6 +3,7 @@
 import os
 
 from .basics import FORMAT_OF_EXTENSION, names_of
+from .gallery import FOLDER as GALLERY
 from .inputs import STATE, split_name
 
 NAME_PICTURES = ("obj", "ply", "ply-ascii", "glb", "gltf")  # formats
@@ -28,7 +29,7 @@ def may_be_written(place):
     """It is a place in OUT_DIR, and that of nothing that is made here."""
     if os.path.normpath(place) != place or place.startswith(b"/") or place.split(b"/")[0] in (b".", b".."):
         return False
-    is_own = place.split(b"/")[0] == STATE or place in (b"summary.csv", b"summary.json")
+    is_own = place.split(b"/")[0] in (STATE, GALLERY) or place in (b"summary.csv", b"summary.json")
     return not is_own and split_name(place)[1] not in NO_PICTURES
 
 

@@ -29,6 +29,7 @@ class Program:
             raise Stop(USAGE, f"{self.path} is not meshrepair")
         options = self.ask("--help")
         self.limits_memory, self.knows_roots = "--max-memory" in options, "--root" in options
+        self.makes_pages = "--html" in options and "--picture" in options
         with open(self.path, "rb") as file:
             self.digest = hashlib.file_digest(file, "sha256").hexdigest()[:16]
         self.check(passed)

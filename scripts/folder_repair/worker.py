@@ -3,6 +3,7 @@
 import ctypes
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -35,9 +36,10 @@ def bind_to_parent(parent):
 class Worker:
     """It writes into a folder of its own. OSError if it cannot be started."""
 
-    def __init__(self, job, command, folder, lock):
+    def __init__(self, job, command, folder, lock, has_page=False):
         self.job = job
         self.folder = folder
+        self.pages = {b".html": folder + b".html", b".png": folder + b".png"} if has_page else {}  # of the gallery
         self.mesh = os.path.join(folder, os.path.basename(job.target))
         self.report_path = os.path.join(folder, b"report.json")
         self.started = time.monotonic()
@@ -46,8 +48,9 @@ class Worker:
         self.said = b""
         self.code = self.peak_memory = None
         parent = os.getpid()
+        shown = ["--html", self.pages[b".html"], "--picture", self.pages[b".png"]] if has_page else []
         self.process = subprocess.Popen(
-            [*command, "--format", job.format, "--report", self.report_path, "--staging", folder,
+            [*command, "--format", job.format, "--report", self.report_path, *shown, "--staging", folder,
              job.source, job.target],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
             start_new_session=True, pass_fds=(lock,), preexec_fn=lambda: bind_to_parent(parent))
@@ -139,6 +142,13 @@ class Worker:
         """What else was written, sorted: the library of an OBJ file, and pictures of an archive."""
         return sorted(path for path in (entry.path for entry in os.scandir(self.folder))
                       if path not in (self.mesh, self.report_path))
+
+    def clear(self):
+        """Nothing that it has made, and nobody has taken, stays."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+        for path in self.pages.values():
+            if os.path.lexists(path):
+                os.unlink(path)
 
     def judge(self):
         """The exit code and the error line that count, and the report."""

@@ -61,7 +61,8 @@ def check_wheel(build, *settings):
             names = archive.namelist()
         check_platform(wheel, names, settings)
         for needed in ("meshrepair/py.typed", "meshrepair/_core.pyi", "meshrepair/bin/meshrepair", "meshrepair/viewer.html",
-                       "meshrepair/scripts/repair_folder.py", "meshrepair/scripts/folder_repair/worker.py"):
+                       "meshrepair/scripts/repair_folder.py", "meshrepair/scripts/folder_repair/worker.py",
+                       "meshrepair/scripts/folder_repair/gallery/gallery.js"):
             if needed not in names:
                 sys.exit(f"{needed} is not in the wheel")
         run(sys.executable, "-m", "venv", "--system-site-packages", folder / "venv")
