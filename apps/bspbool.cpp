@@ -118,13 +118,14 @@ std::string what_was_written(const Surface& surface) {
 }
 
 void print_result(const BoolOptions& options, const RepairReport& repair,
-                  const std::string& written, Run& run) {
+                  const std::string& written, Run& run, const std::string& shown = {}) {
   const double seconds = run.progress.seconds();
   run.progress.finish();
   print_summary(fmt::format(
       "operands  {} of {}\n{}written   {}: {}, in {:.2f} s\n",
       operation_name(options.command.operation), number_of(options.command.inputs.size(), "solid"),
       predicates_summary(repair), options.command.step.output, written, seconds));
+  print_summary(shown);
 }
 
 // Nothing is a solid, too, though no surface. The comment keeps an OBJ file from being empty.
@@ -162,7 +163,8 @@ ExitCode write_mesh_result(const Surface& surface, const JoinedMeshes& operands,
   }
   draw_picture_stage(options.command.step.picture, given.up, options.command.inputs,
                      {{given.soup, given.attributes}, {surface.mesh, attributes}}, run, findings);
-  if (!findings.withheld) print_result(options, findings.repair, what_was_written(surface), run);
+  if (!findings.withheld)
+    print_result(options, findings.repair, what_was_written(surface), run, findings.shown);
   return verdict(run, findings);
 }
 
@@ -236,6 +238,7 @@ int main(int argc, char** argv) {
                     "Mesh or, if it ends in .bsp, tree to write; - is standard output");
   add_boolean_command(app, options.command);
   add_picture_options(app, options.command.step.picture, "all IN and OUT side by side");
+  add_show_options(app, options.command.step.picture, "all IN and OUT");
   return program.run(argc, argv, [&](Run& run) {
     if (options.command.step.output.empty()) throw UsageError("the name of the output is empty");
     if (options.command.inputs.size() < 2) throw UsageError("IN: two solids are needed, or more");

@@ -117,7 +117,8 @@ ExitCode check_mesh(Options& options, Run& run) {
   check_html(options.html, options.assets.by_mesh,
              {options.input, options.marked, options.picture.path}, run);
   options.request.check.progress = &run.progress;
-  options.request.check.mark_triangles = !options.marked.empty() || options.html.wanted();
+  options.request.check.mark_triangles =
+      !options.marked.empty() || options.html.wanted() || options.picture.painted;
   Findings findings(options.input, options.marked);
   return with_findings(run, findings, [&] {
     ReadOptions reading = read_options(run);
@@ -132,6 +133,7 @@ ExitCode check_mesh(Options& options, Run& run) {
                                              : check_one(input, options, run, findings);
     meter.end();
     if (!options.marked.empty()) write_marked(input.soup, verdict.colours, options, run);
+    if (options.picture.painted) input.attributes = painted(verdict.colours);
     place_instances(input.soup, input.attributes, input.scene);
     draw_picture_stage(options.picture, up_of(findings), {options.input},
                        {{input.soup, input.attributes}}, run, findings);
@@ -139,6 +141,7 @@ ExitCode check_mesh(Options& options, Run& run) {
                      {"input", {}, input.soup, std::move(verdict.check), {}},
                      options.request.check.most_places, run, findings);
     run.progress.finish();
+    print_summary(findings.shown);
     if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
     return verdict.is_valid ? ExitCode::done : ExitCode::not_certified;
   });
@@ -178,6 +181,8 @@ int main(int argc, char** argv) {
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
       ->group("Output");
   add_picture_options(app, options.picture, "IN");
+  add_colours_option(app, options.picture, "defects", "as --mark has them");
+  add_show_options(app, options.picture, "IN");
   add_html_options(app, options.html, "IN");
   return program.run(argc, argv, [&](Run& run) {
     if (options.json) program.report_to_standard_output();

@@ -65,6 +65,7 @@ int run_program(int argc, char** argv) {
   add_scene_option(app, options.assets, "Output");
   add_units_option(app, options.assets);
   add_picture_options(app, options.picture, "IN and OUT side by side");
+  add_show_options(app, options.picture, "IN and OUT");
   return run_steps(program, argc, argv, options, convert);
 }
 

@@ -18,6 +18,7 @@
 #include <repair/explain_repair.h>
 
 #include "common/file_kinds.h"
+#include "common/picture_steps.h"
 #include "common/side_file.h"
 #include "common/summary.h"
 
@@ -271,6 +272,21 @@ void write_explanation_stage(const std::string& path, const ExplainedMesh& input
   run.report.set_section(
       "explain",
       {{"path", path}, {"input", counts_of(palettes[0])}, {"result", counts_of(palettes[1])}});
+}
+
+std::array<Attributes, 2> painted_fates(const PictureRequest& request, const Findings& findings) {
+  std::array<Attributes, 2> both;
+  if (!request.painted) return both;
+  const std::array<Palette, 2> palettes = palettes_of(findings.repair.explanation);
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    std::vector<Colour> colours;
+    colours.reserve(palettes[i].of_triangle.size());
+    for (const std::uint32_t kind : palettes[i].of_triangle) {
+      colours.push_back(palettes[i].kinds[kind].colour);
+    }
+    both[i] = painted(colours);
+  }
+  return both;
 }
 
 std::vector<std::string> explanation_lines(const Findings& findings) {

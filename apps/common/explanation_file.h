@@ -2,6 +2,7 @@
 // of what became of it, or of where it comes from.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,10 @@ struct ExplainedMesh {
 // Stage "explain", where it is asked for. Of `findings` it takes what became of the triangles.
 void write_explanation_stage(const std::string& path, const ExplainedMesh& input,
                              const ExplainedMesh& result, Run& run, Findings& findings);
+
+// What a picture of IN and OUT is drawn with where it is to have these colours; else nothing.
+[[nodiscard]] std::array<Attributes, 2> painted_fates(const PictureRequest& request,
+                                                      const Findings& findings);
 
 // For the summary; empty where nothing was explained.
 [[nodiscard]] std::vector<std::string> explanation_lines(const Findings& findings);

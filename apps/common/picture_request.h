@@ -8,12 +8,17 @@
 
 namespace meshrepair {
 
+// What is shown in the terminal: a picture, if it can draw one, or a bar of characters.
+enum class Shown { nothing, automatic, sixel, kitty, bar };
+
 struct PictureRequest {
   std::string path;  // empty: none is asked for
   PictureSize size;  // of each mesh
   View view;
+  bool painted = false;  // with the colours of what is wrong, or became of it, not with its own
+  Shown shown = Shown::nothing;
 
-  [[nodiscard]] bool wanted() const { return !path.empty(); }
+  [[nodiscard]] bool wanted() const { return !path.empty() || shown != Shown::nothing; }
 };
 
 }  // namespace meshrepair

@@ -1,7 +1,9 @@
 #include "common/picture_steps.h"
 
+#include <array>
 #include <charconv>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -13,15 +15,22 @@
 #include <base/error.h>
 #include <picture/draw_mesh.h>
 #include <picture/png_io.h>
+#include <picture/terminal_text.h>
 
+#include "common/choice_option.h"
 #include "common/file_kinds.h"
 #include "common/side_file.h"
+#include "common/terminal_pictures.h"
 
 namespace meshrepair {
 namespace {
 
 constexpr std::uint32_t kBarWidth = 2;  // pixels
 constexpr Rgba kBarColour = {150, 150, 150, 255};
+constexpr PictureSize kShownSize = {240, 180};  // in a terminal, of each mesh
+
+constexpr std::array<Choice<Shown>, 3> kShownAs = {
+    {{"sixel", Shown::sixel}, {"kitty", Shown::kitty}, {"none", Shown::bar}}};
 
 std::optional<std::uint32_t> side_of(std::string_view text) {
   std::uint32_t side = 0;
@@ -64,8 +73,9 @@ std::vector<std::filesystem::path> folders_of(const std::vector<std::string>& fi
 }
 
 Pixels pixels_of(const std::vector<Drawn>& meshes, const Camera& camera, Textures& textures,
-                 Run& run) {
+                 bool both_sides, Run& run) {
   DrawOptions options;
+  options.both_sides = both_sides;
   options.progress = &run.progress;
   std::optional<Pixels> all;
   for (const Drawn& mesh : meshes) {
@@ -73,6 +83,29 @@ Pixels pixels_of(const std::vector<Drawn>& meshes, const Camera& camera, Texture
     all = all ? beside(*all, one, kBarWidth, kBarColour) : std::move(one);
   }
   return std::move(*all);
+}
+
+Shown shown_for(const PictureRequest& request, const Run& run) {
+  if (run.options.quiet) return Shown::nothing;
+  if (request.shown != Shown::automatic) return request.shown;
+  switch (ask_terminal_for_pictures()) {
+    case TerminalPictures::sixel:
+      return Shown::sixel;
+    case TerminalPictures::kitty:
+      return Shown::kitty;
+    case TerminalPictures::none:
+      break;
+  }
+  return Shown::bar;
+}
+
+void write_picture(const PictureRequest& request, const Pixels& pixels,
+                   const std::vector<std::string>& warnings, Run& run) {
+  write_file_atomically(request.path, format_png(pixels), &run.progress);
+  run.report.set_section("picture", {{"path", request.path},
+                                     {"width", pixels.size.width},
+                                     {"height", pixels.size.height},
+                                     {"warnings", warnings}});
 }
 
 }  // namespace
@@ -100,8 +133,37 @@ void add_picture_options(CLI::App& app, PictureRequest& request, const std::stri
       ->group("Picture");
 }
 
+void add_colours_option(CLI::App& app, PictureRequest& request, const std::string& name,
+                        const std::string& meaning) {
+  app.add_option_function<std::string>(
+         "--picture-colours",
+         [&request, name](const std::string& word) { request.painted = word == name; },
+         fmt::format("looks: those of the mesh; {}: {}", name, meaning))
+      ->check(CLI::IsMember(std::vector<std::string>{"looks", name}))
+      ->type_name("NAME")
+      ->default_str("looks")
+      ->group("Picture");
+}
+
+void add_show_options(CLI::App& app, PictureRequest& request, const std::string& what,
+                      const std::string& otherwise) {
+  app.add_flag_callback(
+         "--show",
+         [&request] {
+           if (request.shown == Shown::nothing) request.shown = Shown::automatic;
+         },
+         "Draw " + what + " in the terminal, too, where it understands\nkitty's pictures or sixels" +
+             otherwise)
+      ->group("Picture");
+  add_choice(
+      app, "--show-as", kShownAs, [&request](Shown shown) { request.shown = shown; },
+      "The same, without asking the terminal what it understands: sixel or kitty;\n"
+      "none is as if it understood neither")
+      ->group("Picture");
+}
+
 void check_picture(const PictureRequest& request, const std::vector<std::string>& files, Run& run) {
-  if (!request.wanted()) return;
+  if (request.path.empty()) return;
   const std::string& path = request.path;
   if (lower_extension(path) != ".png")
     throw UsageError("--picture: " + path + " does not end in .png");
@@ -109,7 +171,7 @@ void check_picture(const PictureRequest& request, const std::vector<std::string>
 }
 
 void check_picture(const PictureRequest& request, const Attributes& attributes) {
-  if (!request.wanted()) return;
+  if (request.path.empty()) return;
   for (const Image& image : attributes.images) {
     if (image.bytes || image.path.empty() || !is_same_file(request.path, image.path)) continue;
     throw UsageError("--picture: " + request.path + " is a texture of the input");
@@ -122,6 +184,25 @@ View::Up up_of(const Findings& findings) {
   return format == SoupFormat::glb || format == SoupFormat::gltf ? View::Up::y : View::Up::z;
 }
 
+Attributes painted(const std::vector<Colour>& of_triangle) {
+  CornerAttribute colours;
+  colours.kind = CornerAttribute::Kind::colour;
+  colours.place = CornerAttribute::Place::triangle;
+  colours.components = 3;
+  std::map<Colour, std::uint32_t> known;
+  colours.of_corner.reserve(3 * of_triangle.size());
+  for (const Colour& colour : of_triangle) {
+    const auto [at, is_new] = known.try_emplace(colour, static_cast<std::uint32_t>(known.size()));
+    if (is_new) {
+      for (const std::uint8_t value : colour) colours.values.push_back(value / 255.0);
+    }
+    colours.of_corner.insert(colours.of_corner.end(), 3, at->second);
+  }
+  Attributes attributes;
+  attributes.corners.push_back(std::move(colours));
+  return attributes;
+}
+
 void draw_picture_stage(const PictureRequest& request, View::Up up,
                         const std::vector<std::string>& inputs, const std::vector<Drawn>& meshes,
                         Run& run, Findings& findings) {
@@ -131,14 +212,18 @@ void draw_picture_stage(const PictureRequest& request, View::Up up,
   Textures textures(folders_of(inputs));
   View view = request.view;
   view.up = up;
-  const Camera camera(view, request.size, {&meshes.front().soup, &meshes.back().soup});
-  const Pixels pixels = pixels_of(meshes, camera, textures, run);
+  const auto drawn = [&](const PictureSize& size) {
+    const Camera camera(view, size, {&meshes.front().soup, &meshes.back().soup});
+    return pixels_of(meshes, camera, textures, request.painted, run);
+  };
+  const Shown shown = shown_for(request, run);
+  if (shown == Shown::sixel) findings.shown = format_sixel(drawn(kShownSize)) + "\n";
+  if (shown == Shown::kitty) findings.shown = format_kitty(drawn(kShownSize)) + "\n";
+  findings.shows_bar = shown == Shown::bar;
+  const std::optional<Pixels> picture =
+      request.path.empty() ? std::nullopt : std::optional(drawn(request.size));
   log_warnings(findings.input_name(), textures.warnings());
-  write_file_atomically(request.path, format_png(pixels), &run.progress);
-  run.report.set_section("picture", {{"path", request.path},
-                                     {"width", pixels.size.width},
-                                     {"height", pixels.size.height},
-                                     {"warnings", textures.warnings()}});
+  if (picture) write_picture(request, *picture, textures.warnings(), run);
 }
 
 }  // namespace meshrepair

@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 
 #include <mesh/attributes.h>
+#include <mesh/coloured_ply.h>
 #include <mesh/soup.h>
 #include <picture/pixels.h>
 #include <picture/view.h>
@@ -18,6 +19,14 @@ namespace meshrepair {
 
 // --picture, --picture-size and --picture-view. `what` is drawn: "IN and OUT, side by side".
 void add_picture_options(CLI::App& app, PictureRequest& request, const std::string& what);
+// --picture-colours, for programs that know of each triangle what is wrong, or became of it: the
+// name and the meaning of these colours.
+void add_colours_option(CLI::App& app, PictureRequest& request, const std::string& name,
+                        const std::string& meaning);
+
+// --show and --show-as. `otherwise`: for the help, what is shown by terminals without pictures.
+void add_show_options(CLI::App& app, PictureRequest& request, const std::string& what,
+                      const std::string& otherwise = {});
 
 // Before hours of work, as check_files(): throws UsageError where the picture is another file of
 // the run, OutputError where it cannot be written.
@@ -34,7 +43,11 @@ struct Drawn {
   const Attributes& attributes;  // of it, or empty
 };
 
-// Stage "picture", where one is asked for. Textures are looked for in the folders of the inputs.
+// So that each triangle of a soup is drawn in its colour.
+[[nodiscard]] Attributes painted(const std::vector<Colour>& of_triangle);
+
+// Stage "picture", where one is asked for: writes it, and keeps in the findings what the terminal
+// is to show. Textures are looked for in the folders of the inputs.
 void draw_picture_stage(const PictureRequest& request, View::Up up,
                         const std::vector<std::string>& inputs, const std::vector<Drawn>& meshes,
                         Run& run, Findings& findings);

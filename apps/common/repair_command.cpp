@@ -1,5 +1,6 @@
 #include "common/repair_command.h"
 
+#include <array>
 #include <utility>
 
 #include <base/error.h>
@@ -35,7 +36,8 @@ void scale_lengths(double factor, RepairOptions& options) {
 void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
   keep_attributes(input.soup, input.attributes, options);
   options.keep_valid = !command.always && !input.cloud;
-  options.explain = !command.steps.explained.empty() || command.steps.html.wanted();
+  const StepOptions& steps = command.steps;
+  options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 
 }  // namespace
@@ -68,6 +70,8 @@ void add_repair_command(CLI::App& app, RepairCommand& command) {
   add_certify_options(app, options.repair.certify, options.strict);
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
+  add_colours_option(app, options.picture, "fates", "as --explain has them");
+  add_show_options(app, options.picture, "IN and OUT", "; elsewhere show by a bar what changed");
   add_html_options(app, options.html, "IN and OUT");
   add_point_repair_options(app, command.points);
 }
@@ -96,8 +100,11 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
   write_mesh_stage(surface, attributes, format, options, run, findings);
   write_explanation_stage(options.explained, {input.soup, {}}, {surface.mesh, {}}, run, findings);
+  const std::array<Attributes, 2> fates = painted_fates(options.picture, findings);
   draw_picture_stage(options.picture, up_of(findings), {options.input},
-                     {{input.soup, given}, {surface.mesh, attributes}}, run, findings);
+                     {{input.soup, options.picture.painted ? fates[0] : given},
+                      {surface.mesh, options.picture.painted ? fates[1] : attributes}},
+                     run, findings);
   write_html_stage(options.html, up_of(findings), input.soup, surface.mesh, run, findings);
 }
 

@@ -68,8 +68,10 @@ struct Findings {
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
   bool withheld = false;           // not written because of these
   Purpose purpose;
-  std::string explained;  // the file that says what became of the triangles; may be empty
-  std::string summary;    // instead of that of summary_of(), if it is not empty
+  std::string explained;   // the file that says what became of the triangles; may be empty
+  std::string summary;     // instead of that of summary_of(), if it is not empty
+  std::string shown;       // a picture, as terminals have it, for below the summary; may be empty
+  bool shows_bar = false;  // a bar of what changed, instead
 };
 
 // What the command line of such a program says; not every program has all of it.

@@ -1,6 +1,7 @@
 #include "common/scene_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -109,7 +110,7 @@ class SceneRepair {
 
   // What became of the last mesh, behind what is known of those before it.
   void explain(const TriangleSoup& soup, const Surface& surface) {
-    if (options_.explained.empty() || soup.triangles.empty()) return;
+    if (!repair_options_.explain || soup.triangles.empty()) return;
     RepairExplanation& all = findings_.repair.explanation;
     const MeshOutcome& outcome = outcomes_.back();
     if (outcome.left_as_it_is) {
@@ -180,7 +181,10 @@ class SceneRepair {
   void draw(Attributes attributes) {
     if (!options_.picture.wanted()) return;
     TriangleSoup before = input_.soup, after = all_.mesh;
-    Attributes given = given_;
+    std::array<Attributes, 2> fates = painted_fates(options_.picture, findings_);
+    const bool is_painted = options_.picture.painted;
+    Attributes given = is_painted ? std::move(fates[0]) : given_;
+    if (is_painted) attributes = std::move(fates[1]);
     place_instances(before, given, input_.scene);
     place_instances(after, attributes, scene_);
     draw_picture_stage(options_.picture, up_of(findings_), {options_.input},

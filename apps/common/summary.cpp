@@ -5,6 +5,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "common/change_bar.h"
 #include "common/explanation_file.h"
 #include "common/logging.h"
 
@@ -482,7 +483,9 @@ void print_summary(Run& run, const Findings& findings) {
   if (run.options.quiet) return;
   const double seconds = run.progress.seconds();
   run.progress.finish();
-  print_summary(summary_of(findings, seconds));
+  std::string text = summary_of(findings, seconds);
+  if (findings.shows_bar) text += change_bar(findings.repair);
+  print_summary(text + findings.shown);
 }
 
 }  // namespace meshrepair

@@ -125,7 +125,8 @@ Pixels draw_mesh(const TriangleSoup& soup, const Attributes& attributes, const C
   const VisibleTriangles visible(soup, camera, options.samples);
   const std::optional<Attributes> placed = with_placed_pictures(attributes);
   const Attributes& drawn = placed ? *placed : attributes;
-  const Shader shader(soup, drawn, textures.of(drawn), camera, options.samples);
+  const Shader shader(soup, drawn, textures.of(drawn), camera,
+                      {options.samples, options.both_sides});
   Pixels pixels = filled(camera.size(), options.background);
   const Drawing drawing(visible, shader, options, pixels);
   SharedProgress progress(options.progress, visible.bands());

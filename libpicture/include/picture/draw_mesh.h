@@ -21,6 +21,7 @@ namespace meshrepair {
 struct DrawOptions {
   unsigned samples = 3;  // along each side of a pixel, whose colour is their mean; 1 to 8
   Rgba background = {255, 255, 255, 255};
+  bool both_sides = false;  // what is seen from behind has its own colours, not red
   ProgressObserver* progress = nullptr;
 };
 

@@ -62,12 +62,13 @@ double mixed(const std::array<double, 3>& shares, double a, double b, double c) 
 
 Shader::Shader(const TriangleSoup& soup, const Attributes& attributes,
                std::vector<std::shared_ptr<const Texture>> textures, const Camera& camera,
-               unsigned samples)
+               const Options& options)
     : soup_(soup),
       attributes_(attributes),
       textures_(std::move(textures)),
       camera_(camera),
-      samples_of_pixel_(static_cast<double>(samples) * samples),
+      samples_of_pixel_(static_cast<double>(options.samples) * options.samples),
+      both_sides_(options.both_sides),
       places_(find_usable(attributes, CornerAttribute::Kind::texture, 2, soup)),
       colours_(find_usable(attributes, CornerAttribute::Kind::colour, 3, soup)) {
   if (colours_ != nullptr && is_black(*colours_)) colours_ = nullptr;
@@ -75,7 +76,7 @@ Shader::Shader(const TriangleSoup& soup, const Attributes& attributes,
 
 Shader::Face Shader::face(std::uint32_t triangle, bool from_behind) const {
   Face face;
-  if (from_behind) {
+  if (from_behind && !both_sides_) {
     face.light = light_of(kFromBehind);
   } else {
     add_look(triangle, face);

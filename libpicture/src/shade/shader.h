@@ -17,10 +17,14 @@ namespace meshrepair {
 // Not owned: the soup, its attributes and the camera outlive it.
 class Shader {
  public:
-  // A texture for each picture of the attributes, or null. `samples` along each side of a pixel.
+  struct Options {
+    unsigned samples = 1;     // along each side of a pixel
+    bool both_sides = false;  // what is seen from behind has its own colours
+  };
+  // A texture for each picture of the attributes, or null.
   Shader(const TriangleSoup& soup, const Attributes& attributes,
          std::vector<std::shared_ptr<const Texture>> textures, const Camera& camera,
-         unsigned samples);
+         const Options& options);
 
   // What all places of a triangle have in common.
   struct Face {
@@ -49,6 +53,7 @@ class Shader {
   std::vector<std::shared_ptr<const Texture>> textures_;
   const Camera& camera_;
   double samples_of_pixel_;
+  bool both_sides_;
   const CornerAttribute* places_;   // in textures; null: none
   const CornerAttribute* colours_;  // null: none
 };
