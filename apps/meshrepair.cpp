@@ -1,10 +1,14 @@
 // meshrepair IN OUT: any triangle mesh or point cloud to the boundary of a solid, the whole way in
 // one process.
+#include <base/error.h>
+
 #include "common/file_kinds.h"
 #include "common/repair_command.h"
+#include "serve/serve.h"
 
 int main(int argc, char** argv) {
   using namespace meshrepair;
+  if (asks_to_serve(argc, argv)) return serve(argc, argv);
   RepairCommand command;
   Program program(
       "meshrepair", "Turns any triangle mesh or point cloud into the boundary of a solid.",
@@ -24,6 +28,11 @@ int main(int argc, char** argv) {
       ->check(names_file(mesh_extensions()))
       ->required();
   add_repair_command(app, command);
+  app.add_flag_callback(
+         "--serve", [] { throw UsageError("--serve: stands alone, and first"); },
+         "Serve a page on this machine that checks and repairs meshes; without IN and\n"
+         "OUT: see --serve --help")
+      ->group("Page");
   return run_steps(program, argc, argv, command.steps,
                    [&](const StepOptions&, Run& run, Findings& findings) {
                      repair_file(command, run, findings);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <fcntl.h>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -25,6 +26,7 @@ namespace meshrepair {
 namespace {
 
 constexpr std::string_view kReportOption = "--report";
+constexpr std::size_t kMostDescriptor = 1 << 20;
 
 // What --describe prints.
 class CallForDescription : public CLI::Success {
@@ -72,6 +74,13 @@ std::string why_no_duration(const std::string& text) {
 
 std::string why_no_count(const std::string& text) {
   return parse_count(text) ? std::string() : "'" + text + "' is not a number, 0 or more";
+}
+
+std::string why_no_descriptor(const std::string& text) {
+  const std::optional<std::size_t> number = parse_count(text);
+  const bool is_open =
+      number && *number <= kMostDescriptor && ::fcntl(static_cast<int>(*number), F_GETFD) != -1;
+  return is_open ? std::string() : "'" + text + "' is not the number of an open descriptor";
 }
 
 // CLI11 looks for what is missing first: whoever mistypes the only option would be told of IN.
@@ -157,6 +166,12 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->check(why_no_count)
       ->type_name("N")
       ->group(running);
+  app.add_option("--progress-fd", options.progress_to,
+                 "Write a line 'STAGE PERCENT' for each percent to this descriptor, which is\n"
+                 "open, for programs that call this one")
+      ->check(why_no_descriptor)
+      ->type_name("N")
+      ->group(telling);
   app.add_option("--report", options.report, "Write a report as JSON; - is standard output")
       ->check(names_file(".json"))
       ->type_name("FILE")

@@ -18,6 +18,7 @@ struct CommonOptions {
   double time_limit = 0;           // seconds, 0: none
   std::string max_memory = "80%";  // see parse_memory_limit
   std::size_t max_triangles = 0;   // of a mesh that is read, 0: any number
+  int progress_to = -1;            // a descriptor; -1: none
 
   [[nodiscard]] Verbosity verbosity() const;
 };

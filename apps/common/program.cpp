@@ -23,6 +23,7 @@ ProgressBar::Options bar_options(const CommonOptions& options, const MemoryLimit
   bar.draw = !options.quiet && stderr_is_terminal();
   bar.time_limit = options.time_limit;
   bar.memory_limit = memory.bytes;
+  bar.told = options.progress_to;
   return bar;
 }
 

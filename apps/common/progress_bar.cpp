@@ -68,6 +68,8 @@ void ProgressBar::stage(std::string_view name) {
     share_ = 0;
   }
   logger().debug("{} ...", stage_);
+  told_percent_ = -1;
+  tell();
   draw();
 }
 
@@ -76,6 +78,7 @@ void ProgressBar::advance(double share) {
     const std::scoped_lock lock(where_mutex_);
     share_ = share;
   }
+  tell();
   draw();
 }
 
@@ -146,6 +149,15 @@ void ProgressBar::end_stage() {
   }
   logger().info("{}: {:.3f} s", stage_, seconds);
   stage_.clear();
+}
+
+// Whoever listens no longer is no reason to stop.
+void ProgressBar::tell() {
+  const int percent = percent_of(share_);
+  if (options_.told < 0 || percent <= told_percent_) return;
+  told_percent_ = percent;
+  const std::string line = fmt::format("{} {}\n", stage_, percent);
+  (void)!::write(options_.told, line.data(), line.size());
 }
 
 void ProgressBar::draw() {

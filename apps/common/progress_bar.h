@@ -33,6 +33,7 @@ class ProgressBar : public ProgressObserver {
     double time_limit = 0;           // seconds from construction on; 0 is none
     std::uint64_t memory_limit = 0;  // bytes; 0 is none
     std::FILE* terminal = stderr;    // not owned
+    int told = -1;                   // a descriptor that gets a line for each percent; -1: none
     double delay = 0.5;              // seconds before anything is drawn: short runs stay silent
   };
 
@@ -71,6 +72,7 @@ class ProgressBar : public ProgressObserver {
   [[nodiscard]] std::string where() const;
   [[nodiscard]] std::optional<std::string> limit_reached() const;
   void draw();
+  void tell();
   void clear();
 
   Options options_;
@@ -82,6 +84,7 @@ class ProgressBar : public ProgressObserver {
   std::string stage_;
   double share_ = 0;
   bool line_is_drawn_ = false;
+  int told_percent_ = -1;  // of the stage
   std::vector<StageTime> stages_;
 };
 

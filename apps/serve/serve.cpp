@@ -1,0 +1,168 @@
+#include "serve/serve.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <base/error.h>
+
+#include "common/common_options.h"
+#include "common/exit_code.h"
+#include "common/logging.h"
+#include "common/memory_limit.h"
+#include "common/numbers.h"
+#include "common/signals.h"
+#include "serve/http_server.h"
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kFlag = "--serve";
+
+struct ServeOptions {
+  std::size_t port = 0;
+  std::string max_upload = "2G";
+  bool opens_browser = true;
+  // Of the programs.
+  std::string threads, time_limit, max_memory;
+};
+
+void add_options(CLI::App& app, ServeOptions& options) {
+  app.add_flag_callback(
+      std::string(kFlag), [] {}, "Serve a page on this machine until Ctrl-C");
+  app.add_option("--port", options.port, "Of the address; 0: one that is free")
+      ->check(count_between(0, 65535))
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--max-upload", options.max_upload, "Refuse larger meshes: 200M, 2G")
+      ->type_name("SIZE")
+      ->capture_default_str();
+  app.add_flag_callback(
+      "--no-browser", [&options] { options.opens_browser = false; },
+      "Print the address, and open no browser");
+  app.add_option("--threads", options.threads, "Number of threads of a repair; 0: all")
+      ->check(count_between(0, kMostThreads))
+      ->type_name("N");
+  app.add_option("--time-limit", options.time_limit, "Give up a mesh after this time; 0: never")
+      ->check(number_between(0))
+      ->type_name("SECONDS");
+  app.add_option("--max-memory", options.max_memory,
+                 "Give up a mesh rather than take more memory: 200M, 80%")
+      ->type_name("SIZE");
+}
+
+// False: help was asked for, and is printed.
+bool parse(CLI::App& app, int argc, const char* const* argv) {
+  app.set_help_flag("-h,--help", "Print this text and exit");
+  app.footer(
+      "Examples:\n"
+      "  meshrepair --serve\n"
+      "  meshrepair --serve --port 8080 --no-browser --max-memory 8G");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(std::string(error.what()) + " (try 'meshrepair --serve --help')");
+  }
+  return true;
+}
+
+fs::path folder_of_programs() {
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  const fs::path folder = self.parent_path();
+  if (error || !fs::exists(folder / "meshcheck", error)) {
+    throw UsageError("--serve: there is no meshcheck beside this program");
+  }
+  return folder;
+}
+
+std::vector<std::string> options_for_all(const ServeOptions& options) {
+  std::vector<std::string> words;
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) words.push_back(std::string(name) + "=" + value);
+  };
+  add("--threads", options.threads);
+  add("--time-limit", options.time_limit);
+  add("--max-memory", options.max_memory);
+  return words;
+}
+
+// By a file that only this user can read: all users see the arguments of processes, and the address
+// has the token.
+void open_browser(const std::string& address, const fs::path& folder) {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): never changed
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  const std::string file = folder / "open.html";
+  const ::mode_t mask = ::umask(077);
+  std::ofstream(file) << R"(<!doctype html><meta http-equiv="refresh" content="0; url=)" << address
+                      << "\">\n";
+  ::umask(mask);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::fork() == 0) {  // whose parent ends at once, so that nobody has to wait for it
+      ::execlp("xdg-open", "xdg-open", file.c_str(), nullptr);
+      ::_exit(127);
+    }
+    ::_exit(0);
+  }
+  if (child > 0) ::waitpid(child, nullptr, 0);
+}
+
+ExitCode serve_until_signal(const ServeOptions& options) {
+  const std::string token = random_secret();
+  Workshop::Options of_workshop;
+  of_workshop.programs = folder_of_programs();
+  of_workshop.for_all = options_for_all(options);
+  HttpServer::Limits limits;
+  limits.body = parse_memory_limit(options.max_upload).bytes;
+  if (limits.body == 0) throw UsageError("--max-upload: is to be more than 0");
+  HttpServer server(static_cast<unsigned short>(options.port));
+  Workshop workshop(std::move(of_workshop));
+  const Guard guard(server.port(), token);
+  const Answers answers(guard, workshop);
+  const std::string address = fmt::format("http://127.0.0.1:{}/#{}", server.port(), token);
+  fmt::print("{}\n", address);
+  std::fflush(stdout);
+  print_summary("meshrepair: open this address in a browser on this machine; Ctrl-C ends it\n");
+  if (options.opens_browser) open_browser(address, workshop.own_folder());
+  server.serve(answers, limits, [] { return received_signal() != 0; });
+  return ExitCode::done;
+}
+
+}  // namespace
+
+bool asks_to_serve(int argc, const char* const* argv) { return argc > 1 && argv[1] == kFlag; }
+
+int serve(int argc, const char* const* argv) {
+  return run_guarded("meshrepair", [&] {
+    install_signal_handlers();
+    set_up_logging("meshrepair", Verbosity::normal);
+    CLI::App app(
+        "Serves a page on this machine that checks and repairs meshes, of any size, with this "
+        "program.",
+        "meshrepair --serve");
+    ServeOptions options;
+    add_options(app, options);
+    if (!parse(app, argc, argv)) return ExitCode::done;
+    return serve_until_signal(options);
+  });
+}
+
+}  // namespace meshrepair

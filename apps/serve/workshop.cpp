@@ -1,0 +1,309 @@
+#include "serve/workshop.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <base/error.h>
+
+#include "common/exit_code.h"
+#include "common/side_file.h"
+#include "serve/child_process.h"
+#include "serve/guard.h"
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kLongestName = 200;                     // bytes
+constexpr std::size_t kLongestReport = std::size_t{1} << 26;  // a longer one is none
+constexpr std::chrono::seconds kPatience(3);                  // from SIGTERM to SIGKILL
+
+constexpr std::array<std::string_view, 8> kExtensions = {".stl", ".obj",  ".off", ".ply",
+                                                         ".glb", ".gltf", ".3mf", ".om"};
+constexpr std::array<std::string_view, 6> kResults = {".stl", ".obj", ".off",
+                                                      ".ply", ".glb", ".3mf"};
+constexpr std::array<std::string_view, 2> kPackings = {".gz", ".zst"};
+constexpr std::array<std::string_view, 15> kOpenOptions = {
+    "for",      "inside",   "sew",    "seal",  "holes",  "max-hole",   "thicken", "min-part",
+    "touching", "simplify", "always", "units", "strict", "attributes", "keep"};
+
+template <class List>
+bool is_among(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+fs::path new_folder() {
+  const char* given = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): never changed
+  std::string name =
+      std::string(given != nullptr && *given != '\0' ? given : "/tmp") + "/meshrepair-serve-XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw OutputError(name + ": the folder cannot be made");
+  }
+  return name;
+}
+
+void remove_folder(const fs::path& path) {
+  std::error_code none;
+  fs::remove_all(path, none);
+}
+
+std::string read_report(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  return text.size() > kLongestReport ? std::string() : text;
+}
+
+std::string without(std::string text, const std::string& part) {
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at)) {
+    text.erase(at, part.size());
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_mesh_name(const std::string& name) {
+  if (name.empty() || name.size() > kLongestName || name.front() == '.' || name.front() == '-') {
+    return false;
+  }
+  const bool is_plain = std::none_of(name.begin(), name.end(), [](char c) {
+    return c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  });
+  if (!is_plain) return false;
+  std::string extension = lower_extension(name);
+  if (extension == ".zip") return true;
+  if (is_among(kPackings, extension)) {
+    extension = lower_extension(fs::path(name).stem().string());
+  }
+  return is_among(kExtensions, extension);
+}
+
+bool is_result_extension(const std::string& extension) { return is_among(kResults, extension); }
+
+bool is_open_option(const std::string& name) { return is_among(kOpenOptions, name); }
+
+Workshop::Workshop(Options options)
+    : options_(std::move(options)), folder_(new_folder()), worker_([this] { work(); }) {}
+
+Workshop::~Workshop() {
+  {
+    const std::scoped_lock lock(mutex_);
+    is_ending_ = true;
+    changed_.notify_all();
+  }
+  worker_.join();
+  remove_folder(folder_);
+}
+
+std::optional<Workshop::Intake> Workshop::begin(const std::string& name) {
+  if (!is_mesh_name(name)) return std::nullopt;
+  const std::scoped_lock lock(mutex_);
+  make_room();
+  if (jobs_.size() >= options_.most_jobs) return std::nullopt;
+  Intake intake;
+  intake.id = random_secret();
+  std::error_code failed;
+  fs::create_directories(folder(intake.id) / "in", failed);
+  if (failed) return std::nullopt;
+  Job job;
+  job.state.name = name;
+  job.state.phase = JobState::Phase::running;  // it is being handed in
+  job.file = name;
+  job.asked_for = Clock::now();
+  jobs_.emplace(intake.id, std::move(job));
+  intake.file = folder(intake.id) / "in" / name;
+  return intake;
+}
+
+void Workshop::discard(const Intake& intake) {
+  const std::scoped_lock lock(mutex_);
+  erase(intake.id);
+}
+
+void Workshop::add(const Intake& intake) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = jobs_.find(intake.id);
+  if (found == jobs_.end()) return;
+  found->second.state.phase = JobState::Phase::waiting;
+  queue_.push_back(intake.id);
+  changed_.notify_all();
+}
+
+bool Workshop::repair(const std::string& id, const std::string& extension, ProgramOptions options) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end() || found->second.state.phase != JobState::Phase::ended) return false;
+  Job& job = found->second;
+  std::error_code none;
+  fs::remove(folder(id) / "repair.html", none);
+  remove_folder(folder(id) / "out");
+  job.state = {job.state.name, Task::repair, JobState::Phase::waiting, {}, 0, 0, {}, false, false};
+  job.extension = extension;
+  job.options = std::move(options);
+  job.cancelled = false;
+  queue_.push_back(id);
+  changed_.notify_all();
+  return true;
+}
+
+void Workshop::cancel(const std::string& id) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found != jobs_.end()) found->second.cancelled = true;
+}
+
+void Workshop::remove(const std::string& id) {
+  const std::scoped_lock lock(mutex_);
+  if (id == running_) {
+    jobs_[id].cancelled = true;  // its turn comes when it has ended
+    jobs_[id].asked_for = {};
+  } else {
+    erase(id);
+  }
+}
+
+std::optional<JobState> Workshop::state(const std::string& id) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return std::nullopt;
+  found->second.asked_for = Clock::now();
+  return found->second.state;
+}
+
+fs::path Workshop::page_of(const std::string& id, Task task) {
+  const std::scoped_lock lock(mutex_);
+  if (jobs_.find(id) == jobs_.end()) return {};
+  return folder(id) / (task == Task::check ? "check.html" : "repair.html");
+}
+
+std::optional<Workshop::Result> Workshop::result(const std::string& id) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end() || !found->second.state.has_result) return std::nullopt;
+  const Job& job = found->second;
+  const std::string stem = job.file.substr(0, job.file.find('.'));
+  const std::string name = "mesh" + job.extension;
+  return Result{folder(id) / "out" / name, stem + "_repaired" + job.extension};
+}
+
+void Workshop::work() {
+  std::unique_lock lock(mutex_);
+  while (!is_ending_) {
+    changed_.wait_for(lock, std::chrono::minutes(1),
+                      [this] { return is_ending_ || !queue_.empty(); });
+    if (is_ending_) return;
+    if (queue_.empty()) {
+      make_room();
+      continue;
+    }
+    running_ = queue_.front();
+    queue_.pop_front();
+    const std::string id = running_;
+    lock.unlock();
+    run(id);
+    lock.lock();
+    running_.clear();
+  }
+}
+
+void Workshop::run(const std::string& id) {
+  std::vector<std::string> words;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = jobs_.find(id);
+    if (found == jobs_.end()) return;
+    found->second.state.phase = JobState::Phase::running;
+    words = command(id, found->second);
+  }
+  try {
+    fs::create_directories(folder(id) / "out");
+    follow(id, words);
+  } catch (const std::exception&) {
+    finish(id, static_cast<int>(ExitCode::output));
+  }
+}
+
+std::vector<std::string> Workshop::command(const std::string& id, const Job& job) const {
+  const fs::path in = folder(id) / "in" / job.file;
+  const bool is_check = job.state.task == Task::check;
+  std::vector<std::string> words = {options_.programs / (is_check ? "meshcheck" : "meshrepair")};
+  words.insert(words.end(), options_.for_all.begin(), options_.for_all.end());
+  words.push_back("--quiet");
+  words.push_back("--report=" + (folder(id) / "report.json").string());
+  words.push_back("--html=" + (folder(id) / (is_check ? "check.html" : "repair.html")).string());
+  if (!is_check) {
+    for (const auto& [name, value] : job.options) {
+      words.push_back("--" + name + (value.empty() ? "" : "=" + value));
+    }
+  }
+  words.emplace_back("--");
+  words.push_back(in);
+  if (!is_check) words.push_back(folder(id) / "out" / ("mesh" + job.extension));
+  return words;
+}
+
+void Workshop::follow(const std::string& id, const std::vector<std::string>& words) {
+  std::error_code none;
+  fs::remove(folder(id) / "report.json", none);
+  ChildProcess child(words);
+  std::optional<Clock::time_point> told_to_end;
+  while (child.wait()) {
+    const std::scoped_lock lock(mutex_);
+    Job& job = jobs_.at(id);
+    std::tie(job.state.stage, job.state.percent) = child.progress();
+    if (!told_to_end && (job.cancelled || is_ending_)) {
+      child.terminate();
+      told_to_end = Clock::now();
+    }
+    if (told_to_end && Clock::now() > *told_to_end + kPatience) child.kill();
+  }
+  finish(id, child.exit_code());
+}
+
+void Workshop::finish(const std::string& id, int code) {
+  // Where files lie here is nobody's business.
+  std::string report = read_report(folder(id) / "report.json");
+  for (const char* const part : {"in/", "out/", ""}) report = without(report, folder(id) / part);
+  const std::scoped_lock lock(mutex_);
+  Job& job = jobs_.at(id);
+  JobState& state = job.state;
+  const bool is_check = state.task == Task::check;
+  state.phase = JobState::Phase::ended;
+  state.exit_code = code;
+  state.report = report;
+  state.has_page = fs::exists(folder(id) / (is_check ? "check.html" : "repair.html"));
+  state.has_result = !is_check && fs::exists(folder(id) / "out" / ("mesh" + job.extension));
+  if (job.asked_for == Clock::time_point()) erase(id);
+}
+
+// The oldest that nobody has asked for, for long or at all, go.
+void Workshop::make_room() {
+  const auto now = Clock::now();
+  std::vector<std::pair<Clock::time_point, std::string>> ended;
+  for (const auto& [id, job] : jobs_) {
+    if (job.state.phase == JobState::Phase::ended && id != running_) {
+      ended.emplace_back(job.asked_for, id);
+    }
+  }
+  std::sort(ended.begin(), ended.end());
+  for (const auto& [asked_for, id] : ended) {
+    if (jobs_.size() < options_.most_jobs && now < asked_for + options_.lifetime) return;
+    erase(id);
+  }
+}
+
+void Workshop::erase(const std::string& id) {
+  if (jobs_.erase(id) == 0) return;
+  queue_.erase(std::remove(queue_.begin(), queue_.end(), id), queue_.end());
+  remove_folder(folder(id));
+}
+
+}  // namespace meshrepair

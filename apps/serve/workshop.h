@@ -1,0 +1,124 @@
+// The meshes that were handed in, and what is done with them: one piece of work after the other,
+// each by a program of ours as a process of its own.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace meshrepair {
+
+// What is done with a mesh: meshcheck, or meshrepair with these options.
+enum class Task { check, repair };
+using ProgramOptions = std::vector<std::pair<std::string, std::string>>;  // "for", "print"
+
+// What a mesh has been handed in for, and what came of it.
+struct JobState {
+  enum class Phase { waiting, running, ended };
+
+  std::string name;  // of the mesh, as whoever handed it in has it
+  Task task = Task::check;
+  Phase phase = Phase::waiting;
+  std::string stage;
+  int percent = 0;
+  int exit_code = 0;        // once it has ended
+  std::string report;       // JSON, once it has ended; empty: there is none
+  bool has_result = false;  // a repaired mesh
+  bool has_page = false;    // of the last task
+};
+
+class Workshop {
+ public:
+  struct Options {
+    std::filesystem::path programs;      // the folder of meshrepair and meshcheck
+    std::vector<std::string> for_all;    // options for each of them: "--threads=2"
+    std::size_t most_jobs = 50;          // of more, the oldest that has ended goes
+    std::chrono::minutes lifetime{240};  // of a job that nobody asks for
+  };
+
+  // Makes a folder that only this user can read. Throws OutputError.
+  explicit Workshop(Options options);
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+  // Ends what runs, and removes the folder.
+  ~Workshop();
+
+  // Where a mesh of that name is to be written, in a folder of its own; nothing where it is no name
+  // of a mesh file, or there is no room for more jobs. Then either add() or discard() is to be
+  // called.
+  struct Intake {
+    std::string id;
+    std::filesystem::path file;
+  };
+  // For files that are gone when this is.
+  [[nodiscard]] const std::filesystem::path& own_folder() const { return folder_; }
+
+  [[nodiscard]] std::optional<Intake> begin(const std::string& name);
+  void discard(const Intake& intake);
+  // The first task is a check.
+  void add(const Intake& intake);
+
+  // False: there is no such job, or it is at work.
+  [[nodiscard]] bool repair(const std::string& id, const std::string& extension,
+                            ProgramOptions options);
+  // Ends what is done with it, which may take a moment. The mesh stays.
+  void cancel(const std::string& id);
+  void remove(const std::string& id);
+
+  // Nothing: there is no such job.
+  [[nodiscard]] std::optional<JobState> state(const std::string& id);
+  [[nodiscard]] std::filesystem::path page_of(const std::string& id, Task task);
+  // Nothing: there is none. The name is for whoever gets it.
+  struct Result {
+    std::filesystem::path file;
+    std::string name;
+  };
+  [[nodiscard]] std::optional<Result> result(const std::string& id);
+
+ private:
+  struct Job {
+    JobState state;
+    std::string file;       // name of it in its folder
+    std::string extension;  // of the result
+    ProgramOptions options;
+    bool cancelled = false;
+    std::chrono::steady_clock::time_point asked_for;
+  };
+
+  void work();
+  void run(const std::string& id);
+  [[nodiscard]] std::vector<std::string> command(const std::string& id, const Job& job) const;
+  void follow(const std::string& id, const std::vector<std::string>& command);
+  void finish(const std::string& id, int code);
+  void make_room();
+  void erase(const std::string& id);
+  [[nodiscard]] std::filesystem::path folder(const std::string& id) const { return folder_ / id; }
+
+  Options options_;
+  std::filesystem::path folder_;
+  std::mutex mutex_;  // for all that follows
+  std::condition_variable changed_;
+  std::map<std::string, Job> jobs_;
+  std::deque<std::string> queue_;
+  std::string running_;
+  bool is_ending_ = false;
+  std::thread worker_;
+};
+
+// Whether a mesh may have this name: that of a file, without folders, of a mesh by its extension.
+[[nodiscard]] bool is_mesh_name(const std::string& name);
+// ".stl" and so on, that results may have.
+[[nodiscard]] bool is_result_extension(const std::string& extension);
+// Which options of meshrepair may be asked for: none of them names a file.
+[[nodiscard]] bool is_open_option(const std::string& name);
+
+}  // namespace meshrepair

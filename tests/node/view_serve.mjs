@@ -1,0 +1,173 @@
+// Uses the page of meshrepair --serve in a browser, as somebody who has a broken mesh does.
+//
+// Usage: node view_serve.mjs PROGRAMS MESHES [SCREENSHOT]
+//
+// Prints a line for each fault. Exit code 0: there is none, 1: some, 77: there is no playwright (scripts/setup.sh all installs it) or
+// no Chromium.
+
+import {spawn, spawnSync} from 'node:child_process';
+import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import path from 'node:path';
+
+const CHROMIUM = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+const DRAWING = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+const MESHES = ['broken_torus_box.stl', 'broken_spheres.obj', 'open_bowl.ply', 'overlapping_spheres.off', 'cube.stl'];
+
+const [programs, meshes, screenshot] = process.argv.slice(2).map((name) => path.resolve(name));
+const folder = mkdtempSync(path.join(tmpdir(), 'view_serve_'));
+let faults = 0;
+
+function expect(holds, what) {
+  if (holds) return;
+  console.log(what);
+  ++faults;
+}
+
+// The address that it prints, and how to end it.
+function served() {
+  const server = spawn(path.join(programs, 'meshrepair'), ['--serve', '--no-browser'], {stdio: ['ignore', 'pipe', 'ignore'],
+    env: {...process.env, TMPDIR: folder}});
+  return new Promise((done, failed) => {
+    let said = '';
+    server.stdout.on('data', (data) => {
+      said += data;
+      if (said.includes('\n')) done({server, address: said.trim()});
+    });
+    server.on('error', failed);
+  });
+}
+
+async function ended(server) {
+  const end = new Promise((done) => server.on('exit', done));
+  server.kill('SIGINT');
+  expect(await end === 0, 'does not end with 0 at Ctrl-C');
+  expect(spawnSync('ls', [folder]).stdout.toString().includes('meshrepair-serve') === false, 'leaves its folder behind');
+}
+
+// What the program makes of it by itself.
+function repaired(mesh, format) {
+  const out = path.join(folder, `out.${format}`);
+  spawnSync(path.join(programs, 'meshrepair'), ['-q', mesh, out]);
+  return readFileSync(out);
+}
+
+async function opened(browser, address, options = {}) {
+  const page = await browser.newPage({viewport: {width: 1280, height: 800}, ...options});
+  page.on('console', (message) => expect(message.type() !== 'error', `console: ${message.text()}`));
+  page.on('pageerror', (error) => expect(false, `error: ${error.message}`));
+  page.on('request', (request) => expect(new URL(request.url()).host === new URL(address).host, `asks for ${request.url()}`));
+  await page.goto(address);
+  return page;
+}
+
+async function checked(page, file) {
+  await page.setInputFiles('#file', file);
+  await page.waitForSelector('body[data-ended=check]', {timeout: 120000});
+  return page.textContent('#verdict');
+}
+
+async function downloaded(page) {
+  await page.click('#repair');
+  await page.waitForSelector('body[data-ended=repair]', {timeout: 120000});
+  const waits = page.waitForEvent('download');
+  await page.click('#result');
+  const download = await waits;
+  return {name: download.suggestedFilename(), bytes: readFileSync(await download.path()), verdict: await page.textContent('#verdict')};
+}
+
+async function repairAll(browser, address) {
+  const page = await opened(browser, address);
+  for (const name of MESHES) {
+    const file = path.join(meshes, name);
+    const verdict = await checked(page, file);
+    expect(/not a valid/.test(verdict) === (name !== 'cube.stl'), `${name}: ${verdict}`);
+    const format = name.split('.').pop();
+    expect(await page.inputValue('#format') === format, `${name}: offers ${await page.inputValue('#format')}`);
+    const {name: called, bytes, verdict: then} = await downloaded(page);
+    expect(called === name.replace('.', '_repaired.'), `${name}: is called ${called}`);
+    expect(then === 'Repaired and certified.', `${name}: ${then}`);
+    expect(bytes.equals(repaired(file, format)), `${name}: another mesh than without the page`);
+  }
+  await lookAtThePage(page);
+  await page.close();
+}
+
+async function lookAtThePage(page) {
+  await checked(page, path.join(meshes, MESHES[0]));
+  await downloaded(page);
+  const frame = page.frameLocator('#page');
+  await frame.locator('#page[data-ready]').waitFor({timeout: 120000});
+  const counts = await frame.locator('[data-count^="input:open_edges"]').textContent();
+  expect(counts === '23', `the page in the frame says ${counts} open edges`);
+  if (screenshot) await page.screenshot({path: screenshot});
+}
+
+async function failClearly(browser, address) {
+  const page = await opened(browser, address);
+  for (const [name, data, what] of [['empty.stl', 'solid x\n', /holds no triangles/], ['bad.obj', 'v 1 2\n', /./]]) {
+    const file = path.join(folder, name);
+    writeFileSync(file, data);
+    expect(what.test(await checked(page, file)), `${name}: ${await page.textContent('#verdict')}`);
+    expect(!(await page.textContent('#verdict')).includes(folder), `${name}: says where it lies`);
+    expect(await page.isHidden('#result'), `${name}: has a result`);
+  }
+  await page.close();
+}
+
+// They make the browser itself print errors.
+async function failOnPurpose(browser, address) {
+  const page = await browser.newPage();
+  await page.goto(address);
+  const file = path.join(folder, 'notes.txt');
+  writeFileSync(file, 'text');
+  await page.setInputFiles('#file', file);
+  await page.waitForFunction(() => /not that of a mesh/.test(document.getElementById('verdict').textContent));
+  await page.goto('about:blank');
+  await page.goto(address.split('#')[0]);
+  expect(/lacks its token/.test(await page.textContent('#verdict')), 'says nothing of a missing token');
+  await page.close();
+}
+
+async function useKeysAndAPhone(browser, address) {
+  const page = await opened(browser, address, {viewport: {width: 390, height: 800}, hasTouch: true, isMobile: true});
+  await checked(page, path.join(meshes, 'cube.stl'));
+  expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'wider than a phone');
+  const reached = new Set();
+  for (let i = 0; i < 12; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => document.activeElement.id));
+  }
+  for (const id of ['choose', 'for', 'inside', 'seal', 'thicken', 'format', 'repair']) expect(reached.has(id), `Tab does not reach ${id}`);
+  await page.selectOption('#for', 'print');
+  await page.focus('#repair');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('body[data-ended=repair]', {timeout: 120000});
+  await page.close();
+}
+
+async function main() {
+  let playwright;
+  try {
+    playwright = await import('playwright-core');
+  } catch (error) {
+    console.log(`playwright is not installed: ${error.code}`);
+    return 77;
+  }
+  if (!CHROMIUM) {
+    console.log('there is no Chromium');
+    return 77;
+  }
+  const {server, address} = await served();
+  const browser = await playwright.chromium.launch({executablePath: CHROMIUM, args: DRAWING});
+  await repairAll(browser, address);
+  await failClearly(browser, address);
+  await failOnPurpose(browser, address);
+  await useKeysAndAPhone(browser, address);
+  await browser.close();
+  await ended(server);
+  return faults === 0 ? 0 : 1;
+}
+
+const code = await main().finally(() => rmSync(folder, {recursive: true}));
+process.exit(code);
