@@ -175,12 +175,13 @@ Answer Answers::end_upload(const Workshop::Intake& intake) const {
 }
 
 Answer Answers::answer(const Request& request) const {
-  if (const auto why = guard_.refusal(request.sender)) return refused(403, *why);
+  if (const auto why = guard_.refusal_of_public(request.sender)) return refused(403, *why);
   const std::string_view path = path_of(request.target);
   const bool is_get = request.method == "GET" || request.method == "HEAD";
   if (const auto found = asset(path)) {
     return is_get ? *found : refused(405, "only GET");
   }
+  if (const auto why = guard_.refusal(request.sender)) return refused(403, *why);
   constexpr std::string_view kJobs = "/jobs/";
   if (path.substr(0, kJobs.size()) != kJobs) return refused(404, "there is no such address");
   const std::string_view rest = path.substr(kJobs.size());

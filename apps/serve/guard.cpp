@@ -31,7 +31,7 @@ Guard::Guard(unsigned short port, std::string token)
 
 bool Guard::is_here(std::string_view host) const { return host == by_number_ || host == by_name_; }
 
-std::optional<std::string> Guard::refusal(const Sender& sender) const {
+std::optional<std::string> Guard::refusal_of_public(const Sender& sender) const {
   if (!is_here(sender.host)) return "the Host is not this server";
   constexpr std::string_view kScheme = "http://";
   const bool has_origin = !sender.origin.empty();
@@ -39,6 +39,11 @@ std::optional<std::string> Guard::refusal(const Sender& sender) const {
                      !is_here(sender.origin.substr(kScheme.size())))) {
     return "the Origin is not this server";
   }
+  return std::nullopt;
+}
+
+std::optional<std::string> Guard::refusal(const Sender& sender) const {
+  if (auto why = refusal_of_public(sender)) return why;
   if (!sender.fetch_site.empty() && sender.fetch_site != "same-origin" &&
       sender.fetch_site != "none") {
     return "another site asks";

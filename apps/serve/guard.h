@@ -23,7 +23,9 @@ class Guard {
  public:
   Guard(unsigned short port, std::string token);
 
-  // Why such a request is refused; nothing: it is let through.
+  // Why such a request is refused; nothing: it is let through. Of what holds no secret, also links
+  // and forwards of other pages lead here.
+  [[nodiscard]] std::optional<std::string> refusal_of_public(const Sender& sender) const;
   [[nodiscard]] std::optional<std::string> refusal(const Sender& sender) const;
   // The same of a request that also needs the token.
   [[nodiscard]] std::optional<std::string> refusal_with_token(const Sender& sender) const;

@@ -103,6 +103,17 @@ async function lookAtThePage(page) {
   if (screenshot) await page.screenshot({path: screenshot});
 }
 
+// As the program opens it itself: by a file that forwards, so that the address is in no list of processes.
+async function forwarded(browser, address) {
+  const file = path.join(folder, 'open.html');
+  writeFileSync(file, `<!doctype html><meta http-equiv="refresh" content="0; url=${address}">\n`);
+  const page = await browser.newPage();
+  await page.goto(`file://${file}`);
+  await page.waitForSelector('#choose');
+  expect(/is a valid solid/.test(await checked(page, path.join(meshes, 'cube.stl'))), 'does not work when it is forwarded to');
+  await page.close();
+}
+
 async function failClearly(browser, address) {
   const page = await opened(browser, address);
   for (const [name, data, what] of [['empty.stl', 'solid x\n', /holds no triangles/], ['bad.obj', 'v 1 2\n', /./]]) {
@@ -161,6 +172,7 @@ async function main() {
   const {server, address} = await served();
   const browser = await playwright.chromium.launch({executablePath: CHROMIUM, args: DRAWING});
   await repairAll(browser, address);
+  await forwarded(browser, address);
   await failClearly(browser, address);
   await failOnPurpose(browser, address);
   await useKeysAndAPhone(browser, address);
