@@ -7,8 +7,9 @@ What holds at every moment, also when this script, its workers or the machine ar
   and what it wrote is renamed to its place only after it has ended well and its report says so.
 - OUT_DIR/.repair_folder/journal.jsonl holds a line for each file that is finished. The line is written, and
   on the disk, after the output is. What is in no line is done again, which gives the same bytes.
-- One run at a time works on an OUT_DIR: it holds a lock, and so does each of its workers. The lock ends
-  with the last of them, and they are killed when this script dies; then what they left is removed.
+- One run at a time works on an OUT_DIR, or several of different shards: each holds a lock, and so do its
+  workers. The lock ends with the last of them, and they are killed when this script dies; then what they left
+  is removed.
 - After a run that was not interrupted, the inputs that have an output are those with exit code 0 or 1.
 
 This file is the command line; the parts are in folder_repair, the run itself in folder_run.py there. Names
@@ -30,6 +31,7 @@ from folder_repair.basics import EXTENSION_OF_FORMAT, NAME, OUTPUT, USAGE, Stop,
 from folder_repair.folder_run import FolderRun
 from folder_repair.out_folder import OutFolder
 from folder_repair.program import Program
+from folder_repair.shards import Shard
 
 # Options of meshrepair that are set here, for each file.
 OWN_OPTIONS = ("--report", "--threads", "--time-limit", "--max-memory", "--format", "-q", "--quiet",
@@ -42,6 +44,7 @@ Examples:
   repair_folder.py scans repaired
   repair_folder.py --format obj --jobs 4 --timeout 60 --max-memory 2G scans repaired
   repair_folder.py scans repaired -- --inside solidity --strict
+  repair_folder.py --shard 3/8 scans repaired
   repair_folder.py --html scans repaired -- --picture-view front --html-triangles 100000
 
 A mesh file is one by its extension: .stl, .obj, .off, .ply, .glb, .gltf or .3mf, in upper or lower case; with .gz or .zst
@@ -80,6 +83,13 @@ def number_of_jobs(string):
     return int(string)
 
 
+def shard(string):
+    try:
+        return Shard.parse(string)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
 def seconds(string):
     if not re.fullmatch(r"\d+(\.\d*)?|\.\d+", string):
         raise argparse.ArgumentTypeError(f"{string} is not a number of seconds, 0 or more")
@@ -111,6 +121,14 @@ def command_line():
     add("--max-memory", type=size_in_bytes, metavar="SIZE",
         help="give up a file that takes more memory, like 200M or 2G; 0 is no limit "
              "(default: 80 %% of what is free, divided by the workers)")
+    add("--list", metavar="FILE", type=os.fsencode,
+        help="repair only the files that this one names, one in each line, from IN_DIR on; - is standard input")
+    add("--shard", type=shard, metavar="I/N",
+        help="repair only the I-th of N shares of the files. Runs of different shards may be at work on one OUT_DIR at the "
+             "same time, on several machines, too; then --merge")
+    add("--merge", action="store_true",
+        help="repair nothing: write the summary, and with --html the gallery, of what runs of shards have done, and end with "
+             "the exit code of one run")
     add("--restart", action="store_true", help="do all files anew, and replace what is in OUT_DIR")
     add("--meshrepair", metavar="PATH",
         help="the program (default: build/release/bin/meshrepair of this project, else that in PATH)")
@@ -124,6 +142,8 @@ def parse_arguments(arguments):
     end = arguments.index("--") if "--" in arguments else len(arguments)
     options = command_line().parse_args(arguments[:end])
     options.passed = arguments[end + 1:]
+    if options.merge and (options.shard or options.restart):
+        raise Stop(USAGE, f"--merge goes with neither --shard nor --restart (try '{NAME} --help')")
     for folder in (options.in_dir, options.out_dir):
         if not folder:
             raise Stop(USAGE, f"the name of a folder is empty (try '{NAME} --help')")
@@ -175,7 +195,7 @@ def run():
     if options.html and not program.makes_pages:
         raise Stop(USAGE, f"{program.path} makes no pages, so there is none for --html")
     try:
-        return FolderRun(options, program, OutFolder(options.out_dir)).run()
+        return FolderRun(options, program, OutFolder(options.out_dir, options.shard)).run()
     except OSError as error:
         name = text(os.fsencode(error.filename)) if error.filename else "OUT_DIR"
         raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None

@@ -12,7 +12,7 @@ Usage: scripts/setup.sh [build|python|all|bench|package]
           network then
   all     the same, and what the checks need: clang-format, clang-tidy, the
           runtime of clang's fuzzer, abidiff, man, the shells whose completions
-          are tested, Blender, OpenSCAD, mypy, Chromium, what makes the manual's
+          are tested, Blender, OpenSCAD, mypy, Chromium, GNU parallel, what makes the manual's
           site, and of npm the validator of glTF, playwright, esbuild and
           three.js (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
@@ -83,6 +83,7 @@ check_packages=(
   mkdocs-material
   mypy
   openscad
+  parallel
   zsh
 )
 # From wherever they are: others than Debian's have npm in the package of node.

@@ -152,8 +152,8 @@ void add_show_options(CLI::App& app, PictureRequest& request, const std::string&
          [&request] {
            if (request.shown == Shown::nothing) request.shown = Shown::automatic;
          },
-         "Draw " + what + " in the terminal, too, where it understands\nkitty's pictures or sixels" +
-             otherwise)
+         "Draw " + what +
+             " in the terminal, too, where it understands\nkitty's pictures or sixels" + otherwise)
       ->group("Picture");
   add_choice(
       app, "--show-as", kShownAs, [&request](Shown shown) { request.shown = shown; },

@@ -181,10 +181,14 @@ class SceneRepair {
   void draw(Attributes attributes) {
     if (!options_.picture.wanted()) return;
     TriangleSoup before = input_.soup, after = all_.mesh;
-    std::array<Attributes, 2> fates = painted_fates(options_.picture, findings_);
-    const bool is_painted = options_.picture.painted;
-    Attributes given = is_painted ? std::move(fates[0]) : given_;
-    if (is_painted) attributes = std::move(fates[1]);
+    Attributes given;
+    if (options_.picture.painted) {
+      std::array<Attributes, 2> fates = painted_fates(options_.picture, findings_);
+      given = std::move(fates[0]);
+      attributes = std::move(fates[1]);
+    } else {
+      given = given_;
+    }
     place_instances(before, given, input_.scene);
     place_instances(after, attributes, scene_);
     draw_picture_stage(options_.picture, up_of(findings_), {options_.input},

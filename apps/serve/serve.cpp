@@ -86,7 +86,7 @@ bool parse(CLI::App& app, int argc, const char* const* argv) {
 fs::path folder_of_programs() {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  const fs::path folder = self.parent_path();
+  fs::path folder = self.parent_path();
   if (error || !fs::exists(folder / "meshcheck", error)) {
     throw UsageError("--serve: there is no meshcheck beside this program");
   }

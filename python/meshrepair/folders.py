@@ -27,9 +27,16 @@ def _words(options: dict[str, Any]) -> list[str | bytes]:
     return words
 
 
+def _summary_of(target: bytes, shard: str | None) -> bytes:
+    if shard is None:
+        return os.path.join(target, b"summary.json")
+    name = "-of-".join(str(int(number)) for number in shard.split("/"))
+    return os.path.join(target, b".repair_folder", b"shards", name.encode(), b"summary.json")
+
+
 def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: int | None = None, timeout: float = 600,
                   grace: float = 5, max_memory: str | int | None = None, restart: bool = False,
-                  html: bool = False, quiet: bool = True, **options: Any) -> dict[str, Any]:
+                  html: bool = False, shard: str | None = None, merge: bool = False, quiet: bool = True, **options: Any) -> dict[str, Any]:
     """Repairs all meshes in a folder and its sub-folders, several at a time, each in a process of its own.
 
     Args:
@@ -41,6 +48,9 @@ def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: 
         grace: seconds that a file has then to end by itself.
         max_memory: for a file, such as "2G".
         restart: do all files anew.
+        shard: "3/8" is the third of eight shares of the files; calls with different shards may be at work on one target at
+            the same time.
+        merge: repair nothing, sum up what such calls have done.
         html: also write ``index.html`` into the target, a gallery for browsers.
         quiet: print nothing but the errors.
         **options: of the program ``meshrepair``, with _ for -, for each file.
@@ -49,7 +59,7 @@ def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: 
         The summary of the run, ``summary.json``: a dict; see docs/folders.md.
     """
     own = {"format": format, "jobs": jobs, "timeout": timeout, "grace": grace, "max_memory": max_memory,
-           "restart": restart, "html": html, "quiet": quiet, "meshrepair": program_path()}
+           "restart": restart, "html": html, "shard": shard, "merge": merge, "quiet": quiet, "meshrepair": program_path()}
     folders = [path_of(source, "source"), path_of(target, "target")]
     command = [sys.executable, "-s", _SCRIPT, *_words(own), *folders,
                "--", *_words(options)]
@@ -67,7 +77,7 @@ def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: 
             raise LimitError(f"repair_folder.py was killed by signal {-process.returncode}")
         raise error_of(process.returncode, message)
     try:
-        with open(os.path.join(folders[1], b"summary.json"), encoding="utf-8") as file:
+        with open(_summary_of(folders[1], shard), encoding="utf-8") as file:
             summary: dict[str, Any] = json.load(file)
     except OSError as error:
         raise UsageError(f"target: {error}") from None

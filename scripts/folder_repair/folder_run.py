@@ -17,8 +17,8 @@ from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED,
                      names_of, print_to, say, text, value_of)
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
-from .inputs import Job, find_meshes, name_outputs
-from .out_folder import Journal, key_of
+from .inputs import Job, find_meshes, listed_meshes, name_outputs
+from .journal import Journal, key_of
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
 from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
@@ -79,16 +79,36 @@ class FolderRun:
 
     def run(self):
         """Returns the exit code."""
-        meshes, left_out = find_meshes(self.options.in_dir, self.out.path, lambda: self.stop_signal)
-        self.stop_if_told()
-        outputs = name_outputs(meshes, self.options.format)
-        jobs = [Job(name, mesh, outputs[name], self.options) for name, mesh in meshes.items()]
-        if not self.options.restart:
-            self.out.refuse_foreign_files(jobs, [INDEX, GALLERY] if self.options.html else [])
+        options, shard = self.options, self.options.shard
+        jobs, left_out = self.find_jobs()
+        if not options.restart:
+            self.out.refuse_foreign_files(jobs, [INDEX, GALLERY] if options.html and not shard else [])
         self.keys_of_jobs = {key_of(job.name) for job in jobs}
-        self.journal = Journal(self.out.journal_path, self.settings, self.options.restart)
+        others = [self.out.main_journal] if shard else self.out.journals_of_shards()
+        self.journal = Journal(self.out.path, self.out.journal_path, self.settings, options.restart, others,
+                               shard.holds if shard else None)
+        if others and not shard:
+            self.journal.take_over(others)
+            self.out.drop_shards()
         self.queue = collections.deque(self.without_finished(jobs))
         self.tell_start(jobs, left_out)
+        if not options.merge:
+            self.work_through(jobs)
+        return self.sum_up(jobs, left_out)
+
+    def find_jobs(self):
+        options = self.options
+        if options.list is None:
+            meshes, left_out = find_meshes(options.in_dir, self.out.path, lambda: self.stop_signal)
+        else:
+            meshes, left_out = listed_meshes(options.list, options.in_dir, self.out.path)
+        self.stop_if_told()
+        outputs = name_outputs(meshes, options.format)
+        if options.shard:
+            meshes = {name: mesh for name, mesh in meshes.items() if options.shard.holds(name)}
+        return [Job(name, mesh, outputs[name], options) for name, mesh in meshes.items()], left_out
+
+    def work_through(self, jobs):
         failed = sum(row["exit_code"] != DONE for row in self.rows.values())
         self.progress = Progress(len(jobs), len(self.rows), failed, self.options.quiet)
         try:
@@ -96,7 +116,6 @@ class FolderRun:
         finally:
             self.end_workers()
             self.progress.clear()
-        return self.sum_up(jobs, left_out)
 
     def without_finished(self, jobs):
         for job in jobs:
@@ -105,7 +124,7 @@ class FolderRun:
                 job.look()
             except OSError:
                 pass  # said when its turn comes
-            row = self.journal.finished_row(job)
+            row = self.journal.finished_row(job, also_failed=self.options.merge)
             if row:
                 self.rows[job.name] = row
             else:
@@ -121,7 +140,8 @@ class FolderRun:
             say(f"no mesh files in {text(self.options.in_dir)}")
         elif self.rows:
             say(f"{len(self.rows):,} of {len(jobs):,} files were finished before")
-        for name in sorted(self.journal.outputs() - {job.output for job in jobs}):
+        gone = set() if self.options.list else self.journal.outputs() - {job.output for job in jobs}
+        for name in sorted(gone):
             if os.path.lexists(os.path.join(self.out.path, name)):
                 say(f"warning: {text(name)} in OUT_DIR is of an earlier run, and of no input now")
 
@@ -150,7 +170,7 @@ class FolderRun:
         folder = os.path.join(self.out.work, b"%d" % self.serial)
         os.mkdir(folder)
         try:
-            worker = Worker(job, self.command, folder, self.out.lock, self.options.html)
+            worker = Worker(job, self.command, folder, self.out.locks, self.options.html)
         except (OSError, subprocess.SubprocessError) as error:
             row = job.row(INTERNAL, f"meshrepair cannot be started: {error}")
             return self.settle(job, row, final=False)
@@ -295,14 +315,17 @@ class FolderRun:
         rows = [self.rows[job.name] for job in jobs if job.name in self.rows]
         totals = totals_of(rows, len(jobs) - len(rows))
         elapsed = time.monotonic() - self.started
-        self.out.write(b"summary.csv", as_csv(rows))
-        self.out.write(b"summary.json", as_json(rows, totals, left_out, self.settings, elapsed))
-        self.write_gallery(jobs, totals)
+        # That of a shard is no summary of OUT_DIR.
+        folder = self.out.state if self.options.shard else self.out.path
+        self.out.write(b"summary.csv", as_csv(rows), folder)
+        self.out.write(b"summary.json", as_json(rows, totals, left_out, self.settings, elapsed), folder)
+        if not self.options.shard:
+            self.write_gallery(jobs, totals)
         if not self.options.quiet:
             print_to(sys.stdout, table(totals, elapsed))
         self.stop_if_told()
         has_unread_folder = any(name.endswith(b"/") for name in left_out)
-        all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_unread_folder
+        all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_unread_folder and not totals["not_done"]
         return DONE if all_passed else NOT_CERTIFIED
 
     def write_gallery(self, jobs, totals):

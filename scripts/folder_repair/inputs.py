@@ -8,7 +8,7 @@ import time
 import zipfile
 
 from .basics import (ARCHIVE, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, MEASURED, PACKINGS,
-                     READS_OTHERS, SAME_IN_EACH_RUN, text, value_of)
+                     READS_OTHERS, SAME_IN_EACH_RUN, USAGE, Stop, text, value_of)
 
 STATE = b".repair_folder"  # of a run, in its OUT_DIR; folders of this name are no input
 UNKNOWN = "unknown"  # how a file was when it was read; it is like no other
@@ -100,6 +100,47 @@ def find_meshes(folder, out_folder, stopped):
         except OSError as error:
             left_out[(current or b".") + b"/"] = f"cannot be read: {error.strerror}"
     return dict(sorted(meshes.items())), left_out
+
+
+def listed_meshes(path, folder, out_folder):
+    """The same of the files that a list names, one in each line, or each with a zero behind it. Names are relative to
+    the folder, or absolute and in it. Stop if one leads out of it."""
+    try:
+        with open(0 if path == b"-" else path, "rb", closefd=path != b"-") as file:
+            data = file.read()
+    except OSError as error:
+        raise Stop(USAGE, f"--list: {text(path)}: {error.strerror}") from None
+    meshes, left_out, out_identity = {}, {}, identity(out_folder)
+    for line in data.split(b"\0" if b"\0" in data else b"\n"):
+        if not line:
+            continue
+        name = os.path.relpath(os.path.normpath(os.path.join(folder, line)), folder)
+        if name.split(b"/")[0] == b"..":
+            raise Stop(USAGE, f"--list: {text(line)} is not in {text(folder)}")
+        kind = kind_of(NamedEntry(os.path.join(folder, name)), out_identity)
+        if kind == "mesh":
+            meshes[name] = split_name(name)[1]
+        elif isinstance(kind, bytes):
+            meshes[name] = kind
+        else:
+            left_out[name] = kind if kind not in (None, "folder") else "has not the name of a mesh"
+    return dict(sorted(meshes.items())), left_out
+
+
+class NamedEntry:
+    """What os.scandir() has of a file, by its name."""
+
+    def __init__(self, path):
+        self.path, self.name = path, os.path.basename(path)
+
+    def is_dir(self, follow_symlinks=True):
+        return os.path.isdir(self.path) and (follow_symlinks or not os.path.islink(self.path))
+
+    def is_symlink(self):
+        return os.path.islink(self.path)
+
+    def stat(self):
+        return os.stat(self.path)
 
 
 def folders_of(names):

@@ -1,20 +1,17 @@
 """OUT_DIR: its lock, its journal, and how files get into it."""
 
-import collections
 import errno
 import fcntl
 import filecmp
-import json
 import os
 import shutil
-import stat
 import time
 
-from .basics import MEASURED, NAME, OUTPUT, SAME_IN_EACH_RUN, USAGE, Stop, text
-from .gallery import is_place
+from .basics import NAME, OUTPUT, USAGE, Stop, text
 from .inputs import STATE
-from .pictures import may_be_written
+from .journal import outputs_in
 
+JOURNAL = b"journal.jsonl"
 LOCK_SECONDS = 2  # how long the workers of a killed run may take to die
 
 
@@ -29,26 +26,46 @@ def sync_folder(path):
 
 
 class OutFolder:
-    """OUT_DIR, locked as long as this process or one of its workers lives."""
+    """OUT_DIR, locked as long as this process or one of its workers lives.
 
-    def __init__(self, path):
+    A run of all files has it for itself. Runs of shards share it; each has its own journal, summary and room for
+    its workers in OUT_DIR/.repair_folder/shards, and a lock on them.
+    """
+
+    def __init__(self, path, shard=None):
         self.path = path
-        self.state = os.path.join(path, STATE)
+        whole = os.path.join(path, STATE)
+        self.shards = os.path.join(whole, b"shards")
+        self.state = os.path.join(self.shards, shard.folder) if shard else whole
         self.work = os.path.join(self.state, b"work")
-        self.journal_path = os.path.join(self.state, b"journal.jsonl")
+        self.journal_path = os.path.join(self.state, JOURNAL)
+        self.main_journal = os.path.join(whole, JOURNAL)
         os.makedirs(self.state, exist_ok=True)
-        self.lock = self.take_lock()
-        self.is_new = not os.path.exists(self.journal_path)
+        # Workers inherit the descriptors, so a run never meets those of one before.
+        self.locks = [self.take_lock(whole, fcntl.LOCK_SH if shard else fcntl.LOCK_EX)]
+        if shard:
+            self.locks.append(self.take_lock(self.state, fcntl.LOCK_EX))
+        self.is_new = not any(map(os.path.exists, (self.journal_path, self.main_journal)))
         self.clear_work()
 
-    def take_lock(self):
-        """The descriptor. Workers inherit it, so a run never meets those of one before."""
+    def drop_shards(self):
+        """Once all that their journals hold is in that of the whole."""
+        shutil.rmtree(self.shards, ignore_errors=True)
+
+    def journals_of_shards(self):
+        try:
+            return [os.path.join(self.shards, name, JOURNAL) for name in sorted(os.listdir(self.shards))]
+        except FileNotFoundError:
+            return []
+
+    def take_lock(self, folder, kind):
+        """The descriptor."""
         flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC
-        descriptor = os.open(os.path.join(self.state, b"lock"), flags, 0o666)
+        descriptor = os.open(os.path.join(folder, b"lock"), flags, 0o666)
         deadline = time.monotonic() + LOCK_SECONDS
         while True:
             try:
-                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                fcntl.flock(descriptor, kind | fcntl.LOCK_NB)
                 return descriptor
             except BlockingIOError:
                 if time.monotonic() > deadline:
@@ -62,8 +79,13 @@ class OutFolder:
 
     def refuse_foreign_files(self, jobs, others):
         """What no run of this script has written is not replaced unasked: outputs, and others with these names."""
-        there = [job.output for job in jobs if os.path.lexists(job.target)] if self.is_new else []
-        there += [name for name in others if self.is_new and os.path.lexists(os.path.join(self.path, name))]
+        if not self.is_new:
+            return
+        there = [job.output for job in jobs if os.path.lexists(job.target)]
+        if there:
+            known = outputs_in(self.journals_of_shards())
+            there = [name for name in there if name not in known]
+        there += [name for name in others if os.path.lexists(os.path.join(self.path, name)) and not self.journals_of_shards()]
         if there:
             raise Stop(USAGE, f"{text(self.path)} holds files that would be replaced and are not from "
                               f"{NAME}, {len(there):,} of them, such as {text(there[0])}: "
@@ -100,136 +122,11 @@ class OutFolder:
         if self.holds(target) and (os.path.isfile(target) or os.path.islink(target)):
             os.unlink(target)
 
-    def write(self, name, data):
-        """Atomically."""
+    def write(self, name, data, folder=None):
+        """Atomically; to OUT_DIR, or to another folder in it."""
         temporary = os.path.join(self.work, name)
         with open(temporary, "wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        self.take(temporary, os.path.join(self.path, name))
-
-
-def key_of(name):
-    """A name in the journal: bytes that are no UTF-8 as lone surrogates, which JSON can hold."""
-    return name.decode("utf-8", "surrogateescape")
-
-
-def bytes_of(key):
-    return key.encode("utf-8", "surrogateescape")
-
-
-class Journal:
-    """OUT_DIR/.repair_folder/journal.jsonl: what is finished, one JSON object in each line.
-
-    Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `beside`: names of the files that the output
-    needs beside it, and their sizes, if there are any; `pictures`: the same of copies of pictures; `size` and
-    `mtime_ns` of the input; `needs`: names of other files that it names, from its folder, with [size, mtime_ns] of
-    each, null where there is none, or "unknown"; `shown`: its page and picture in the gallery, and their sizes, and
-    `facts`, what the gallery says of it; `settings`: version of the program, first digits of its SHA-256, --format,
-    --html, options after --; `final`: not to be tried again; `row`: as in the summary. The last line of a path
-    counts. A line that is not whole counts for nothing; at the end of the file it is cut off before the next one
-    is written.
-    """
-
-    def __init__(self, path, settings, anew):
-        self.folder = os.path.dirname(os.path.dirname(path))
-        self.settings = settings
-        self.entries = {}
-        self.owners = collections.defaultdict(set)  # of the files beside outputs, and pictures: the inputs
-        flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC | (os.O_TRUNC if anew else 0)
-        self.descriptor = os.open(path, flags, 0o666)
-        with open(path, "rb") as file:
-            data = file.read()
-        end = data.rfind(b"\n") + 1
-        os.ftruncate(self.descriptor, end)
-        for line in data[:end].splitlines():
-            self.read(line)
-
-    def read(self, line):
-        try:
-            entry = json.loads(line)
-            if set(entry["row"]) == set(SAME_IN_EACH_RUN + MEASURED):
-                folder = os.path.dirname(entry["output"])
-                beside = entry.get("beside", {}).items()
-                entry["beside"] = {name: size for name, size in beside if os.path.dirname(name) == folder}
-                pictures = entry.get("pictures", {}).items()
-                entry["pictures"] = {name: size for name, size in pictures if may_be_written(bytes_of(name))}
-                shown = entry.get("shown", {}).items()
-                entry["shown"] = {name: size for name, size in shown if is_place(bytes_of(name))}
-                entry["facts"] = dict(entry.get("facts", {}))
-                entry["needs"] = dict(entry.get("needs", {}))
-                self.keep(entry)
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-            pass
-
-    def keep(self, entry):
-        for name in self.files_of(self.entries.get(entry["path"], {})):
-            self.owners[name].discard(entry["path"])
-        self.entries[entry["path"]] = entry
-        for name in self.files_of(entry):
-            self.owners[name].add(entry["path"])
-
-    @staticmethod
-    def files_of(entry):
-        """Names -> sizes of what is in OUT_DIR besides the output."""
-        return {**entry.get("beside", {}), **entry.get("pictures", {}), **entry.get("shown", {})}
-
-    def finished_row(self, job):
-        """The row of a job that need not be done again, or None. job.look() was called."""
-        entry = self.entries.get(key_of(job.name))
-        if entry is None or not entry.get("final") or entry.get("settings") != self.settings or \
-           entry.get("output") != key_of(job.output) or \
-           (entry.get("size"), entry.get("mtime_ns")) != (job.size, job.mtime_ns) or \
-           any(job.state_of(name) != state for name, state in entry.get("needs", {}).items()):
-            return None
-        promised = entry["row"]["bytes_out"]
-        is_whole = promised is None or self.is_there(job.target, promised) and all(
-            self.is_there(os.path.join(self.folder, bytes_of(name)), size)
-            for name, size in self.files_of(entry).items())
-        return entry["row"] if is_whole else None
-
-    @staticmethod
-    def is_there(target, size):
-        try:
-            status = os.lstat(target)
-        except OSError:
-            return False
-        return stat.S_ISREG(status.st_mode) and status.st_size == size
-
-    def entry_of(self, job):
-        return self.entries.get(key_of(job.name), {})
-
-    def files_beside(self, job):
-        """Names of what lies beside the output of the last run, and of its pictures."""
-        return {bytes_of(name) for name in self.files_of(self.entries.get(key_of(job.name), {}))}
-
-    def others_with(self, name, job, of_pictures=True):
-        """The inputs, as keys, whose outputs have this file beside them, or as a picture, but for the job's own."""
-        others = self.owners.get(key_of(name), set()) - {key_of(job.name)}
-        return {key for key in others if of_pictures or key_of(name) in self.entries[key].get("beside", {})}
-
-    def outputs(self):
-        """Names of what earlier runs have written, as far as the journal knows."""
-        return {bytes_of(entry["output"]) for entry in self.entries.values()
-                if entry["row"]["bytes_out"] is not None}
-
-    def add(self, job, row, final):
-        """On the disk when this returns; OSError if it cannot be."""
-        entry = {"path": key_of(job.name), "output": key_of(job.output), "size": job.size,
-                 "mtime_ns": job.mtime_ns, "settings": self.settings, "final": final, "row": row}
-        if row["output"] and job.beside:
-            entry["beside"] = {key_of(name): size for name, size in job.beside.items()}
-        if row["output"] and job.pictures:
-            entry["pictures"] = {key_of(name): size for name, size in job.pictures.items()}
-        if row["output"] and job.shown:
-            entry["shown"] = {key_of(name): size for name, size in job.shown.items()}
-            entry["facts"] = job.facts
-        if job.needs:
-            entry["needs"] = job.needs
-        data = json.dumps(entry).encode() + b"\n"
-        written = os.write(self.descriptor, data)
-        while written < len(data):  # the disk is full, and the next call says so
-            written += os.write(self.descriptor, data[written:])
-        os.fsync(self.descriptor)
-        self.keep(entry)
+        self.take(temporary, os.path.join(folder or self.path, name))

@@ -36,7 +36,7 @@ def bind_to_parent(parent):
 class Worker:
     """It writes into a folder of its own. OSError if it cannot be started."""
 
-    def __init__(self, job, command, folder, lock, has_page=False):
+    def __init__(self, job, command, folder, locks, has_page=False):
         self.job = job
         self.folder = folder
         self.pages = {b".html": folder + b".html", b".png": folder + b".png"} if has_page else {}  # of the gallery
@@ -53,7 +53,7 @@ class Worker:
             [*command, "--format", job.format, "--report", self.report_path, *shown, "--staging", folder,
              job.source, job.target],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-            start_new_session=True, pass_fds=(lock,), preexec_fn=lambda: bind_to_parent(parent))
+            start_new_session=True, pass_fds=locks, preexec_fn=lambda: bind_to_parent(parent))
         self.stderr = self.process.stderr.fileno()
         os.set_blocking(self.stderr, False)
 
