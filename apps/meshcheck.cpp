@@ -136,7 +136,7 @@ ExitCode check_mesh(Options& options, Run& run) {
     draw_picture_stage(options.picture, up_of(findings), {options.input},
                        {{input.soup, input.attributes}}, run, findings);
     write_html_stage(options.html, up_of(findings),
-                     {"input", {}, input.soup, std::move(verdict.check), {}},
+                     {"input", {}, input.soup, std::move(verdict.check)},
                      options.request.check.most_places, run, findings);
     run.progress.finish();
     if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
       ->group("Output");
   add_picture_options(app, options.picture, "IN");
-  add_html_options(app, options.html, "IN");
+  add_html_options(app, options.html, "IN, with all that is wrong");
   return program.run(argc, argv, [&](Run& run) {
     if (options.json) program.report_to_standard_output();
     return check_mesh(options, run);

@@ -68,7 +68,7 @@ void add_repair_command(CLI::App& app, RepairCommand& command) {
   add_certify_options(app, options.repair.certify, options.strict);
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
-  add_html_options(app, options.html, "IN and OUT");
+  add_html_options(app, options.html, "IN and OUT, with all that is wrong");
   add_point_repair_options(app, command.points);
 }
 

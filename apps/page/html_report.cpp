@@ -20,23 +20,9 @@
 namespace meshrepair {
 namespace {
 
-constexpr std::size_t kPlacesInReport = 10;  // of each defect
-
-std::string name_of(const std::string& path, const std::string& otherwise) {
-  return path == "-" ? otherwise : std::filesystem::path(path).filename().string();
-}
-
 bool is_html_name(const std::string& name) {
   const std::string extension = lower_extension(name);
   return extension == ".html" || extension == ".htm";
-}
-
-SurfaceCheck checked(const TriangleSoup& soup, Run& run) {
-  CheckOptions options;
-  options.most_places = kMostPagePlaces;
-  options.mark_triangles = true;
-  options.progress = &run.progress;
-  return check_surface(soup, options);
 }
 
 template <class Kind>
@@ -54,54 +40,93 @@ Json sections_of(const Findings& findings) {
   return report.take_sections();
 }
 
-void write_page(const HtmlRequest& request, View::Up up, std::vector<ShownMesh> meshes,
-                std::size_t places, Run& run, const Findings& findings) {
-  std::vector<const TriangleSoup*> soups;
-  soups.reserve(meshes.size());
-  for (const ShownMesh& mesh : meshes) soups.push_back(&mesh.soup);
-  const PageGrid grid = grid_of(soups);
-  Json section = {{"path", request.path}};
-  Json facts = Json::array();
-  std::vector<std::string> packed;
-  for (ShownMesh& mesh : meshes) {
-    const std::vector<std::uint32_t> chosen =
-        choose_triangles(mesh.soup, mesh.check.marks, request.most_triangles);
-    packed.push_back(
-        pack_mesh(mesh.soup, chosen, mesh.kind_of, mesh.check.marks, grid, &run.progress));
-    SurfaceCheck few = mesh.check;
-    keep_places(few, places);
-    const Json check = check_section(few);
-    section[std::string(mesh.role)] = {{"triangles_shown", chosen.size()}, {"check", check}};
-    facts.push_back(facts_of(mesh, check, chosen.size(), grid));
+// Of the mesh, for the report and for the page; packs what is drawn of it.
+struct PageMesh {
+  Json section;
+  Json facts;
+  std::string packed;
+};
+
+PageMesh page_mesh(ShownMesh& mesh, const HtmlRequest& request, std::size_t places,
+                   const PageGrid& grid, Run& run) {
+  if (!mesh.drawn) {
+    mesh.drawn = drawn_mesh(mesh.soup, mesh.kind_of,
+                            mesh.check ? mesh.check->marks : std::vector<std::uint16_t>(),
+                            request.most_triangles);
   }
-  const Json page = {{"program", "meshrepair"},
-                     {"version", program_version()},
-                     {"up", up == View::Up::y ? "y" : "z"},
-                     {"units", units_text(findings.unit)},
-                     {"grid",
-                      {{"bits", PageGrid::kBits},
-                       {"low", {grid.low.x(), grid.low.y(), grid.low.z()}},
-                       {"half", grid.half},
-                       {"high", grid.high}}},
-                     {"looks", looks_of_defects()},
-                     {"meshes", std::move(facts)},
-                     {"report", sections_of(findings)}};
-  write_file_atomically(request.path, html_page(page, packed), &run.progress);
-  run.report.set_section("html", std::move(section));
+  PageMesh page;
+  page.section = {{"triangles_shown", mesh.drawn->soup.triangles.size()}};
+  Json check;
+  if (mesh.check) {
+    SurfaceCheck few = *mesh.check;
+    keep_places(few, places);
+    check = check_section(few);
+    page.section["check"] = check;
+  }
+  page.facts = facts_of(mesh, std::move(check), grid);
+  page.packed = pack_mesh(*mesh.drawn, grid, &run.progress);
+  mesh.drawn.reset();
+  return page;
+}
+
+Json json_of(const PageGrid& grid) {
+  return {{"bits", PageGrid::kBits},
+          {"low", {grid.low.x(), grid.low.y(), grid.low.z()}},
+          {"half", grid.half},
+          {"high", grid.high}};
 }
 
 }  // namespace
 
+std::string page_name(const std::string& path, const std::string& otherwise) {
+  return path == "-" ? otherwise : std::filesystem::path(path).filename().string();
+}
+
+SurfaceCheck check_for_page(const TriangleSoup& soup, Run& run) {
+  CheckOptions options;
+  options.most_places = kMostPagePlaces;
+  options.mark_triangles = true;
+  options.progress = &run.progress;
+  return check_surface(soup, options);
+}
+
+PageGrid grid_of(const std::vector<ShownMesh>& meshes) {
+  std::vector<const TriangleSoup*> soups;
+  soups.reserve(meshes.size());
+  for (const ShownMesh& mesh : meshes) soups.push_back(&mesh.soup);
+  return grid_of(soups);
+}
+
+void write_page(const HtmlRequest& request, PageContent content, Run& run) {
+  const PageGrid grid = grid_of(content.meshes);
+  Json section = {{"path", request.path}};
+  Json facts = Json::array();
+  std::vector<std::string> packed;
+  for (ShownMesh& mesh : content.meshes) {
+    PageMesh page = page_mesh(mesh, request, content.places, grid, run);
+    section[std::string(mesh.role)] = std::move(page.section);
+    facts.push_back(std::move(page.facts));
+    packed.push_back(std::move(page.packed));
+  }
+  Json page = {{"program", "meshrepair"},           {"version", program_version()},
+               {"subject", content.subject},        {"up", content.up == View::Up::y ? "y" : "z"},
+               {"units", units_text(content.unit)}, {"grid", json_of(grid)},
+               {"looks", looks_of_defects()},       {"meshes", std::move(facts)}};
+  page.update(content.more);
+  page["report"] = std::move(content.report);
+  write_file_atomically(request.path, html_page(page, packed), &run.progress);
+  run.report.set_section("html", std::move(section));
+}
+
 void add_html_options(CLI::App& app, HtmlRequest& request, const std::string& what) {
   app.add_option("--html", request.path,
-                 "Write a page for browsers that shows " + what +
-                     ", with all that is wrong, to be\nturned and cut open")
+                 "Write a page for browsers that shows " + what + ", to be\nturned and cut open")
       ->check(names_file(".html, .htm"))
       ->type_name("FILE")
       ->group("Page");
   app.add_option("--html-triangles", request.most_triangles,
-                 "Draw no more triangles of a mesh: all that are at fault, and every so many of\n"
-                 "the others")
+                 "Draw no more triangles of a mesh: all that are at fault, and the others\n"
+                 "simplified")
       ->check(count_between(1))
       ->type_name("N")
       ->capture_default_str()
@@ -123,12 +148,15 @@ void write_html_stage(const HtmlRequest& request, View::Up up, const TriangleSou
   StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
   meter.begin("html");
   const RepairExplanation& explanation = findings.repair.explanation;
-  std::vector<ShownMesh> meshes;
-  meshes.push_back({"input", name_of(findings.input, findings.input_name()), input,
-                    checked(input, run), kinds_of_fates(), numbers_of(explanation.fates)});
-  meshes.push_back({"result", name_of(findings.output, findings.output_name()), result,
-                    checked(result, run), kinds_of_origins(), numbers_of(explanation.origins)});
-  write_page(request, up, std::move(meshes), kPlacesInReport, run, findings);
+  PageContent content{"repair", up, findings.unit};
+  content.meshes.push_back({"input", page_name(findings.input, findings.input_name()), input,
+                            check_for_page(input, run), page_kinds(kinds_of_fates()),
+                            numbers_of(explanation.fates)});
+  content.meshes.push_back({"result", page_name(findings.output, findings.output_name()), result,
+                            check_for_page(result, run), page_kinds(kinds_of_origins()),
+                            numbers_of(explanation.origins)});
+  content.report = sections_of(findings);
+  write_page(request, std::move(content), run);
 }
 
 void write_html_stage(const HtmlRequest& request, View::Up up, ShownMesh mesh, std::size_t places,
@@ -136,10 +164,12 @@ void write_html_stage(const HtmlRequest& request, View::Up up, ShownMesh mesh, s
   if (!request.wanted()) return;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("html");
-  mesh.name = name_of(findings.input, findings.input_name());
-  std::vector<ShownMesh> meshes;
-  meshes.push_back(std::move(mesh));
-  write_page(request, up, std::move(meshes), places, run, findings);
+  mesh.name = page_name(findings.input, findings.input_name());
+  PageContent content{"check", up, findings.unit};
+  content.meshes.push_back(std::move(mesh));
+  content.places = places;
+  content.report = sections_of(findings);
+  write_page(request, std::move(content), run);
 }
 
 }  // namespace meshrepair

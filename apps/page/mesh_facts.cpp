@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <base/assert.h>
 
@@ -23,7 +24,7 @@ bool is_of_edges(Defect defect) {
 Json places_of(const ShownMesh& mesh, Defect defect, const PageGrid& grid) {
   Json at = Json::array();
   Json ends = Json::array();
-  const std::vector<Place>& places = mesh.check[defect].first;
+  const std::vector<Place>& places = (*mesh.check)[defect].first;
   for (std::size_t i = 0; i < std::min(kMostPagePlaces, places.size()); ++i) {
     if (!places[i].at.allFinite()) continue;
     append(grid.steps_of(places[i].at), at);
@@ -35,6 +36,7 @@ Json places_of(const ShownMesh& mesh, Defect defect, const PageGrid& grid) {
 
 Json places_of(const ShownMesh& mesh, const PageGrid& grid) {
   Json all = Json::object();
+  if (!mesh.check) return all;
   for (std::size_t d = 0; d < kDefects; ++d) {
     const auto defect = static_cast<Defect>(d);
     all[std::string(defect_name(defect))] = places_of(mesh, defect, grid);
@@ -47,11 +49,9 @@ Json kinds_of(const ShownMesh& mesh) {
   for (const std::uint32_t kind : mesh.kind_of) ++counts[kind];
   Json list = Json::array();
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    const TriangleKind& kind = mesh.kinds[k];
-    list.push_back({{"key", kind.name},
-                    {"words", kind.meaning},
-                    {"colour", kind.colour},
-                    {"count", counts[k]}});
+    const PageKind& kind = mesh.kinds[k];
+    list.push_back(
+        {{"key", kind.key}, {"words", kind.words}, {"colour", kind.colour}, {"count", counts[k]}});
   }
   return list;
 }
@@ -61,7 +61,7 @@ Json part_places(const ShownMesh& mesh, std::size_t listed, const PageGrid& grid
   Json list = Json::array();
   for (std::size_t i = 0; i < listed; ++i) {
     Vec3d middle = Vec3d::Zero();
-    for (const std::uint32_t p : mesh.soup.triangles[mesh.check.parts[i].first_triangle]) {
+    for (const std::uint32_t p : mesh.soup.triangles[mesh.check->parts[i].first_triangle]) {
       middle += mesh.soup.points[p] / 3;
     }
     Json place = Json::array();
@@ -79,14 +79,31 @@ void keep_places(SurfaceCheck& check, std::size_t most) {
   }
 }
 
-Json facts_of(const ShownMesh& mesh, Json section, std::size_t shown, const PageGrid& grid) {
-  MESHREPAIR_ASSERT(mesh.kinds.empty() || mesh.kind_of.size() == mesh.soup.triangles.size());
-  const std::size_t listed = section["first_parts"].size();
+std::vector<PageKind> page_kinds(const std::vector<TriangleKind>& kinds) {
+  std::vector<PageKind> list;
+  for (const TriangleKind& kind : kinds) {
+    list.push_back({std::string(kind.name), std::string(kind.meaning), kind.colour});
+  }
+  return list;
+}
+
+Json facts_of(const ShownMesh& mesh, Json section, const PageGrid& grid) {
+  const TriangleSoup& soup = mesh.soup;
+  MESHREPAIR_ASSERT(mesh.kinds.empty() || mesh.kind_of.size() == soup.triangles.size());
+  MESHREPAIR_ASSERT(mesh.drawn.has_value());
+  std::size_t not_finite = 0;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+    not_finite += is_finite(soup, t) ? 0 : 1;
+  const std::size_t listed = section.is_null() ? 0 : section["first_parts"].size();
   return {{"role", mesh.role},
           {"name", mesh.name},
-          {"shown", shown},
-          {"not_finite", mesh.check[Defect::not_finite_triangle].count},
-          {"size", sides_of(mesh.soup, grid)},
+          {"triangles", soup.triangles.size()},
+          {"points", soup.points.size()},
+          {"shown", mesh.drawn->soup.triangles.size()},
+          {"simplified", mesh.drawn->is_simplified},
+          {"has_values", !mesh.drawn->values.empty()},
+          {"not_finite", not_finite},
+          {"size", sides_of(soup, grid)},
           {"kinds", kinds_of(mesh)},
           {"places", places_of(mesh, grid)},
           {"part_places", part_places(mesh, listed, grid)},

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What meshrepair and meshcheck write with --html: one page that needs nothing else, whatever is in names and meshes.
+"""What programs write with --html: one page that needs nothing else, whatever is in names and meshes.
 
 Usage: html_test.py PROGRAMS
 """
@@ -75,8 +75,8 @@ class Numbers:
         return (value >> 1) ^ -(value & 1)
 
 
-def unpack(text: str, triangles: int) -> tuple[list[int], list[list[int]], list[int], list[int]]:
-    """Corners, places, kinds and marks."""
+def unpack(text: str, triangles: int, has_values: bool = False) -> tuple[list[int], list[list[int]], list[int], list[int]]:
+    """Corners, places, kinds and marks, or instead of marks the values of points."""
     numbers = Numbers(text)
     corners: list[int] = []
     points = 0
@@ -93,8 +93,9 @@ def unpack(text: str, triangles: int) -> tuple[list[int], list[list[int]], list[
         axes.append(axis)
     kinds = [numbers.next() for _ in range(triangles)]
     marks = [numbers.next() for _ in range(triangles)]
+    values = [numbers.next() for _ in range(points)] if has_values else []
     assert numbers.at == len(numbers.bytes)
-    return corners, [list(place) for place in zip(*axes)], kinds, marks
+    return corners, [list(place) for place in zip(*axes)], kinds, values if has_values else marks
 
 
 class Pages(unittest.TestCase):
@@ -202,9 +203,81 @@ class Pages(unittest.TestCase):
         faults = sum(mark > 0 for mark in marks)
         for limit in (faults + 100, faults - 100):
             report = self.repaired(MESHES / "broken_torus_box.stl", "--html-triangles", str(limit))
-            self.assertEqual(report["html"]["input"]["triangles_shown"], limit)
-            *_, marks = unpack(Elements(self.page()).scripts["mesh-0"], limit)
+            shown = report["html"]["input"]["triangles_shown"]
+            self.assertLessEqual(shown, limit)
+            self.assertTrue(self.facts()["meshes"][0]["simplified"])
+            *_, marks = unpack(Elements(self.page()).scripts["mesh-0"], shown)
             self.assertEqual(sum(mark > 0 for mark in marks), min(limit, faults))
+
+    def combined(self, *command: str | pathlib.Path) -> dict:
+        self.assertEqual(self.run_program("bspbool", *command, "-o", "out.obj", "--html", "p.html", "--report", "r.json"), 0)
+        return json.loads((self.folder / "r.json").read_text(encoding="utf-8"))
+
+    def test_operands_are_checked_alone_and_told_apart(self):
+        # They cross each other; neither crosses itself.
+        report = self.combined(MESHES / "hollow_sphere.obj", MESHES / "cube.stl", "--op", "union")
+        self.assertTrue(report["html"]["input"]["check"]["valid_solid"])
+        self.assertEqual(report["html"]["input"]["check"]["parts"], 3)
+        facts = self.facts()
+        self.assertEqual([operand["name"] for operand in facts["operands"]], ["hollow_sphere.obj", "cube.stl"])
+        given, made = facts["meshes"]
+        self.assertEqual([kind["count"] for kind in given["kinds"]], [1116, 12, 0])
+        self.assertEqual(sum(kind["count"] for kind in made["kinds"]), made["triangles"])
+        *_, kinds, _ = unpack(Elements(self.page()).scripts["mesh-0"], given["shown"])
+        self.assertEqual(kinds, [0] * 1116 + [1] * 12)
+
+    def test_faults_of_operands_are_where_they_are(self):
+        self.combined(MESHES / "cube.stl", MESHES / "broken_torus_box.stl", "--op", "union")
+        both = self.facts()
+        self.assertEqual(self.run_program("meshcheck", MESHES / "broken_torus_box.stl", "--html", "p.html", "--report", "c.json"), 1)
+        alone = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))["check"]
+        for key, defect in both["meshes"][0]["check"]["defects"].items():
+            self.assertEqual(defect["count"], alone["defects"][key]["count"], key)
+            for one, other in zip(defect["first"], alone["defects"][key]["first"]):
+                shift = 8 if "points" in one else 12
+                ids = "points" if "points" in one else "triangles"
+                self.assertEqual([number - shift for number in one[ids]], other[ids], key)
+                self.assertEqual(one["at"], other["at"])
+
+    def test_each_place_has_its_distance(self):
+        report = self.folder / "r.json"
+        self.assertEqual(self.run_program("meshdist", MESHES / "cube.stl", MESHES / "hollow_sphere.obj", "--html", "p.html", "--report",
+                                          report), 0)
+        distance = json.loads(report.read_text(encoding="utf-8"))["distance"]
+        facts = self.facts()
+        for way, key in zip(facts["ways"], ("a_to_b", "b_to_a")):
+            self.assertEqual((way["mean"], way["rms"], way["largest"]), tuple(distance[key][name] for name in ("mean", "rms", "hausdorff")))
+        self.assertEqual(facts["scale"]["most"], distance["hausdorff"])
+        cube = facts["meshes"][0]
+        self.assertGreater(cube["shown"], cube["triangles"])
+        _, places, _, values = unpack(Elements(self.page()).scripts["mesh-0"], cube["shown"], True)
+        self.assertEqual(len(values), len(places))
+        by_place = {tuple(place): value / facts["scale"]["steps"] * facts["scale"]["most"] for place, value in zip(places, values)}
+        grid = facts["grid"]
+        for place, value in by_place.items():
+            own = [grid["low"][k] + place[k] / MOST * 2 * grid["half"] for k in range(3)]
+            radius = sum(x * x for x in own) ** 0.5
+            # The sphere has a radius of 1, its cavity of 0.6; both are many flat triangles.
+            self.assertAlmostEqual(value, min(abs(1 - radius), abs(0.6 - radius)), delta=0.05)
+
+    def test_pages_of_all_programs_have_the_same_bytes_on_any_number_of_threads(self):
+        names = (MESHES / "hollow_sphere.obj", MESHES / "broken_torus_box.stl")
+        for program, *more in (("bspbool", "--op", "union", "-o", "out.obj"), ("meshdist", "--samples", "5000")):
+            pages = set()
+            for threads in ("1", "4"):
+                self.assertEqual(self.run_program(program, *names, *more, "--html", "p.html", "--threads", threads), 0)
+                pages.add(self.page())
+            self.assertEqual(len(pages), 1, program)
+
+    def test_names_of_all_programs_are_no_markup(self):
+        (self.folder / HOSTILE).write_bytes((MESHES / "cube.stl").read_bytes())
+        for program, *more in (("bspbool", "--op", "union", "-o", "out.obj"), ("meshdist",)):
+            self.assertEqual(self.run_program(program, MESHES / "cube.stl", MESHES / "cube.stl", *more, "--html", "p.html"), 0)
+            expected = Elements(self.page()).names
+            self.assertEqual(self.run_program(program, HOSTILE, MESHES / "cube.stl", *more, "--html", "p.html"), 0)
+            self.assertEqual(Elements(self.page()).names, expected)
+            facts = self.facts()
+            self.assertIn(HOSTILE, [named["name"] for named in facts["meshes"] + facts.get("operands", [])])
 
     def write_obj(self, points: list[str], faces: list[str]) -> None:
         text = "".join(f"v {p}\n" for p in points) + "".join(f"f {f}\n" for f in faces)

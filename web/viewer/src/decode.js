@@ -26,8 +26,8 @@ class Numbers {
   }
 }
 
-// `facts` has the numbers of points and triangles. Corners are numbers of points, three a triangle; places are steps of the grid,
-// three a point; kinds and marks have one entry a triangle.
+// `facts` says how many triangles there are. Corners are numbers of points, three a triangle; places are steps of the grid, three a
+// point; kinds and marks have one entry a triangle; values, if there are any, one a point.
 export async function decodeMesh(base64, facts) {
   const numbers = new Numbers(await unpack(base64));
   const corners = new Uint32Array(3 * facts.shown);
@@ -41,9 +41,9 @@ export async function decodeMesh(base64, facts) {
     let value = 0;
     for (let p = 0; p < points; ++p) places[3 * p + axis] = value += numbers.nextSigned();
   }
-  const kinds = Uint8Array.from({length: facts.shown}, () => numbers.next());
-  const marks = Uint16Array.from({length: facts.shown}, () => numbers.next());
-  return {corners, places, kinds, marks};
+  const list = (length) => Uint32Array.from({length}, () => numbers.next());
+  const [kinds, marks] = [list(facts.shown), list(facts.shown)];
+  return {corners, places, kinds, marks, values: facts.has_values ? list(points) : null};
 }
 
 // From steps of the grid to the mesh's own units, and to the box that is drawn: its centre is 0, its largest side 2.
