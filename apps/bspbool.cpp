@@ -87,8 +87,8 @@ Operand read_mesh_operand(const BoolOptions& options, const RepairOptions& repai
   const PictureRequest& picture = options.command.step.picture;
   ReadOptions reading = read_options(run);
   reading.may_be_empty = true;
-  reading.attributes =
-      options.command.step.assets.attributes && (options.carries_attributes || picture.wanted());
+  reading.attributes = options.command.step.assets.attributes &&
+                       (options.carries_attributes || shows_operands(options));
   auto [soup, attributes, scene, report] = read_mesh_stage(reading, run, findings);
   intake.unit.apply(findings.unit, soup);
   check_picture(picture, attributes);
@@ -182,8 +182,14 @@ ExitCode write_mesh_result(const Surface& surface, const JoinedMeshes& operands,
   draw_picture_stage(options.command.step.picture, given.up, options.command.inputs,
                      {{given.soup, given.attributes}, {surface.mesh, attributes}}, run, findings);
   write_boolean_page_stage(options.command.step.html,
-                           {given.operands, given.soup, surface, given.up, format.extras.unit}, run,
-                           findings);
+                           {given.operands,
+                            {given.soup, given.attributes},
+                            surface,
+                            attributes,
+                            options.command.inputs,
+                            given.up,
+                            format.extras.unit},
+                           run, findings);
   if (!findings.withheld) print_result(options, findings.repair, what_was_written(surface), run);
   return verdict(run, findings);
 }

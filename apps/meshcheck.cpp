@@ -135,9 +135,10 @@ ExitCode check_mesh(Options& options, Run& run) {
     place_instances(input.soup, input.attributes, input.scene);
     draw_picture_stage(options.picture, up_of(findings), {options.input},
                        {{input.soup, input.attributes}}, run, findings);
-    write_html_stage(options.html, up_of(findings),
-                     {"input", {}, input.soup, std::move(verdict.check)},
-                     options.request.check.most_places, run, findings);
+    write_html_stage(
+        options.html, up_of(findings),
+        {"input", {}, input.soup, std::move(verdict.check), {}, {}, {}, &input.attributes},
+        options.request.check.most_places, run, findings);
     run.progress.finish();
     if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
     return verdict.is_valid ? ExitCode::done : ExitCode::not_certified;

@@ -76,11 +76,12 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   const StepOptions& options = command.steps;
   WriteOptions format = mesh_format(options);
   ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
-  // A picture shows also what the output cannot hold.
-  if (options.picture.wanted()) reading.attributes = options.assets.attributes;
+  // Pictures and pages show also what the output cannot hold.
+  const bool is_shown = options.picture.wanted() || options.html.wanted();
+  if (is_shown) reading.attributes = options.assets.attributes;
   AnySoup input = read_any_stage(command.points, reading, run, findings);
   check_picture(options.picture, input.attributes);
-  const Attributes given = options.picture.wanted() ? input.attributes : Attributes();
+  const Attributes given = is_shown ? input.attributes : Attributes();
   input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options);
@@ -98,7 +99,8 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   write_explanation_stage(options.explained, {input.soup, {}}, {surface.mesh, {}}, run, findings);
   draw_picture_stage(options.picture, up_of(findings), {options.input},
                      {{input.soup, given}, {surface.mesh, attributes}}, run, findings);
-  write_html_stage(options.html, up_of(findings), input.soup, surface.mesh, run, findings);
+  write_html_stage(options.html, up_of(findings), {input.soup, given}, {surface.mesh, attributes},
+                   run, findings);
 }
 
 RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run& run,

@@ -87,7 +87,7 @@ SurfaceCheck check_operands(const BooleanPage& page, Run& run, Json& list) {
   SurfaceCheck all;
   for (const GivenOperand& operand : page.operands) {
     SurfaceCheck check =
-        check_for_page(soup_of(page.given, operand, all.points, all.triangles), run);
+        check_for_page(soup_of(page.given.soup, operand, all.points, all.triangles), run);
     Json volume = nullptr;
     if (check.closed()) volume = check.volume;
     list.push_back({{"name", operand.name},
@@ -111,7 +111,7 @@ std::vector<PageKind> kinds_of_operands(const BooleanPage& page) {
 
 std::vector<std::uint32_t> kinds_of_given(const BooleanPage& page) {
   std::vector<std::uint32_t> kinds;
-  kinds.reserve(page.given.triangles.size());
+  kinds.reserve(page.given.soup.triangles.size());
   for (std::uint32_t i = 0; i < page.operands.size(); ++i) {
     kinds.insert(kinds.end(), page.operands[i].triangles, i);
   }
@@ -148,12 +148,23 @@ void write_boolean_page_stage(const HtmlRequest& request, const BooleanPage& pag
   meter.begin("html");
   Json operands = Json::array();
   PageContent content{"boolean", page.up, page.unit};
-  content.meshes.push_back({"input", fmt::format("{} meshes", page.operands.size()), page.given,
-                            check_operands(page, run, operands), kinds_of_operands(page),
-                            kinds_of_given(page)});
-  content.meshes.push_back({"result", page_name(findings.output, findings.output_name()),
-                            page.result.mesh, check_for_page(page.result.mesh, run),
-                            kinds_of_operands(page), kinds_of_result(page)});
+  content.meshes.push_back({"input",
+                            fmt::format("{} meshes", page.operands.size()),
+                            page.given.soup,
+                            check_operands(page, run, operands),
+                            kinds_of_operands(page),
+                            kinds_of_given(page),
+                            {},
+                            &page.given.attributes});
+  content.meshes.push_back({"result",
+                            page_name(findings.output, findings.output_name()),
+                            page.result.mesh,
+                            check_for_page(page.result.mesh, run),
+                            kinds_of_operands(page),
+                            kinds_of_result(page),
+                            {},
+                            &page.result_attributes});
+  content.inputs = page.inputs;
   content.more = {{"operands", operands}};
   content.report = sections_of_result(findings, operands);
   write_page(request, std::move(content), run);

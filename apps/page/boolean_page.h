@@ -23,8 +23,10 @@ struct GivenOperand {
 
 struct BooleanPage {
   const std::vector<GivenOperand>& operands;
-  const TriangleSoup& given;  // all of them
-  const Surface& result;      // its sources count through the triangles of all solids
+  const Drawn given;      // all of them
+  const Surface& result;  // its sources count through the triangles of all solids
+  const Attributes& result_attributes;
+  const std::vector<std::string>& inputs;  // files of the operands
   View::Up up = View::Up::z;
   std::optional<LengthUnit> unit;
 };

@@ -55,6 +55,7 @@ DrawnMesh drawn_mesh(const TriangleSoup& soup, std::span<const std::uint32_t> ki
   mesh.soup = std::move(drawn.soup);
   mesh.kinds = taken(kinds, drawn.source);
   mesh.marks = taken(marks, drawn.source);
+  mesh.source = std::move(drawn.source);
   return mesh;
 }
 

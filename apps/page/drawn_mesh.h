@@ -15,6 +15,7 @@ struct DrawnMesh {
   std::vector<std::uint32_t> kinds;   // of each triangle; none at all: all are 0
   std::vector<std::uint16_t> marks;   // likewise: bit d for Defect d
   std::vector<std::uint32_t> values;  // of each point; none at all: there are none
+  std::vector<std::uint32_t> source;  // of each triangle, its number in the mesh; ascending
   bool is_simplified = false;         // not all triangles, or others, are there
 };
 

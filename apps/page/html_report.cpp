@@ -16,6 +16,8 @@
 #include "common/side_file.h"
 #include "common/summary.h"
 #include "page/html_page.h"
+#include "page/pack_looks.h"
+#include "page/page_pictures.h"
 
 namespace meshrepair {
 namespace {
@@ -40,34 +42,70 @@ Json sections_of(const Findings& findings) {
   return report.take_sections();
 }
 
-// Of the mesh, for the report and for the page; packs what is drawn of it.
-struct PageMesh {
-  Json section;
-  Json facts;
-  std::string packed;
-};
+// Makes the page of its meshes, one after the other.
+class PageMaker {
+ public:
+  PageMaker(const HtmlRequest& request, const PageContent& content, Run& run)
+      : request_(request),
+        places_(content.places),
+        grid_(grid_of(content.meshes)),
+        run_(run),
+        pictures_(content.inputs) {}
 
-PageMesh page_mesh(ShownMesh& mesh, const HtmlRequest& request, std::size_t places,
-                   const PageGrid& grid, Run& run) {
-  if (!mesh.drawn) {
-    mesh.drawn = drawn_mesh(mesh.soup, mesh.kind_of,
-                            mesh.check ? mesh.check->marks : std::vector<std::uint16_t>(),
-                            request.most_triangles);
+  // Packs what is drawn of it; gives its section of the report.
+  Json add(ShownMesh& mesh) {
+    if (!mesh.drawn) {
+      mesh.drawn = drawn_mesh(mesh.soup, mesh.kind_of,
+                              mesh.check ? mesh.check->marks : std::vector<std::uint16_t>(),
+                              request_.most_triangles);
+    }
+    Json section = {{"triangles_shown", mesh.drawn->soup.triangles.size()}};
+    Json check;
+    if (mesh.check) {
+      SurfaceCheck few = *mesh.check;
+      keep_places(few, places_);
+      check = check_section(few);
+      section["check"] = check;
+    }
+    Json facts = facts_of(mesh, std::move(check), grid_);
+    const std::string number = std::to_string(facts_.size());
+    texts_.push_back({"mesh-" + number, pack_mesh(*mesh.drawn, grid_, &run_.progress)});
+    add_looks(mesh, number, facts);
+    facts_.push_back(std::move(facts));
+    mesh.drawn.reset();
+    return section;
   }
-  PageMesh page;
-  page.section = {{"triangles_shown", mesh.drawn->soup.triangles.size()}};
-  Json check;
-  if (mesh.check) {
-    SurfaceCheck few = *mesh.check;
-    keep_places(few, places);
-    check = check_section(few);
-    page.section["check"] = check;
+
+  [[nodiscard]] const PageGrid& grid() const { return grid_; }
+  [[nodiscard]] const Json& facts() const { return facts_; }
+  [[nodiscard]] const Json& left_out() const { return pictures_.left_out(); }
+
+  // Of all meshes, and the pictures that they have.
+  [[nodiscard]] std::vector<PageText> texts() {
+    for (std::size_t i = 0; i < pictures_.texts().size(); ++i) {
+      texts_.push_back({"picture-" + std::to_string(i), pictures_.texts()[i]});
+    }
+    return std::move(texts_);
   }
-  page.facts = facts_of(mesh, std::move(check), grid);
-  page.packed = pack_mesh(*mesh.drawn, grid, &run.progress);
-  mesh.drawn.reset();
-  return page;
-}
+
+ private:
+  void add_looks(const ShownMesh& mesh, const std::string& number, Json& facts) {
+    facts["looks"] = nullptr;
+    if (mesh.attributes == nullptr) return;
+    auto looks = pack_looks(*mesh.attributes, *mesh.drawn, pictures_, &run_.progress);
+    if (!looks) return;
+    facts["looks"] = std::move(looks->facts);
+    texts_.push_back({"looks-" + number, std::move(looks->text)});
+  }
+
+  const HtmlRequest& request_;
+  std::size_t places_;  // of each defect, in the report
+  PageGrid grid_;
+  Run& run_;
+  PagePictures pictures_;
+  Json facts_ = Json::array();
+  std::vector<PageText> texts_;
+};
 
 Json json_of(const PageGrid& grid) {
   return {{"bits", PageGrid::kBits},
@@ -98,23 +136,17 @@ PageGrid grid_of(const std::vector<ShownMesh>& meshes) {
 }
 
 void write_page(const HtmlRequest& request, PageContent content, Run& run) {
-  const PageGrid grid = grid_of(content.meshes);
+  PageMaker maker(request, content, run);
   Json section = {{"path", request.path}};
-  Json facts = Json::array();
-  std::vector<std::string> packed;
-  for (ShownMesh& mesh : content.meshes) {
-    PageMesh page = page_mesh(mesh, request, content.places, grid, run);
-    section[std::string(mesh.role)] = std::move(page.section);
-    facts.push_back(std::move(page.facts));
-    packed.push_back(std::move(page.packed));
-  }
+  for (ShownMesh& mesh : content.meshes) section[std::string(mesh.role)] = maker.add(mesh);
   Json page = {{"program", "meshrepair"},           {"version", program_version()},
                {"subject", content.subject},        {"up", content.up == View::Up::y ? "y" : "z"},
-               {"units", units_text(content.unit)}, {"grid", json_of(grid)},
-               {"looks", looks_of_defects()},       {"meshes", std::move(facts)}};
+               {"units", units_text(content.unit)}, {"grid", json_of(maker.grid())},
+               {"looks", looks_of_defects()},       {"meshes", maker.facts()},
+               {"left_out", maker.left_out()}};
   page.update(content.more);
   page["report"] = std::move(content.report);
-  write_file_atomically(request.path, html_page(page, packed), &run.progress);
+  write_file_atomically(request.path, html_page(page, maker.texts()), &run.progress);
   run.report.set_section("html", std::move(section));
 }
 
@@ -142,19 +174,30 @@ void check_html(const HtmlRequest& request, bool by_mesh, const std::vector<std:
   check_side_file({"--html", path, "page"}, files, run);
 }
 
-void write_html_stage(const HtmlRequest& request, View::Up up, const TriangleSoup& input,
-                      const TriangleSoup& result, Run& run, Findings& findings) {
+void write_html_stage(const HtmlRequest& request, View::Up up, const Drawn& input,
+                      const Drawn& result, Run& run, Findings& findings) {
   if (!request.wanted()) return;
   StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
   meter.begin("html");
   const RepairExplanation& explanation = findings.repair.explanation;
   PageContent content{"repair", up, findings.unit};
-  content.meshes.push_back({"input", page_name(findings.input, findings.input_name()), input,
-                            check_for_page(input, run), page_kinds(kinds_of_fates()),
-                            numbers_of(explanation.fates)});
-  content.meshes.push_back({"result", page_name(findings.output, findings.output_name()), result,
-                            check_for_page(result, run), page_kinds(kinds_of_origins()),
-                            numbers_of(explanation.origins)});
+  content.meshes.push_back({"input",
+                            page_name(findings.input, findings.input_name()),
+                            input.soup,
+                            check_for_page(input.soup, run),
+                            page_kinds(kinds_of_fates()),
+                            numbers_of(explanation.fates),
+                            {},
+                            &input.attributes});
+  content.meshes.push_back({"result",
+                            page_name(findings.output, findings.output_name()),
+                            result.soup,
+                            check_for_page(result.soup, run),
+                            page_kinds(kinds_of_origins()),
+                            numbers_of(explanation.origins),
+                            {},
+                            &result.attributes});
+  content.inputs = {findings.input};
   content.report = sections_of(findings);
   write_page(request, std::move(content), run);
 }
@@ -167,6 +210,7 @@ void write_html_stage(const HtmlRequest& request, View::Up up, ShownMesh mesh, s
   mesh.name = page_name(findings.input, findings.input_name());
   PageContent content{"check", up, findings.unit};
   content.meshes.push_back(std::move(mesh));
+  content.inputs = {findings.input};
   content.places = places;
   content.report = sections_of(findings);
   write_page(request, std::move(content), run);

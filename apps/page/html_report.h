@@ -12,6 +12,7 @@
 #include <picture/view.h>
 
 #include "common/json_report.h"
+#include "common/picture_steps.h"
 #include "common/repair_steps.h"
 #include "page/html_request.h"
 #include "page/mesh_facts.h"
@@ -34,6 +35,7 @@ struct PageContent {
   View::Up up = View::Up::z;
   std::optional<LengthUnit> unit;
   std::vector<ShownMesh> meshes = {};    // one or two
+  std::vector<std::string> inputs = {};  // files of meshes, in whose folders pictures may be
   std::size_t places = kPlacesInReport;  // of each defect in the section of the report
   Json more = Json::object();            // what such a page has besides
   Json report = Json::object();          // its raw numbers, none of which depends on the clock
@@ -49,8 +51,8 @@ void write_page(const HtmlRequest& request, PageContent content, Run& run);
 
 // Stage "html", where it is asked for. Each mesh is checked. Of `findings` it takes what became of
 // the triangles.
-void write_html_stage(const HtmlRequest& request, View::Up up, const TriangleSoup& input,
-                      const TriangleSoup& result, Run& run, Findings& findings);
+void write_html_stage(const HtmlRequest& request, View::Up up, const Drawn& input,
+                      const Drawn& result, Run& run, Findings& findings);
 
 // The same of one mesh, which is checked already; its section "check" is in the report.
 void write_html_stage(const HtmlRequest& request, View::Up up, ShownMesh mesh, std::size_t places,

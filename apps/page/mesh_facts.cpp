@@ -81,6 +81,7 @@ void keep_places(SurfaceCheck& check, std::size_t most) {
 
 std::vector<PageKind> page_kinds(const std::vector<TriangleKind>& kinds) {
   std::vector<PageKind> list;
+  list.reserve(kinds.size());
   for (const TriangleKind& kind : kinds) {
     list.push_back({std::string(kind.name), std::string(kind.meaning), kind.colour});
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <check/check_surface.h>
+#include <mesh/attributes.h>
 #include <mesh/soup.h>
 
 #include "common/explanation_file.h"
@@ -36,6 +37,7 @@ struct ShownMesh {
   std::vector<PageKind> kinds = {};         // that a triangle may be; empty: nothing is known
   std::vector<std::uint32_t> kind_of = {};  // of each triangle
   std::optional<DrawnMesh> drawn = {};      // nothing: what drawn_mesh() makes of it
+  const Attributes* attributes = nullptr;   // of it; null: none
 };
 
 // Of the check only the first `most` places of each defect stay.

@@ -7,23 +7,12 @@
 #include <base/base64.h>
 #include <mesh/packing.h>
 
+#include "page/packed_numbers.h"
+
 namespace meshrepair {
 namespace {
 
 constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
-
-void append_number(std::string& out, std::uint32_t value) {
-  while (value >= 0x80) {
-    out += static_cast<char>(value | 0x80);
-    value >>= 7;
-  }
-  out += static_cast<char>(value);
-}
-
-void append_signed(std::string& out, std::int32_t value) {
-  const auto bits = static_cast<std::uint32_t>(value);
-  append_number(out, (bits << 1) ^ (value < 0 ? ~0u : 0u));
-}
 
 // Finite; nothing where there are none.
 struct Bounds {

@@ -279,6 +279,65 @@ class Pages(unittest.TestCase):
             facts = self.facts()
             self.assertIn(HOSTILE, [named["name"] for named in facts["meshes"] + facts.get("operands", [])])
 
+    def write_pictured(self, picture: bytes, name: str = "wood.png", mesh: str = "in.obj") -> None:
+        """A tetrahedron with a picture on one side and a colour on another, and the picture if it has bytes."""
+        if picture:
+            (self.folder / name).write_bytes(picture)
+        (self.folder / "in.mtl").write_text(f"newmtl wood\nKd 1 1 1\nmap_Kd {name}\nnewmtl red\nKd 1 0 0\n")
+        (self.folder / mesh).write_text("mtllib in.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 2.5\n"
+                                        "usemtl wood\nf 1/1 3/3 2/2\nusemtl red\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+
+    def looks(self, number: int = 0) -> tuple[dict, Numbers]:
+        facts = self.facts()
+        return facts["meshes"][number]["looks"], Numbers(Elements(self.page()).scripts[f"looks-{number}"])
+
+    def test_colours_and_pictures_are_embedded_as_they_are(self):
+        picture = (ROOT / "docs/pictures/pawn.png").read_bytes()
+        self.write_pictured(picture)
+        self.repaired("in.obj")
+        scripts = Elements(self.page()).scripts
+        self.assertEqual(base64.b64decode(scripts["picture-0"], validate=True), picture)
+        self.assertNotIn("picture-1", scripts, "the result has the same one")
+        for number in (0, 1):
+            looks, numbers = self.looks(number)
+            self.assertEqual(sorted(material["colour"] for material in looks["materials"]), [[255, 0, 0], [255, 255, 255]])
+            self.assertEqual(sum(numbers.next() & 1 for _ in range(4)), 1)
+        looks, numbers = self.looks()
+        self.assertEqual([numbers.next() for _ in range(4)], [3, 4, 4, 4])
+        self.assertEqual([numbers.next() for _ in range(3)], [0, 0, 0])
+        places = [numbers.signed() for _ in range(6)]
+        self.assertEqual(places, [0, 0, 8192, 0, 20480, -20480])
+        self.assertEqual(numbers.at, len(numbers.bytes))
+
+    def test_pictures_that_cannot_be_shown_are_named(self):
+        (self.folder / "deeper").mkdir()
+        many = b"\x89PNG\r\n\x1a\n" + bytes(8 << 20)
+        for picture, name, why in ((b"", "none.png", "is not there"), (b"<svg onload='alert(1)'/>", "a.png", "is neither PNG nor JPEG"),
+                                   (many, "big.png", "would make the page too large"), (b"GIF89a", "../out.gif", "is not there")):
+            self.write_pictured(picture, name, "deeper/in.obj" if ".." in name else "in.obj")
+            mesh = "in.obj"
+            if ".." in name:
+                (self.folder / "in.mtl").rename(self.folder / "deeper/in.mtl")
+                mesh = "deeper/in.obj"
+            self.repaired(mesh)
+            self.assertNotIn("picture-0", Elements(self.page()).scripts)
+            (line,) = self.facts()["left_out"]
+            self.assertIn(why, line)
+
+    def test_colours_of_corners(self):
+        points = ["0 0 0 1 0 0", "1 0 0 0 1 0", "0 1 0 0 0 1", "0 0 1 1 1 1"]
+        self.write_obj(points, ["1 3 2", "1 2 4", "1 4 3", "2 3 4"])
+        self.repaired("in.obj")
+        looks, numbers = self.looks()
+        self.assertEqual((looks["has_places"], looks["has_colours"]), (False, True))
+        self.assertEqual([numbers.next() for _ in range(4)], [0] * 4)
+        self.assertEqual([numbers.next() for _ in range(12)], [1, 1, 1, 4, 2, 1, 5, 2, 4, 3, 4, 2])
+        self.assertEqual([numbers.next() for _ in range(12)], [255, 0, 0, 255, 0, 0, 255, 255, 0, 255, 0, 255])
+
+    def test_meshes_without_colours_have_no_looks(self):
+        self.repaired(MESHES / "cube.stl")
+        self.assertEqual([mesh["looks"] for mesh in self.facts()["meshes"]], [None, None])
+
     def write_obj(self, points: list[str], faces: list[str]) -> None:
         text = "".join(f"v {p}\n" for p in points) + "".join(f"f {f}\n" for f in faces)
         (self.folder / "in.obj").write_text(text)

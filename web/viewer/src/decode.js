@@ -1,8 +1,11 @@
 // The meshes of the page: packed as apps/page/pack_mesh.h says.
 
+export function bytesOf(base64) {
+  return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+}
+
 async function unpack(base64) {
-  const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream('gzip'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -26,10 +29,14 @@ class Numbers {
   }
 }
 
+export async function numbersOf(base64) {
+  return new Numbers(await unpack(base64));
+}
+
 // `facts` says how many triangles there are. Corners are numbers of points, three a triangle; places are steps of the grid, three a
 // point; kinds and marks have one entry a triangle; values, if there are any, one a point.
 export async function decodeMesh(base64, facts) {
-  const numbers = new Numbers(await unpack(base64));
+  const numbers = await numbersOf(base64);
   const corners = new Uint32Array(3 * facts.shown);
   let points = 0;
   for (let i = 0; i < corners.length; ++i) {

@@ -89,9 +89,15 @@ export function legend(page) {
 // Says where not all is drawn.
 export function omitted(page) {
   const lines = page.meshes.filter(({simplified}) => simplified).map(({role, triangles, shown}) =>
-    make('p', {}, `${subjectOf(page).roles[role]}: ${grouped(shown)} triangles are drawn instead of ${grouped(triangles)}: those at fault ` +
+    make('p', {}, `${page.meshes.length > 1 ? `${subjectOf(page).roles[role]}: ` : ''}${grouped(shown)} triangles are drawn instead of ${grouped(triangles)}: those at fault ` +
         'as they are, the others simplified. All counts are of the whole mesh.'));
   return lines.length > 0 ? make('section', {id: 'omitted'}, make('h2', {}, 'Not all is drawn'), ...lines) : null;
+}
+
+// Pictures that are not in the page.
+export function leftOut(page) {
+  if (page.left_out.length === 0) return null;
+  return make('section', {id: 'left-out'}, make('h2', {}, 'Pictures that are not shown'), ...page.left_out.map((line) => make('p', {}, `${line}.`)));
 }
 
 export function raw(page) {

@@ -6,8 +6,9 @@ import {button, make} from './dom.js';
 import * as facts from './facts.js';
 import {distances, heatHeader, scaleBox} from './heat.js';
 import {Layers} from './layers.js';
+import {decodeLooks, decodePicture, Looks} from './looks.js';
 import {Stage} from './stage.js';
-import {Surface} from './surface.js';
+import {PLAIN, Surface} from './surface.js';
 import {keysSection, tools} from './tools.js';
 import {coordinate, grouped, measure, rough, subjectOf} from './words.js';
 
@@ -42,7 +43,7 @@ class Viewer {
     this.tools = tools(page, mode, this.paint, this.actions());
     const main = make('main', {}, ...this.tools.rows, this.frame, this.status);
     const first = page.ways ? distances(page, (m) => this.flyToLargest(m)) : this.layers.section();
-    const aside = make('aside', {'aria-label': 'Report', tabindex: '0'}, first, facts.omitted(page), facts.operands(page), facts.legend(page),
+    const aside = make('aside', {'aria-label': 'Report', tabindex: '0'}, first, facts.omitted(page), facts.leftOut(page), facts.operands(page), facts.legend(page),
         facts.numbers(page), facts.parts(page, (m, place) => this.flyToPart(m, place)), keysSection(), facts.raw(page));
     root.append(page.ways ? heatHeader(page) : facts.header(page), main, aside);
     if (page.scale) this.frame.append(scaleBox(page, (share) => this.setTop(share)));
@@ -250,7 +251,8 @@ class Viewer {
     this.showSurface(this.surfaces[m]);
     const at = this.grid.drawnPlace(place);
     this.surfaces.forEach((surface, i) => surface.choosePart(i === m ? at : null));
-    this.repaint();
+    if (this.paint === 'looks') this.tools.rows[0].querySelector('[data-choice=plain]').click();
+    else this.repaint();
     this.ringAt(at);
     this.stage.look(at, 3 * NEAR, this.surfaces[m], this.surfaces[m].normalAt(at, null));
   }
@@ -269,14 +271,31 @@ class Viewer {
   }
 }
 
+function embedded(id) {
+  return document.getElementById(id)?.textContent;
+}
+
+// Those of each mesh that has some, and the pictures that they share.
+async function addLooks(page, surfaces) {
+  const pictures = [];
+  for (let i = 0; embedded(`picture-${i}`) !== undefined; ++i) pictures.push(decodePicture(embedded(`picture-${i}`)));
+  const all = await Promise.all(pictures);
+  await Promise.all(page.meshes.map(async ({looks, shown}, m) => {
+    if (!looks) return;
+    surfaces[m].setLooks(new Looks(looks, await decodeLooks(embedded(`looks-${m}`), looks, shown), all, PLAIN));
+  }));
+}
+
 async function start() {
   const root = document.getElementById('page');
   try {
-    const page = JSON.parse(document.getElementById('facts').textContent);
+    const page = JSON.parse(embedded('facts'));
     document.title = `${page.meshes[0].name} \u2013 ${page.program}`;
-    const packed = page.meshes.map((_, m) => document.getElementById(`mesh-${m}`).textContent);
+    const packed = page.meshes.map((_, m) => embedded(`mesh-${m}`));
     const meshes = await Promise.all(page.meshes.map((mesh, m) => decodeMesh(packed[m], mesh)));
-    new Viewer(page, meshes).start(root);
+    const viewer = new Viewer(page, meshes);
+    await addLooks(page, viewer.surfaces);
+    viewer.start(root);
     root.dataset.ready = 'yes';
   } catch (error) {
     root.append(make('p', {class: 'bad', role: 'alert'}, `This page cannot be shown: ${error.message}. It needs WebGL 2 and a browser of ` +

@@ -3,12 +3,14 @@ import {BufferAttribute, BufferGeometry, Points, ShaderMaterial} from 'three';
 
 // Each corner is a vertex of its own, so its number says which corner of the triangle it is.
 export const VERTEX = `
-attribute vec3 tint; attribute float heat;
+attribute vec3 tint; attribute float heat; attribute vec2 spot;
 varying vec3 place; varying vec3 seen; varying vec3 colour; varying vec3 corner; varying float warmth;
+varying vec2 on_picture;
 void main() {
   place = position;
   colour = tint;
   warmth = heat;
+  on_picture = spot;
   int which = gl_VertexID % 3;
   corner = vec3(float(which == 0), float(which == 1), float(which == 2));
   vec4 view = modelViewMatrix * vec4(position, 1.0);
@@ -19,8 +21,9 @@ void main() {
 // of the cut, it is hatched along the plane.
 export const FRAGMENT = `
 uniform vec4 cut; uniform bool cutting; uniform bool wires; uniform bool kinds; uniform bool heated; uniform bool solid;
-uniform vec3 behind; uniform vec3 heat_colours[5]; uniform float top;
+uniform vec3 behind; uniform vec3 heat_colours[5]; uniform float top; uniform sampler2D picture; uniform bool pictured;
 varying vec3 place; varying vec3 seen; varying vec3 colour; varying vec3 corner; varying float warmth;
+varying vec2 on_picture;
 vec3 face_of_cut() {
   vec3 way = place - cameraPosition;
   vec3 at = cameraPosition + way * (cut.w - dot(cameraPosition, cut.xyz)) / dot(way, cut.xyz);
@@ -37,7 +40,7 @@ void main() {
   }
   vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
   float light = 0.42 + 0.5 * max(dot(normal, normalize(vec3(0.25, 0.5, 0.85))), 0.0) + 0.08 * normal.y;
-  vec3 own = colour;
+  vec3 own = pictured ? colour * texture2D(picture, on_picture).rgb : colour;
   if (heated) {
     float step_of = min(warmth / top, 1.0) * 3.9999;
     int low = int(step_of);

@@ -148,11 +148,26 @@ export class Stage {
     return radius / Math.sin(narrow);
   }
 
+  // So far away that the whole box is seen from this direction.
+  distanceForAll(direction) {
+    const half = Math.tan(this.camera.fov / 2 * Math.PI / 180) * 0.94;
+    const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
+    const upward = new Vector3().crossVectors(direction, right);
+    const sides = this.surfaces[0].grid.middle.map((m) => 2 * m / this.surfaces[0].grid.most);
+    let distance = 0.01;
+    for (let k = 0; k < 8; ++k) {
+      const corner = new Vector3(...sides.map((side, axis) => k >> axis & 1 ? side : -side));
+      const beside = Math.max(Math.abs(corner.dot(right)) / this.aspect(), Math.abs(corner.dot(upward)));
+      distance = Math.max(distance, beside / half + corner.dot(direction));
+    }
+    return distance;
+  }
+
   reset() {
     const around = Math.PI / 4, above = 0.615;
     const flat = [Math.sin(around) * Math.cos(above), -Math.cos(around) * Math.cos(above), Math.sin(above)];
     const direction = this.camera.up.y === 1 ? new Vector3(flat[0], flat[2], -flat[1]) : new Vector3(...flat);
-    this.fly(new Vector3(), direction, this.distanceFor(0.88 * this.radius), true);
+    this.fly(new Vector3(), direction, this.distanceForAll(direction), true);
   }
 
   // Looks at a place from where it is seen: from where the surface faces, else from behind, else from the side of it that is

@@ -8,7 +8,7 @@ import {partsOf} from './parts.js';
 import {dots, FRAGMENT, VERTEX} from './shaders.js';
 import {plain} from './words.js';
 
-const PLAIN = [200, 204, 210];
+export const PLAIN = [200, 204, 210];
 const CHOSEN = [40, 120, 240];  // of the part that was chosen in the list
 // Of triangles that are seen from behind: nobody should see that, unless a solid is cut open.
 const BEHIND = [0.8, 0.25, 0.2];
@@ -29,10 +29,12 @@ export class Surface {
     this.scene = new Scene();
     this.material = new ShaderMaterial({uniforms: {...cut, wires: {value: false}, kinds: {value: false}, heated: {value: false}, top: {value: 1},
       heat_colours: {value: HEAT.map((colour) => new Vector3(...colour).divideScalar(255))}, solid: {value: this.isSolid},
-      behind: {value: new Vector3(...this.isSolid ? BEHIND_SOLID : BEHIND)}}, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
+      picture: {value: null}, pictured: {value: false}, behind: {value: new Vector3(...this.isSolid ? BEHIND_SOLID : BEHIND)}}, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2});
     this.mesh = this.added(data.corners);
     this.coarse = null;
+    this.fileLooks = null;
+    this.looksMesh = null;
     this.markers = new Map(page.looks.map((look) => [look.key, this.marker(look)]));
     this.ring = dots([0, 0, 0], [20, 110, 240], {size: 30 * devicePixelRatio, ring: true, cut: {cut: {value: new Vector4()}, cutting: {value: false}}});
     this.ring.visible = false;
@@ -65,7 +67,9 @@ export class Surface {
       this.tintCoarse();
     }
     const coarse = on && this.coarse !== null;
-    this.mesh.visible = !coarse;
+    const looks = this.mode === 'looks' && this.looksMesh !== null;
+    this.mesh.visible = !coarse && !looks;
+    if (this.looksMesh) this.looksMesh.visible = !coarse && looks;
     if (this.coarse) this.coarse.visible = coarse;
   }
 
@@ -105,19 +109,34 @@ export class Surface {
     return (shown.find((look) => this.data.marks[t] >> look.bit & 1) ?? {colour: PLAIN}).colour;
   }
 
-  // `mode` is "defects", "fate", "heat" or "plain"; `layers` the keys of the defects that are shown.
+  // What it looks like in its file, which may be nothing.
+  setLooks(looks) {
+    this.fileLooks = looks;
+  }
+
+  // `mode` is "defects", "fate", "heat", "looks" or "plain"; `layers` the keys of the defects that are shown.
   paint(mode, layers) {
+    this.mode = mode;
     const tint = this.mesh.geometry.getAttribute('tint');
+    const looks = mode === 'looks' ? this.fileLooks : null;
+    if (looks) this.showLooks();
     const shown = this.looks.filter((look) => layers.has(look.key) && look.bit !== null);
     for (let t = 0; t < this.facts.shown; ++t) {
-      const colour = this.colourOf(t, mode, shown);
-      for (let corner = 0; corner < 3; ++corner) tint.array.set(colour, 9 * t + 3 * corner);
+      const colour = looks ? null : this.colourOf(t, mode, shown);
+      for (let corner = 0; corner < 3; ++corner) tint.array.set(colour ?? looks.farColourOf(t, corner), 9 * t + 3 * corner);
     }
     tint.needsUpdate = true;
     this.tintCoarse();
     this.material.uniforms.kinds.value = mode === 'fate' || mode === 'heat';  // also of turned triangles
     this.material.uniforms.heated.value = mode === 'heat';
     for (const [key, marker] of this.markers) if (marker) marker.visible = mode === 'defects' && layers.has(key);
+  }
+
+  showLooks() {
+    if (this.looksMesh) return;
+    this.looksMesh = this.fileLooks.mesh(this.mesh.geometry.getAttribute('position').array, this.material);
+    this.looksMesh.frustumCulled = false;
+    this.scene.add(this.looksMesh);
   }
 
   // Colours the part in which a place is, or none; paint() shows it.

@@ -33,7 +33,8 @@ function toggle(text, name, change) {
 function paintsOf(page) {
   if (page.scale) return {heat: 'Distance', plain: 'Plain'};
   const {kinds} = subjectOf(page);
-  return {defects: 'Defects', ...(kinds ? {fate: kinds} : {}), plain: 'Plain'};
+  const hasLooks = page.meshes.some(({looks}) => looks !== null);
+  return {defects: 'Defects', ...(kinds ? {fate: kinds} : {}), ...(hasLooks ? {looks: 'As it looks'} : {}), plain: 'Plain'};
 }
 
 // `act` has the functions that the buttons call. Gives the rows, and a function that takes the keys.
