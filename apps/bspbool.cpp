@@ -275,7 +275,7 @@ int main(int argc, char** argv) {
     files.push_back(options.command.step.output);
     check_picture(options.command.step.picture, files, run);
     files.push_back(options.command.step.picture.path);
-    check_html(options.command.step.html, false, files, run);
+    check_html(options.command.step.html, files, run);
     return combine_files(options, run);
   });
 }

@@ -81,7 +81,7 @@ ExitCode measure(Options& options, Run& run) {
   }
   check_files(options.first, "", run);
   check_files(options.second, "", run);
-  check_html(options.html, false, {options.first, options.second}, run);
+  check_html(options.html, {options.first, options.second}, run);
   run.report.set_input({{"a", options.first}, {"b", options.second}});
   options.distance.progress = &run.progress;
   std::string lines;

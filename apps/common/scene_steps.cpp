@@ -13,6 +13,7 @@
 #include "common/picture_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
+#include "page/scene_page.h"
 
 namespace meshrepair {
 namespace {
@@ -73,6 +74,11 @@ class SceneRepair {
     write_explanation_stage(options_.explained, {input_.soup, input_.scene}, {all_.mesh, scene_},
                             run_, findings_);
     draw(attributes);
+    write_scene_page_stage(options_.html,
+                           {up_of(findings_),
+                            {input_.soup, given_, input_.scene},
+                            SceneOnPage{all_.mesh, attributes, scene_}},
+                           run_, findings_);
     findings_.summary = summary();
   }
 
@@ -109,7 +115,7 @@ class SceneRepair {
 
   // What became of the last mesh, behind what is known of those before it.
   void explain(const TriangleSoup& soup, const Surface& surface) {
-    if (options_.explained.empty() || soup.triangles.empty()) return;
+    if (!repair_options_.explain || soup.triangles.empty()) return;
     RepairExplanation& all = findings_.repair.explanation;
     const MeshOutcome& outcome = outcomes_.back();
     if (outcome.left_as_it_is) {

@@ -27,21 +27,6 @@ bool is_html_name(const std::string& name) {
   return extension == ".html" || extension == ".htm";
 }
 
-template <class Kind>
-std::vector<std::uint32_t> numbers_of(const std::vector<Kind>& kinds) {
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(kinds.size());
-  for (const Kind kind : kinds) numbers.push_back(static_cast<std::uint32_t>(kind));
-  return numbers;
-}
-
-// The sections of the report, none of which says how long anything took.
-Json sections_of(const Findings& findings) {
-  JsonReport report("", {});
-  add_sections(findings, report);
-  return report.take_sections();
-}
-
 // Makes the page of its meshes, one after the other.
 class PageMaker {
  public:
@@ -120,8 +105,13 @@ std::string page_name(const std::string& path, const std::string& otherwise) {
   return path == "-" ? otherwise : std::filesystem::path(path).filename().string();
 }
 
-SurfaceCheck check_for_page(const TriangleSoup& soup, Run& run) {
-  CheckOptions options;
+Json page_sections(const Findings& findings) {
+  JsonReport report("", {});
+  add_sections(findings, report);
+  return report.take_sections();
+}
+
+SurfaceCheck check_for_page(const TriangleSoup& soup, Run& run, CheckOptions options) {
   options.most_places = kMostPagePlaces;
   options.mark_triangles = true;
   options.progress = &run.progress;
@@ -165,12 +155,10 @@ void add_html_options(CLI::App& app, HtmlRequest& request, const std::string& wh
       ->group("Page");
 }
 
-void check_html(const HtmlRequest& request, bool by_mesh, const std::vector<std::string>& files,
-                Run& run) {
+void check_html(const HtmlRequest& request, const std::vector<std::string>& files, Run& run) {
   if (!request.wanted()) return;
   const std::string& path = request.path;
   if (!is_html_name(path)) throw UsageError("--html: " + path + " ends neither in .html nor .htm");
-  if (by_mesh) throw UsageError("--html: shows a scene as one mesh, and excludes --scene each");
   check_side_file({"--html", path, "page"}, files, run);
 }
 
@@ -198,7 +186,7 @@ void write_html_stage(const HtmlRequest& request, View::Up up, const Drawn& inpu
                             {},
                             &result.attributes});
   content.inputs = {findings.input};
-  content.report = sections_of(findings);
+  content.report = page_sections(findings);
   write_page(request, std::move(content), run);
 }
 
@@ -212,7 +200,7 @@ void write_html_stage(const HtmlRequest& request, View::Up up, ShownMesh mesh, s
   content.meshes.push_back(std::move(mesh));
   content.inputs = {findings.input};
   content.places = places;
-  content.report = sections_of(findings);
+  content.report = page_sections(findings);
   write_page(request, std::move(content), run);
 }
 

@@ -23,9 +23,8 @@ namespace meshrepair {
 void add_html_options(CLI::App& app, HtmlRequest& request, const std::string& what);
 
 // Before hours of work, as check_files(): throws UsageError where the page is another file of the
-// run, or where meshes are taken one by one; OutputError where it cannot be written.
-void check_html(const HtmlRequest& request, bool by_mesh, const std::vector<std::string>& files,
-                Run& run);
+// run; OutputError where it cannot be written.
+void check_html(const HtmlRequest& request, const std::vector<std::string>& files, Run& run);
 
 // Of each defect in the report, unless more are asked for.
 inline constexpr std::size_t kPlacesInReport = 10;
@@ -43,9 +42,21 @@ struct PageContent {
 
 // The last part of a name, or `otherwise` where it is "-".
 [[nodiscard]] std::string page_name(const std::string& path, const std::string& otherwise);
-[[nodiscard]] SurfaceCheck check_for_page(const TriangleSoup& soup, Run& run);
+// With what a page needs beside these options.
+[[nodiscard]] SurfaceCheck check_for_page(const TriangleSoup& soup, Run& run,
+                                          CheckOptions options = {});
 // Around all of them.
 [[nodiscard]] PageGrid grid_of(const std::vector<ShownMesh>& meshes);
+// The sections of the report, none of which says how long anything took.
+[[nodiscard]] Json page_sections(const Findings& findings);
+// Of each triangle, for ShownMesh::kind_of.
+template <class Kind>
+[[nodiscard]] std::vector<std::uint32_t> numbers_of(const std::vector<Kind>& kinds) {
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(kinds.size());
+  for (const Kind kind : kinds) numbers.push_back(static_cast<std::uint32_t>(kind));
+  return numbers;
+}
 // Writes the page, and the section "html" of the report.
 void write_page(const HtmlRequest& request, PageContent content, Run& run);
 

@@ -56,17 +56,41 @@ Json kinds_of(const ShownMesh& mesh) {
   return list;
 }
 
+Json middle_of(const TriangleSoup& soup, const std::array<std::uint32_t, 3>& triangle,
+               const PageGrid& grid) {
+  Vec3d middle = Vec3d::Zero();
+  for (const std::uint32_t p : triangle) middle += soup.points[p] / 3;
+  Json place = Json::array();
+  append(grid.steps_of(middle), place);
+  return place;
+}
+
 // In the middle of a triangle of each part that the section lists.
 Json part_places(const ShownMesh& mesh, std::size_t listed, const PageGrid& grid) {
   Json list = Json::array();
   for (std::size_t i = 0; i < listed; ++i) {
-    Vec3d middle = Vec3d::Zero();
-    for (const std::uint32_t p : mesh.soup.triangles[mesh.check->parts[i].first_triangle]) {
-      middle += mesh.soup.points[p] / 3;
-    }
-    Json place = Json::array();
-    append(grid.steps_of(middle), place);
-    list.push_back(std::move(place));
+    const auto& triangle = mesh.soup.triangles[mesh.check->parts[i].first_triangle];
+    list.push_back(middle_of(mesh.soup, triangle, grid));
+  }
+  return list;
+}
+
+// `until`: how many triangles are drawn of it and all before. `place` is on one of them, if any.
+Json objects_of(const ShownMesh& mesh, const PageGrid& grid) {
+  const DrawnMesh& drawn = *mesh.drawn;
+  Json list = Json::array();
+  std::size_t triangles = 0, until = 0;
+  for (const ShownObject& object : mesh.objects) {
+    triangles += object.triangles;
+    const std::size_t before = until;
+    while (until < drawn.source.size() && drawn.source[until] < triangles) ++until;
+    Json place = nullptr;
+    if (until > before) place = middle_of(drawn.soup, drawn.soup.triangles[before], grid);
+    list.push_back({{"name", object.name},
+                    {"triangles", object.triangles},
+                    {"valid_solid", object.is_solid},
+                    {"until", until},
+                    {"place", place}});
   }
   return list;
 }
@@ -108,6 +132,7 @@ Json facts_of(const ShownMesh& mesh, Json section, const PageGrid& grid) {
           {"kinds", kinds_of(mesh)},
           {"places", places_of(mesh, grid)},
           {"part_places", part_places(mesh, listed, grid)},
+          {"objects", objects_of(mesh, grid)},
           {"check", std::move(section)}};
 }
 

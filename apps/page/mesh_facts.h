@@ -29,6 +29,13 @@ struct PageKind {
 // Those of --explain.
 [[nodiscard]] std::vector<PageKind> page_kinds(const std::vector<TriangleKind>& kinds);
 
+// One of those that stand beside each other.
+struct ShownObject {
+  std::string name;           // for people
+  std::size_t triangles = 0;  // of the soup, behind those of the objects before
+  bool is_solid = false;
+};
+
 struct ShownMesh {
   std::string_view role;  // "input", "result", "a" or "b": its key in the report
   std::string name;       // for people
@@ -38,6 +45,7 @@ struct ShownMesh {
   std::vector<std::uint32_t> kind_of = {};  // of each triangle
   std::optional<DrawnMesh> drawn = {};      // nothing: what drawn_mesh() makes of it
   const Attributes* attributes = nullptr;   // of it; null: none
+  std::vector<ShownObject> objects = {};    // that it is made of; empty: nothing is known
 };
 
 // Of the check only the first `most` places of each defect stay.

@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -333,6 +334,38 @@ class Pages(unittest.TestCase):
         self.assertEqual([numbers.next() for _ in range(4)], [0] * 4)
         self.assertEqual([numbers.next() for _ in range(12)], [1, 1, 1, 4, 2, 1, 5, 2, 4, 3, 4, 2])
         self.assertEqual([numbers.next() for _ in range(12)], [255, 0, 0, 255, 0, 0, 255, 255, 0, 255, 0, 255])
+
+    def write_scene(self) -> None:
+        """A tetrahedron in two places, one of them twice as large, and farther along x."""
+        points = struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)
+        corners = struct.pack("<12H", 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2)
+        data = base64.b64encode(points + corners).decode()
+        scene = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64," + data}],
+                 "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
+                               {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+                 "nodes": [{"name": HOSTILE, "mesh": 0}, {"name": "large", "mesh": 0, "translation": [0.25, 0, 0], "scale": [2, 2, 2]}],
+                 "scenes": [{"nodes": [0, 1]}]}
+        (self.folder / "scene.gltf").write_text(json.dumps(scene), encoding="utf-8")
+
+    def test_objects_of_a_scene_stand_in_their_places_and_are_checked_alone(self):
+        self.write_scene()
+        self.assertEqual(self.run_program("meshcheck", "scene.gltf", "--html", "p.html"), 1, "as one mesh they cross each other")
+        markup = Elements(self.page()).names
+        report = self.repaired("scene.gltf", "--scene", "each", "--format", "gltf")
+        self.assertEqual([name for name in Elements(self.page()).names if name != "script"], [name for name in markup if name != "script"])
+        for mesh in self.facts()["meshes"]:
+            self.assertTrue(mesh["check"]["valid_solid"])
+            self.assertEqual([(one["name"], one["triangles"], one["valid_solid"], one["until"]) for one in mesh["objects"]],
+                             [(HOSTILE, 4, True, 4), ("large", 4, True, 8)])
+            volumes = [part["volume"] for part in mesh["check"]["first_parts"]]
+            self.assertAlmostEqual(volumes[0], 1 / 6)
+            self.assertAlmostEqual(volumes[1], 8 / 6)
+            self.assertEqual([steps / MOST * 2 * self.facts()["grid"]["half"] for steps in mesh["size"]], [2.25, 2, 2])
+        self.assertEqual(report["html"]["input"]["check"]["triangles"], 8)
+        self.assertEqual(self.run_program("meshcheck", "scene.gltf", "--scene", "each", "--html", "p.html"), 0)
+        self.assertEqual(len(self.facts()["meshes"][0]["objects"]), 2)
 
     def test_meshes_without_colours_have_no_looks(self):
         self.repaired(MESHES / "cube.stl")

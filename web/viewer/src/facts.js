@@ -3,7 +3,10 @@ import {make, swatch, table} from './dom.js';
 import {grouped, measure, plain, reasons, rough, subjectOf, verdict} from './words.js';
 
 function sentence(facts) {
-  const {check} = facts;
+  const {check, objects: list} = facts;
+  const bad = list.filter(({valid_solid: valid}) => !valid).length;
+  if (list.length > 1 && bad === 0) return `${grouped(list.length)} valid solids`;
+  if (list.length > 1) return `${grouped(bad)} of ${grouped(list.length)} objects not a valid solid: ${reasons(check)}`;
   return `${verdict(check)}${check.valid_solid ? '' : `: ${reasons(check)}`}`;
 }
 
@@ -55,6 +58,20 @@ export function operands(page) {
   const rows = page.operands.map(({name, triangles, volume}, i) => [
     make('span', {}, swatch(page.meshes[0].kinds[i].colour), name), grouped(triangles), volume === null ? 'not closed' : measure(volume)]);
   return make('section', {id: 'operands'}, make('h2', {}, 'Operands'), make('div', {class: 'wide'}, table(['Mesh', 'Triangles', 'Volume'], rows)));
+}
+
+// The meshes of a scene; `fly` is called with the number of one.
+export function objects(page, fly) {
+  const {objects: list} = page.meshes[0];
+  if (list.length === 0) return null;
+  const two = page.meshes.length > 1;
+  const state = (object) => object ? `${grouped(object.triangles)} ${object.valid_solid ? '\u2714' : '\u2718'}` : '';
+  const rows = list.map(({name}, i) => [
+    make('button', {type: 'button', onclick: () => fly(i), 'data-object': String(i), 'aria-label': `Fly to ${name}`}, name),
+    ...page.meshes.map((facts) => state(facts.objects[i]))]);
+  return make('section', {id: 'objects'}, make('h2', {}, 'Objects'),
+      make('p', {}, 'Each is a mesh of its own: how many triangles it has, and \u2714 where it is a valid solid.'),
+      make('div', {class: 'wide'}, table(['Name', ...(two ? page.meshes.map(({role}) => subjectOf(page).roles[role]) : ['Triangles'])], rows)));
 }
 
 export function parts(page, fly) {

@@ -43,7 +43,8 @@ class Viewer {
     this.tools = tools(page, mode, this.paint, this.actions());
     const main = make('main', {}, ...this.tools.rows, this.frame, this.status);
     const first = page.ways ? distances(page, (m) => this.flyToLargest(m)) : this.layers.section();
-    const aside = make('aside', {'aria-label': 'Report', tabindex: '0'}, first, facts.omitted(page), facts.leftOut(page), facts.operands(page), facts.legend(page),
+    const aside = make('aside', {'aria-label': 'Report', tabindex: '0'}, first, facts.omitted(page), facts.leftOut(page), facts.operands(page),
+        facts.objects(page, (i) => this.flyToObject(i)), facts.legend(page),
         facts.numbers(page), facts.parts(page, (m, place) => this.flyToPart(m, place)), keysSection(), facts.raw(page));
     root.append(page.ways ? heatHeader(page) : facts.header(page), main, aside);
     if (page.scale) this.frame.append(scaleBox(page, (share) => this.setTop(share)));
@@ -251,10 +252,29 @@ class Viewer {
     this.showSurface(this.surfaces[m]);
     const at = this.grid.drawnPlace(place);
     this.surfaces.forEach((surface, i) => surface.choosePart(i === m ? at : null));
-    if (this.paint === 'looks') this.tools.rows[0].querySelector('[data-choice=plain]').click();
-    else this.repaint();
+    this.showChosen();
     this.ringAt(at);
     this.stage.look(at, 3 * NEAR, this.surfaces[m], this.surfaces[m].normalAt(at, null));
+  }
+
+  // Of all meshes, before and after.
+  flyToObject(i) {
+    const m = this.page.meshes.findIndex(({objects}) => objects[i]?.place);
+    for (const surface of this.surfaces) surface.chooseObject(i);
+    this.showChosen();
+    if (m < 0) return this.say('It has no triangles.');
+    const {centre, radius} = this.surfaces[m].objectBox(i);
+    this.ringAt(null);
+    this.stage.lookFromHere(centre, Math.max(1.2 * radius, NEAR / 4));
+    return this.say(`${this.page.meshes[m].objects[i].name}: ${this.page.meshes.map(({role, objects}) =>
+      `${this.page.meshes.length > 1 ? `${this.subject.roles[role].toLowerCase()} ` : ''}${objects[i]?.valid_solid ? 'a valid solid' : 'not a valid solid'}`)
+      .join(', ')}`);
+  }
+
+  // Looks of files would hide it.
+  showChosen() {
+    if (this.paint === 'looks') this.tools.rows[0].querySelector('[data-choice=plain]').click();
+    else this.repaint();
   }
 
   wholeView() {

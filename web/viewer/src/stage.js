@@ -182,6 +182,11 @@ export class Stage {
     this.fly(target, seen ?? ways[0] ?? now, distance, false);
   }
 
+  // From the same side as now.
+  lookFromHere(target, radius) {
+    this.fly(target, this.camera.position.clone().sub(this.controls.target).normalize(), this.distanceFor(radius), false);
+  }
+
   // A little towards where the camera is, and never along the axis that is up: left and right would be anywhere.
   tilted(way, now) {
     const direction = way.clone().addScaledVector(now, 0.35).normalize();

@@ -1,5 +1,5 @@
 // A mesh as it is drawn: flat triangles in the colours that are asked for, edges of defects, and the places of defects.
-import {BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, Scene, ShaderMaterial, Vector3,
+import {Box3, BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, Scene, ShaderMaterial, Vector3,
   Vector4} from 'three';
 
 import {coarseMesh} from './coarse.js';
@@ -103,7 +103,7 @@ export class Surface {
   }
 
   colourOf(t, mode, shown) {
-    if (this.chosen !== undefined && this.parts[t] === this.chosen) return CHOSEN;
+    if (this.isChosen?.(t)) return CHOSEN;
     if (mode === 'fate' && this.facts.kinds.length > 0) return this.facts.kinds[this.data.kinds[t]].colour;
     if (mode !== 'defects') return PLAIN;
     return (shown.find((look) => this.data.marks[t] >> look.bit & 1) ?? {colour: PLAIN}).colour;
@@ -141,11 +141,30 @@ export class Surface {
 
   // Colours the part in which a place is, or none; paint() shows it.
   choosePart(place) {
-    this.chosen = undefined;
+    this.isChosen = null;
     const triangle = place ? this.nearest(place, null) : undefined;
     if (triangle === undefined) return;
     this.parts ??= partsOf(this.data.corners);
-    this.chosen = this.parts[triangle];
+    this.isChosen = (t) => this.parts[t] === this.parts[triangle];
+  }
+
+  // The first triangle of an object, and the one behind its last.
+  objectRange(i) {
+    const {objects} = this.facts;
+    return [i > 0 ? objects[i - 1].until : 0, objects[i].until];
+  }
+
+  // Colours an object of a scene.
+  chooseObject(i) {
+    const [first, end] = this.objectRange(i);
+    this.isChosen = (t) => t >= first && t < end;
+  }
+
+  // Around an object that has triangles.
+  objectBox(i) {
+    const [first, end] = this.objectRange(i);
+    const box = new Box3().setFromArray(this.mesh.geometry.getAttribute('position').array.subarray(9 * first, 9 * end));
+    return {centre: box.getCenter(new Vector3()), radius: box.getSize(new Vector3()).length() / 2};
   }
 
   wires(on) {
