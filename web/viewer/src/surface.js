@@ -25,11 +25,13 @@ export class Surface {
     this.plane = plane;
     this.looks = page.looks;
     this.steps = page.scale?.steps;
-    this.isSolid = facts.check?.valid_solid ?? false;
+    this.isValid = facts.check?.valid_solid ?? false;
+    // Meshes that are checked alone may overlap: where they do, the back of one is not all that a cut shows.
+    this.isSolid = this.isValid && facts.objects.length <= 1 && !(page.subject === 'boolean' && facts === page.meshes[0]);
     this.scene = new Scene();
     this.material = new ShaderMaterial({uniforms: {...cut, wires: {value: false}, kinds: {value: false}, heated: {value: false}, top: {value: 1},
       heat_colours: {value: HEAT.map((colour) => new Vector3(...colour).divideScalar(255))}, solid: {value: this.isSolid},
-      picture: {value: null}, pictured: {value: false}, behind: {value: new Vector3(...this.isSolid ? BEHIND_SOLID : BEHIND)}}, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
+      picture: {value: null}, pictured: {value: false}, behind: {value: new Vector3(...this.isValid ? BEHIND_SOLID : BEHIND)}}, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2});
     this.mesh = this.added(data.corners);
     this.coarse = null;
