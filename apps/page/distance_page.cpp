@@ -38,7 +38,7 @@ std::vector<std::uint32_t> values_of(const std::vector<double>& distances, doubl
   std::vector<std::uint32_t> values;
   values.reserve(distances.size());
   for (const double distance : distances) {
-    const double share = most > 0 ? std::clamp(distance / most, 0.0, 1.0) : 0;
+    const double share = most > 0 && std::isfinite(most) ? std::min(distance / most, 1.0) : 0;
     values.push_back(static_cast<std::uint32_t>(std::lround(share * kMostValue)));
   }
   return values;

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string_view>
 
 #include <base/base64.h>
 #include <base/error.h>
+#include <picture/decode_image.h>
 #include <picture/image_bytes.h>
-
-#include "common/numbers.h"
 
 namespace meshrepair {
 namespace {
@@ -16,8 +14,20 @@ namespace {
 // Of one picture: more is not worth to be read.
 constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{1} << 28;
 
-bool is_known_kind(std::string_view bytes) {
-  return bytes.starts_with("\x89PNG\r\n\x1a\n") || bytes.starts_with("\xFF\xD8\xFF");
+// Of one picture: a browser unpacks them all.
+constexpr std::size_t kMostPixels = std::size_t{1} << 24;
+
+// Why a browser should not get these bytes, as a part of a sentence; empty: it may.
+std::string why_not(const std::string& bytes, std::size_t room) {
+  if (bytes.size() > room) {
+    return "would make the page too large: all pictures together may have 8 MiB";
+  }
+  try {
+    (void)decode_image(bytes, kMostPixels);
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
 }
 
 }  // namespace
@@ -38,14 +48,13 @@ std::optional<std::size_t> PagePictures::number_of(const Image& image) {
   }
   const auto [place, is_new] = known_.try_emplace(std::move(bytes));
   if (!is_new) return place->second;
-  if (!is_known_kind(place->first)) {
-    leave_out(image, "is neither PNG nor JPEG");
-  } else if (place->first.size() > kMostBytes - bytes_) {
-    leave_out(image, "would make the page too large: all pictures together may have 8 MiB");
-  } else {
+  const std::string why = why_not(place->first, kMostBytes - bytes_);
+  if (why.empty()) {
     bytes_ += place->first.size();
     place->second = texts_.size();
     texts_.push_back(encode_base64(place->first));
+  } else {
+    leave_out(image, why);
   }
   return place->second;
 }

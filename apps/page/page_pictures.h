@@ -22,8 +22,8 @@ class PagePictures {
   // Opens files only within the folders of these meshes.
   explicit PagePictures(const std::vector<std::string>& mesh_files);
 
-  // Of the picture in the page; nothing where it is not PNG or JPEG, or cannot be had, or all would
-  // have too many bytes: then it is among those left out. Each is embedded once.
+  // Of the picture in the page; nothing where it is no PNG or JPEG, is broken or too large, or
+  // cannot be had: then it is among those left out. Each is embedded once.
   [[nodiscard]] std::optional<std::size_t> number_of(const Image& image);
 
   // In base64, by number.

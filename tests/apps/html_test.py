@@ -240,6 +240,14 @@ class Pages(unittest.TestCase):
                 self.assertEqual([number - shift for number in one[ids]], other[ids], key)
                 self.assertEqual(one["at"], other["at"])
 
+    def test_distances_beyond_doubles_are_not_known(self):
+        self.write_obj(["1e308 0 0", "-1e308 0 0", "0 1e308 1"], ["1 2 3"])
+        self.assertEqual(self.run_program("meshdist", "in.obj", MESHES / "cube.stl", "--html", "p.html"), 0)
+        facts = self.facts()
+        self.assertIsNone(facts["scale"]["most"])
+        *_, values = unpack(Elements(self.page()).scripts["mesh-0"], facts["meshes"][0]["shown"], True)
+        self.assertEqual(set(values), {0})
+
     def test_each_place_has_its_distance(self):
         report = self.folder / "r.json"
         self.assertEqual(self.run_program("meshdist", MESHES / "cube.stl", MESHES / "hollow_sphere.obj", "--html", "p.html", "--report",

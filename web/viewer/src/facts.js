@@ -57,7 +57,8 @@ export function operands(page) {
   if (!page.operands) return null;
   const rows = page.operands.map(({name, triangles, volume}, i) => [
     make('span', {}, swatch(page.meshes[0].kinds[i].colour), name), grouped(triangles), volume === null ? 'not closed' : measure(volume)]);
-  return make('section', {id: 'operands'}, make('h2', {}, 'Operands'), make('div', {class: 'wide'}, table(['Mesh', 'Triangles', 'Volume'], rows)));
+  const list = table(['Mesh', 'Triangles', 'Volume'], rows);
+  return make('section', {id: 'operands'}, make('h2', {}, 'Operands'), make('div', {class: 'wide'}, list));
 }
 
 // The meshes of a scene; `fly` is called with the number of one.
@@ -105,16 +106,18 @@ export function legend(page) {
 
 // Says where not all is drawn.
 export function omitted(page) {
+  const whose = (role) => page.meshes.length > 1 ? `${subjectOf(page).roles[role]}: ` : '';
   const lines = page.meshes.filter(({simplified}) => simplified).map(({role, triangles, shown}) =>
-    make('p', {}, `${page.meshes.length > 1 ? `${subjectOf(page).roles[role]}: ` : ''}${grouped(shown)} triangles are drawn instead of ${grouped(triangles)}: those at fault ` +
-        'as they are, the others simplified. All counts are of the whole mesh.'));
+    make('p', {}, `${whose(role)}${grouped(shown)} triangles are drawn instead of ${grouped(triangles)}: those at fault as they are, the ` +
+        'others simplified. All counts are of the whole mesh.'));
   return lines.length > 0 ? make('section', {id: 'omitted'}, make('h2', {}, 'Not all is drawn'), ...lines) : null;
 }
 
 // Pictures that are not in the page.
 export function leftOut(page) {
   if (page.left_out.length === 0) return null;
-  return make('section', {id: 'left-out'}, make('h2', {}, 'Pictures that are not shown'), ...page.left_out.map((line) => make('p', {}, `${line}.`)));
+  const lines = page.left_out.map((line) => make('p', {}, `${line}.`));
+  return make('section', {id: 'left-out'}, make('h2', {}, 'Pictures that are not shown'), ...lines);
 }
 
 export function raw(page) {

@@ -9,7 +9,7 @@ const ways = {a: 'A to B', b: 'B to A'};
 
 // The bar with its numbers. `change` is called with the top of the scale, as a share of the largest distance.
 export function scaleBox(page, change) {
-  const {most} = page.scale;
+  const most = page.scale.most ?? NaN;  // beyond the range of doubles
   const bar = make('div', {class: 'bar', 'aria-hidden': 'true'});
   bar.style.background = `linear-gradient(to right, ${HEAT.map((colour) => `rgb(${colour.join(',')})`).join(', ')})`;
   const labels = [0, 0.5, 1].map(() => make('span'));
@@ -29,7 +29,7 @@ export function scaleBox(page, change) {
 
 // What is measured, each way. `fly` is called with the number of the mesh.
 export function distances(page, fly) {
-  const row = (words, of) => [words, ...page.ways.map((way) => of(way) === null ? 'not asked for' : measure(of(way)))];
+  const row = (words, of) => [words, ...page.ways.map((way) => measure(of(way)))];
   const rows = [row('On average', (way) => way.mean), row('Root mean square', (way) => way.rms), row('Largest found', (way) => way.largest)];
   if (page.ways.some(({bound}) => bound !== null)) rows.push(row('Nowhere more than', (way) => way.bound));
   const list = table(['', ...page.meshes.map(({role}) => ways[role])], rows, {id: 'distances'});
@@ -41,7 +41,7 @@ export function distances(page, fly) {
 
 export function heatHeader(page) {
   const [a, b] = page.meshes;
-  const largest = Math.max(...page.ways.map((way) => way.largest));
+  const largest = Math.max(...page.ways.map((way) => way.largest ?? NaN));
   return make('header', {}, make('h1', {}, `A: ${a.name}, B: ${b.name}`), make('p', {class: 'verdict', id: 'verdict'}, largest === 0 ?
       'No place of one is away from the other.' : `Up to ${measure(largest)} apart, in ${page.units}.`));
 }

@@ -10,7 +10,7 @@ import {decodeLooks, decodePicture, Looks} from './looks.js';
 import {Stage} from './stage.js';
 import {PLAIN, Surface} from './surface.js';
 import {keysSection, tools} from './tools.js';
-import {coordinate, grouped, measure, rough, subjectOf} from './words.js';
+import {coordinate, grouped, measure, rough, subjectOf, verdict} from './words.js';
 
 const FAR = 100;  // beyond all that is drawn
 const NEAR = 0.12;  // how much is seen around a place, of half of the largest side
@@ -175,7 +175,8 @@ class Viewer {
     if (onFace) return 'inside the solid, where it is cut open';
     if (!this.page.scale) return surface.describe(triangle);
     const other = this.page.meshes.find((mesh) => mesh !== surface.facts);
-    return `${measure(Number((surface.valueAt(triangle, place) * this.page.scale.most).toPrecision(3)))} from ${this.subject.roles[other.role]}`;
+    const value = surface.valueAt(triangle, place) * (this.page.scale.most ?? NaN);
+    return `${measure(Number(value.toPrecision(3)))} from ${this.subject.roles[other.role]}`;
   }
 
   startMeasuring(on) {
@@ -190,7 +191,8 @@ class Viewer {
     this.stage.measure(this.measured);
     if (this.measured.length === 1) return this.say('Click a second place.');
     const [a, b] = this.measured;
-    const along = ['x', 'y', 'z'].map((axis) => `${axis} ${coordinate(this.grid.length(Math.abs(a[axis] - b[axis])), 2 * this.grid.half)}`).join(', ');
+    const side = (axis) => coordinate(this.grid.length(Math.abs(a[axis] - b[axis])), 2 * this.grid.half);
+    const along = ['x', 'y', 'z'].map((axis) => `${axis} ${side(axis)}`).join(', ');
     return this.say(`Distance: ${rough(this.grid.length(a.distanceTo(b)))} (${along}), in ${this.page.units}`);
   }
 
@@ -266,9 +268,9 @@ class Viewer {
     const {centre, radius} = this.surfaces[m].objectBox(i);
     this.ringAt(null);
     this.stage.lookFromHere(centre, Math.max(1.2 * radius, NEAR / 4));
-    return this.say(`${this.page.meshes[m].objects[i].name}: ${this.page.meshes.map(({role, objects}) =>
-      `${this.page.meshes.length > 1 ? `${this.subject.roles[role].toLowerCase()} ` : ''}${objects[i]?.valid_solid ? 'a valid solid' : 'not a valid solid'}`)
-      .join(', ')}`);
+    const whose = (role) => this.surfaces.length > 1 ? `${this.subject.roles[role].toLowerCase()} ` : '';
+    const verdicts = this.page.meshes.map(({role, objects}) => `${whose(role)}${verdict(objects[i])}`).join(', ');
+    return this.say(`${this.page.meshes[m].objects[i].name}: ${verdicts}`);
   }
 
   // Looks of files would hide it.

@@ -9,7 +9,8 @@ import {FrameClock, isSlowCard} from './frame_clock.js';
 
 // Milliseconds.
 const FLIGHT = 450;
-const REST = 160;
+const REST = 160;  // without a move, before all is drawn; longer where that takes long
+const LONGEST_REST = 1000;
 const TOO_LONG = 40;
 const PIXELS_MOVING = 400000;  // at most, where a picture takes long
 const PIXELS_SMOOTHED = 3e6;
@@ -75,7 +76,7 @@ export class Stage {
   move() {
     this.moving = true;
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.draw(), REST);
+    this.resting = setTimeout(() => this.draw(), Math.max(REST, Math.min(this.clock.least, LONGEST_REST)));
     this.ask();
   }
 

@@ -29,18 +29,25 @@ export class Surface {
     // Meshes that are checked alone may overlap: where they do, the back of one is not all that a cut shows.
     this.isSolid = this.isValid && facts.objects.length <= 1 && !(page.subject === 'boolean' && facts === page.meshes[0]);
     this.scene = new Scene();
-    this.material = new ShaderMaterial({uniforms: {...cut, wires: {value: false}, kinds: {value: false}, heated: {value: false}, top: {value: 1},
-      heat_colours: {value: HEAT.map((colour) => new Vector3(...colour).divideScalar(255))}, solid: {value: this.isSolid},
-      picture: {value: null}, pictured: {value: false}, behind: {value: new Vector3(...this.isValid ? BEHIND_SOLID : BEHIND)}}, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2});
+    this.material = this.shading();
     this.mesh = this.added(data.corners);
     this.coarse = null;
     this.fileLooks = null;
     this.looksMesh = null;
     this.markers = new Map(page.looks.map((look) => [look.key, this.marker(look)]));
-    this.ring = dots([0, 0, 0], [20, 110, 240], {size: 30 * devicePixelRatio, ring: true, cut: {cut: {value: new Vector4()}, cutting: {value: false}}});
+    const uncut = {cut: {value: new Vector4()}, cutting: {value: false}};
+    this.ring = dots([0, 0, 0], [20, 110, 240], {size: 30 * devicePixelRatio, ring: true, cut: uncut});
     this.ring.visible = false;
     this.scene.add(this.ring);
+  }
+
+  shading() {
+    const value = (what) => ({value: what});
+    const uniforms = {...this.cut, wires: value(false), kinds: value(false), heated: value(false), top: value(1), solid: value(this.isSolid),
+      heat_colours: value(HEAT.map((colour) => new Vector3(...colour).divideScalar(255))),
+      behind: value(new Vector3(...this.isValid ? BEHIND_SOLID : BEHIND)), picture: value(null), pictured: value(false)};
+    return new ShaderMaterial({uniforms, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide, polygonOffset: true,
+      polygonOffsetFactor: 1, polygonOffsetUnits: 2});
   }
 
   // Each corner is a vertex of its own.
