@@ -18,6 +18,7 @@
 #include "common/repair_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
+#include "page/boolean_page.h"
 
 namespace meshrepair {
 namespace {
@@ -35,6 +36,7 @@ bool is_tree_name(const std::string& name) {
 // The meshes as they are in their files.
 struct GivenMeshes : JoinedMeshes {
   View::Up up = View::Up::y;  // unless some mesh has z up
+  std::vector<GivenOperand> operands;
 };
 
 // That of the first file that says one, or of the output.
@@ -64,18 +66,33 @@ struct Intake {
   GivenMeshes given;
 };
 
-// `intake.given` gets the mesh as it is in the file, if there will be a picture.
+// Whether anybody is to see the operands.
+bool shows_operands(const BoolOptions& options) {
+  return options.command.step.picture.wanted() || options.command.step.html.wanted();
+}
+
+// The mesh as it is in the file, if it is to be seen.
+void keep_given(const BoolOptions& options, const TriangleSoup& soup, const Attributes& attributes,
+                Intake& intake) {
+  if (!shows_operands(options)) return;
+  intake.given.add(soup, attributes);
+  GivenOperand& operand = intake.given.operands.back();
+  operand.points = soup.points.size();
+  operand.triangles = soup.triangles.size();
+}
+
+// `intake.given` gets the mesh as it is in the file.
 Operand read_mesh_operand(const BoolOptions& options, const RepairOptions& repair_options, Run& run,
                           Findings& findings, Intake& intake) {
   const PictureRequest& picture = options.command.step.picture;
   ReadOptions reading = read_options(run);
   reading.may_be_empty = true;
-  reading.attributes =
-      options.command.step.assets.attributes && (options.carries_attributes || picture.wanted());
+  reading.attributes = options.command.step.assets.attributes &&
+                       (options.carries_attributes || shows_operands(options));
   auto [soup, attributes, scene, report] = read_mesh_stage(reading, run, findings);
   intake.unit.apply(findings.unit, soup);
   check_picture(picture, attributes);
-  if (picture.wanted()) intake.given.add(soup, attributes);
+  keep_given(options, soup, attributes, intake);
   if (!options.carries_attributes) attributes = {};
   return make_operand(std::move(soup), std::move(attributes), repair_options, run, findings);
 }
@@ -94,7 +111,7 @@ Operand read_operand(const BoolOptions& options, Run& run, Findings& findings, I
     return {};
   }
   TriangleSoup solid = extract_mesh(tree, repair_options, findings.repair).mesh;
-  if (options.command.step.picture.wanted()) intake.given.add(solid, {});
+  keep_given(options, solid, {}, intake);
   return {std::move(solid), {}, false, {}};
 }
 
@@ -102,11 +119,13 @@ Operand take_operand(const BoolOptions& options, const std::string& name, Run& r
                      Intake& intake) {
   Findings findings(name, "");
   Operand operand;
+  intake.given.operands.push_back({page_name(name, findings.input_name())});
   (void)with_findings(run, findings, [&] {
     operand = read_operand(options, run, findings, intake);
     if (up_of(findings) == View::Up::z) intake.given.up = View::Up::z;
     return ExitCode::done;
   });
+  intake.given.operands.back().solid_triangles = operand.solid.triangles.size();
   end_operand(operand, findings, run, facts);
   return operand;
 }
@@ -163,6 +182,15 @@ ExitCode write_mesh_result(const Surface& surface, const JoinedMeshes& operands,
   }
   draw_picture_stage(options.command.step.picture, given.up, options.command.inputs,
                      {{given.soup, given.attributes}, {surface.mesh, attributes}}, run, findings);
+  write_boolean_page_stage(options.command.step.html,
+                           {given.operands,
+                            {given.soup, given.attributes},
+                            surface,
+                            attributes,
+                            options.command.inputs,
+                            given.up,
+                            format.extras.unit},
+                           run, findings);
   if (!findings.withheld)
     print_result(options, findings.repair, what_was_written(surface), run, findings.shown);
   return verdict(run, findings);
@@ -211,7 +239,7 @@ ExitCode combine_files(BoolOptions options, Run& run) {
 // What is asked of a mesh to write says nothing about a tree.
 void refuse_mesh_options(const CLI::App& app) {
   for (const char* name :
-       {"--format", "--attributes", "--drop", "--precision", "--strict", "--picture"}) {
+       {"--format", "--attributes", "--drop", "--precision", "--strict", "--picture", "--html"}) {
     if (app.get_option(name)->count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }
@@ -239,6 +267,7 @@ int main(int argc, char** argv) {
   add_boolean_command(app, options.command);
   add_picture_options(app, options.command.step.picture, "all IN and OUT side by side");
   add_show_options(app, options.command.step.picture, "all IN and OUT");
+  add_html_options(app, options.command.step.html, "all IN and OUT, with what comes from which");
   return program.run(argc, argv, [&](Run& run) {
     if (options.command.step.output.empty()) throw UsageError("the name of the output is empty");
     if (options.command.inputs.size() < 2) throw UsageError("IN: two solids are needed, or more");
@@ -248,6 +277,8 @@ int main(int argc, char** argv) {
     std::vector<std::string> files = options.command.inputs;
     files.push_back(options.command.step.output);
     check_picture(options.command.step.picture, files, run);
+    files.push_back(options.command.step.picture.path);
+    check_html(options.command.step.html, files, run);
     return combine_files(options, run);
   });
 }

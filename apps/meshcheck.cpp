@@ -19,6 +19,7 @@
 #include "common/scene_steps.h"
 #include "common/summary.h"
 #include "page/html_report.h"
+#include "page/scene_page.h"
 
 namespace meshrepair {
 namespace {
@@ -107,6 +108,18 @@ Verdict check_each(const ReadResult& input, const Options& options, Run& run,
   return all;
 }
 
+void write_page_stage(const ReadResult& input, SurfaceCheck check, const Options& options, Run& run,
+                      Findings& findings) {
+  if (options.assets.by_mesh) {
+    const ScenePage page = {
+        up_of(findings), {input.soup, input.attributes, input.scene}, {}, options.request.check};
+    return write_scene_page_stage(options.html, page, run, findings);
+  }
+  write_html_stage(options.html, up_of(findings),
+                   {"input", {}, input.soup, std::move(check), {}, {}, {}, &input.attributes},
+                   options.request.check.most_places, run, findings);
+}
+
 ExitCode check_mesh(Options& options, Run& run) {
   if (options.marked == "-") throw UsageError("--mark: needs the name of a file");
   if (!options.marked.empty() && is_same_file(options.marked, options.input)) {
@@ -114,8 +127,7 @@ ExitCode check_mesh(Options& options, Run& run) {
   }
   check_files(options.input, options.marked, run);
   check_picture(options.picture, {options.input, options.marked}, run);
-  check_html(options.html, options.assets.by_mesh,
-             {options.input, options.marked, options.picture.path}, run);
+  check_html(options.html, {options.input, options.marked, options.picture.path}, run);
   options.request.check.progress = &run.progress;
   options.request.check.mark_triangles =
       !options.marked.empty() || options.html.wanted() || options.picture.painted;
@@ -133,13 +145,11 @@ ExitCode check_mesh(Options& options, Run& run) {
                                              : check_one(input, options, run, findings);
     meter.end();
     if (!options.marked.empty()) write_marked(input.soup, verdict.colours, options, run);
+    write_page_stage(input, std::move(verdict.check), options, run, findings);
     if (options.picture.painted) input.attributes = painted(verdict.colours);
     place_instances(input.soup, input.attributes, input.scene);
     draw_picture_stage(options.picture, up_of(findings), {options.input},
                        {{input.soup, input.attributes}}, run, findings);
-    write_html_stage(options.html, up_of(findings),
-                     {"input", {}, input.soup, std::move(verdict.check), {}},
-                     options.request.check.most_places, run, findings);
     run.progress.finish();
     print_summary(findings.shown);
     if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
@@ -183,7 +193,7 @@ int main(int argc, char** argv) {
   add_picture_options(app, options.picture, "IN");
   add_colours_option(app, options.picture, "defects", "as --mark has them");
   add_show_options(app, options.picture, "IN");
-  add_html_options(app, options.html, "IN");
+  add_html_options(app, options.html, "IN, with all that is wrong");
   return program.run(argc, argv, [&](Run& run) {
     if (options.json) program.report_to_standard_output();
     return check_mesh(options, run);

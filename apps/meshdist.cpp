@@ -11,9 +11,11 @@
 
 #include "common/distance_report.h"
 #include "common/file_kinds.h"
+#include "common/picture_steps.h"
 #include "common/repair_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
+#include "page/distance_page.h"
 
 namespace meshrepair {
 namespace {
@@ -23,11 +25,14 @@ struct Options {
   std::string second;
   bool json = false;
   DistanceOptions distance;
+  HtmlRequest html;
 };
 
 struct Read {
   TriangleSoup soup;
   std::optional<LengthUnit> unit;
+  std::string name;  // for people
+  View::Up up = View::Up::z;
 };
 
 Read read(const std::string& path, const std::string& key, Run& run, std::string& lines) {
@@ -38,7 +43,7 @@ Read read(const std::string& path, const std::string& key, Run& run, std::string
       fmt::format("{}: {}, {}\n", findings.input_name(),
                   format_words(format_name(findings.mesh_read->format), findings.mesh_read->packed),
                   number_of(soup.triangles.size(), "triangle"));
-  return {std::move(soup), findings.unit};
+  return {std::move(soup), findings.unit, page_name(path, findings.input_name()), up_of(findings)};
 }
 
 // Of two that say their units, the second is brought to that of the first.
@@ -49,12 +54,34 @@ void bring_to_same_unit(const Read& first, Read& second, std::string& lines) {
                        units_text(first.unit));
 }
 
+// The sections of the report, which stays as it is.
+Json sections_of(Run& run) {
+  Json sections = run.report.take_sections();
+  for (const auto& [key, section] : sections.items()) run.report.set_section(key, section);
+  return sections;
+}
+
+void write_page_stage(const Options& options, const Read& first, const Read& second,
+                      const MeshDistance& distance, Run& run) {
+  if (!options.html.wanted()) return;
+  const bool y_is_up = first.up == View::Up::y && second.up == View::Up::y;
+  write_distance_page_stage(options.html,
+                            {{first.name, first.soup},
+                             {second.name, second.soup},
+                             distance,
+                             y_is_up ? View::Up::y : View::Up::z,
+                             first.unit ? first.unit : second.unit,
+                             sections_of(run)},
+                            run);
+}
+
 ExitCode measure(Options& options, Run& run) {
   if (options.first == "-" && options.second == "-") {
     throw UsageError("only one of the meshes can be standard input");
   }
   check_files(options.first, "", run);
   check_files(options.second, "", run);
+  check_html(options.html, {options.first, options.second}, run);
   run.report.set_input({{"a", options.first}, {"b", options.second}});
   options.distance.progress = &run.progress;
   std::string lines;
@@ -63,6 +90,7 @@ ExitCode measure(Options& options, Run& run) {
   bring_to_same_unit(first, second, lines);
   const MeshDistance distance = mesh_distance(first.soup, second.soup, options.distance);
   run.report.set_section("distance", distance_section(distance, options.distance));
+  write_page_stage(options, first, second, distance, run);
   run.progress.finish();
   if (run.options.report != "-" && !run.options.quiet) {
     std::cout << lines << distance_table(distance);
@@ -89,6 +117,7 @@ int main(int argc, char** argv) {
       ->check(names_file(mesh_extensions()))
       ->required();
   add_distance_options(app, options.distance);
+  add_html_options(app, options.html, "A and B, coloured by their distance");
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
       ->group("Output");
   return program.run(argc, argv, [&](Run& run) {

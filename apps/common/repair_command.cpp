@@ -72,7 +72,7 @@ void add_repair_command(CLI::App& app, RepairCommand& command) {
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_colours_option(app, options.picture, "fates", "as --explain has them");
   add_show_options(app, options.picture, "IN and OUT", "; elsewhere show by a bar what changed");
-  add_html_options(app, options.html, "IN and OUT");
+  add_html_options(app, options.html, "IN and OUT, with all that is wrong");
   add_point_repair_options(app, command.points);
 }
 
@@ -80,11 +80,12 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   const StepOptions& options = command.steps;
   WriteOptions format = mesh_format(options);
   ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
-  // A picture shows also what the output cannot hold.
-  if (options.picture.wanted()) reading.attributes = options.assets.attributes;
+  // Pictures and pages show also what the output cannot hold.
+  const bool is_shown = options.picture.wanted() || options.html.wanted();
+  if (is_shown) reading.attributes = options.assets.attributes;
   AnySoup input = read_any_stage(command.points, reading, run, findings);
   check_picture(options.picture, input.attributes);
-  const Attributes given = options.picture.wanted() ? input.attributes : Attributes();
+  const Attributes given = is_shown ? input.attributes : Attributes();
   input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options);
@@ -105,7 +106,8 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
                      {{input.soup, options.picture.painted ? fates[0] : given},
                       {surface.mesh, options.picture.painted ? fates[1] : attributes}},
                      run, findings);
-  write_html_stage(options.html, up_of(findings), input.soup, surface.mesh, run, findings);
+  write_html_stage(options.html, up_of(findings), {input.soup, given}, {surface.mesh, attributes},
+                   run, findings);
 }
 
 RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run& run,

@@ -321,8 +321,8 @@ ExitCode run_steps(StepOptions& options, Run& run, const StepBody& body) {
   check_files(options.input, options.staging.empty() ? options.output : staged(options), run);
   check_picture(options.picture, {options.input, options.output}, run);
   check_explanation(options.explained, {options.input, options.output, options.picture.path}, run);
-  check_html(options.html, options.assets.by_mesh,
-             {options.input, options.output, options.picture.path, options.explained}, run);
+  check_html(options.html, {options.input, options.output, options.picture.path, options.explained},
+             run);
   options.repair.progress = &run.progress;
   return run_body(options, run, body);
 }

@@ -14,6 +14,7 @@
 #include "common/picture_steps.h"
 #include "common/report_sections.h"
 #include "common/summary.h"
+#include "page/scene_page.h"
 
 namespace meshrepair {
 namespace {
@@ -74,6 +75,11 @@ class SceneRepair {
     write_explanation_stage(options_.explained, {input_.soup, input_.scene}, {all_.mesh, scene_},
                             run_, findings_);
     draw(attributes);
+    write_scene_page_stage(options_.html,
+                           {up_of(findings_),
+                            {input_.soup, given_, input_.scene},
+                            SceneOnPage{all_.mesh, attributes, scene_}},
+                           run_, findings_);
     findings_.summary = summary();
   }
 

@@ -26,15 +26,14 @@ std::string json_for_html(const Json& json) {
   return safe;
 }
 
-std::string html_page(const Json& facts, const std::vector<std::string>& packed) {
+std::string html_page(const Json& facts, const std::vector<PageText>& texts) {
   const std::string_view page = viewer_page();
   const std::size_t place = page.find(kPlaceOfData);
   MESHREPAIR_ASSERT(place != std::string_view::npos);
   std::string text(page.substr(0, place));
   text += R"(<script type="application/json" id="facts">)" + json_for_html(facts) + "</script>\n";
-  for (std::size_t m = 0; m < packed.size(); ++m) {
-    text +=
-        fmt::format(R"(<script type="text/plain" id="mesh-{}">)", m) + packed[m] + "</script>\n";
+  for (const PageText& one : texts) {
+    text += R"(<script type="text/plain" id=")" + one.id + "\">" + one.text + "</script>\n";
   }
   return text.append(page.substr(place + kPlaceOfData.size() + 1));
 }

@@ -12,7 +12,13 @@ namespace meshrepair {
 // ASCII. A byte that is not UTF-8 becomes the replacement character.
 [[nodiscard]] std::string json_for_html(const Json& json);
 
-// `facts` is what web/viewer/src/main.js reads; `packed` has the text of pack_mesh() of each mesh.
-[[nodiscard]] std::string html_page(const Json& facts, const std::vector<std::string>& packed);
+// What a page holds besides its facts: a text without markup, and how the viewer finds it.
+struct PageText {
+  std::string id;  // "mesh-0": of pack_mesh(); "looks-0": of pack_looks(); "picture-0"
+  std::string text;
+};
+
+// `facts` is what web/viewer/src/main.js reads.
+[[nodiscard]] std::string html_page(const Json& facts, const std::vector<PageText>& texts);
 
 }  // namespace meshrepair

@@ -16,119 +16,178 @@
 #include "common/side_file.h"
 #include "common/summary.h"
 #include "page/html_page.h"
+#include "page/pack_looks.h"
+#include "page/page_pictures.h"
 
 namespace meshrepair {
 namespace {
-
-constexpr std::size_t kPlacesInReport = 10;  // of each defect
-
-std::string name_of(const std::string& path, const std::string& otherwise) {
-  return path == "-" ? otherwise : std::filesystem::path(path).filename().string();
-}
 
 bool is_html_name(const std::string& name) {
   const std::string extension = lower_extension(name);
   return extension == ".html" || extension == ".htm";
 }
 
-SurfaceCheck checked(const TriangleSoup& soup, Run& run) {
-  CheckOptions options;
+// Makes the page of its meshes, one after the other.
+class PageMaker {
+ public:
+  PageMaker(const HtmlRequest& request, const PageContent& content, Run& run)
+      : request_(request),
+        places_(content.places),
+        grid_(grid_of(content.meshes)),
+        run_(run),
+        pictures_(content.inputs) {}
+
+  // Packs what is drawn of it; gives its section of the report.
+  Json add(ShownMesh& mesh) {
+    if (!mesh.drawn) {
+      mesh.drawn = drawn_mesh(mesh.soup, mesh.kind_of,
+                              mesh.check ? mesh.check->marks : std::vector<std::uint16_t>(),
+                              request_.most_triangles);
+    }
+    Json section = {{"triangles_shown", mesh.drawn->soup.triangles.size()}};
+    Json check;
+    if (mesh.check) {
+      SurfaceCheck few = *mesh.check;
+      keep_places(few, places_);
+      check = check_section(few);
+      section["check"] = check;
+    }
+    Json facts = facts_of(mesh, std::move(check), grid_);
+    const std::string number = std::to_string(facts_.size());
+    texts_.push_back({"mesh-" + number, pack_mesh(*mesh.drawn, grid_, &run_.progress)});
+    add_looks(mesh, number, facts);
+    facts_.push_back(std::move(facts));
+    mesh.drawn.reset();
+    return section;
+  }
+
+  [[nodiscard]] const PageGrid& grid() const { return grid_; }
+  [[nodiscard]] const Json& facts() const { return facts_; }
+  [[nodiscard]] const Json& left_out() const { return pictures_.left_out(); }
+
+  // Of all meshes, and the pictures that they have.
+  [[nodiscard]] std::vector<PageText> texts() {
+    for (std::size_t i = 0; i < pictures_.texts().size(); ++i) {
+      texts_.push_back({"picture-" + std::to_string(i), pictures_.texts()[i]});
+    }
+    return std::move(texts_);
+  }
+
+ private:
+  void add_looks(const ShownMesh& mesh, const std::string& number, Json& facts) {
+    facts["looks"] = nullptr;
+    if (mesh.attributes == nullptr) return;
+    auto looks = pack_looks(*mesh.attributes, *mesh.drawn, pictures_, &run_.progress);
+    if (!looks) return;
+    facts["looks"] = std::move(looks->facts);
+    texts_.push_back({"looks-" + number, std::move(looks->text)});
+  }
+
+  const HtmlRequest& request_;
+  std::size_t places_;  // of each defect, in the report
+  PageGrid grid_;
+  Run& run_;
+  PagePictures pictures_;
+  Json facts_ = Json::array();
+  std::vector<PageText> texts_;
+};
+
+Json json_of(const PageGrid& grid) {
+  return {{"bits", PageGrid::kBits},
+          {"low", {grid.low.x(), grid.low.y(), grid.low.z()}},
+          {"half", grid.half},
+          {"high", grid.high}};
+}
+
+}  // namespace
+
+std::string page_name(const std::string& path, const std::string& otherwise) {
+  return path == "-" ? otherwise : std::filesystem::path(path).filename().string();
+}
+
+Json page_sections(const Findings& findings) {
+  JsonReport report("", {});
+  add_sections(findings, report);
+  return report.take_sections();
+}
+
+SurfaceCheck check_for_page(const TriangleSoup& soup, Run& run, CheckOptions options) {
   options.most_places = kMostPagePlaces;
   options.mark_triangles = true;
   options.progress = &run.progress;
   return check_surface(soup, options);
 }
 
-template <class Kind>
-std::vector<std::uint32_t> numbers_of(const std::vector<Kind>& kinds) {
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(kinds.size());
-  for (const Kind kind : kinds) numbers.push_back(static_cast<std::uint32_t>(kind));
-  return numbers;
-}
-
-// The sections of the report, none of which says how long anything took.
-Json sections_of(const Findings& findings) {
-  JsonReport report("", {});
-  add_sections(findings, report);
-  return report.take_sections();
-}
-
-void write_page(const HtmlRequest& request, View::Up up, std::vector<ShownMesh> meshes,
-                std::size_t places, Run& run, const Findings& findings) {
+PageGrid grid_of(const std::vector<ShownMesh>& meshes) {
   std::vector<const TriangleSoup*> soups;
   soups.reserve(meshes.size());
   for (const ShownMesh& mesh : meshes) soups.push_back(&mesh.soup);
-  const PageGrid grid = grid_of(soups);
+  return grid_of(soups);
+}
+
+void write_page(const HtmlRequest& request, PageContent content, Run& run) {
+  PageMaker maker(request, content, run);
   Json section = {{"path", request.path}};
-  Json facts = Json::array();
-  std::vector<std::string> packed;
-  for (ShownMesh& mesh : meshes) {
-    const std::vector<std::uint32_t> chosen =
-        choose_triangles(mesh.soup, mesh.check.marks, request.most_triangles);
-    packed.push_back(
-        pack_mesh(mesh.soup, chosen, mesh.kind_of, mesh.check.marks, grid, &run.progress));
-    SurfaceCheck few = mesh.check;
-    keep_places(few, places);
-    const Json check = check_section(few);
-    section[std::string(mesh.role)] = {{"triangles_shown", chosen.size()}, {"check", check}};
-    facts.push_back(facts_of(mesh, check, chosen.size(), grid));
-  }
-  const Json page = {{"program", "meshrepair"},
-                     {"version", program_version()},
-                     {"up", up == View::Up::y ? "y" : "z"},
-                     {"units", units_text(findings.unit)},
-                     {"grid",
-                      {{"bits", PageGrid::kBits},
-                       {"low", {grid.low.x(), grid.low.y(), grid.low.z()}},
-                       {"half", grid.half},
-                       {"high", grid.high}}},
-                     {"looks", looks_of_defects()},
-                     {"meshes", std::move(facts)},
-                     {"report", sections_of(findings)}};
-  write_file_atomically(request.path, html_page(page, packed), &run.progress);
+  for (ShownMesh& mesh : content.meshes) section[std::string(mesh.role)] = maker.add(mesh);
+  Json page = {{"program", "meshrepair"},           {"version", program_version()},
+               {"subject", content.subject},        {"up", content.up == View::Up::y ? "y" : "z"},
+               {"units", units_text(content.unit)}, {"grid", json_of(maker.grid())},
+               {"looks", looks_of_defects()},       {"meshes", maker.facts()},
+               {"left_out", maker.left_out()}};
+  page.update(content.more);
+  page["report"] = std::move(content.report);
+  write_file_atomically(request.path, html_page(page, maker.texts()), &run.progress);
   run.report.set_section("html", std::move(section));
 }
 
-}  // namespace
-
 void add_html_options(CLI::App& app, HtmlRequest& request, const std::string& what) {
   app.add_option("--html", request.path,
-                 "Write a page for browsers that shows " + what +
-                     ", with all that is wrong, to be\nturned and cut open")
+                 "Write a page for browsers that shows " + what + ", to be\nturned and cut open")
       ->check(names_file(".html, .htm"))
       ->type_name("FILE")
       ->group("Page");
   app.add_option("--html-triangles", request.most_triangles,
-                 "Draw no more triangles of a mesh: all that are at fault, and every so many of\n"
-                 "the others")
+                 "Draw no more triangles of a mesh: all that are at fault, and the others\n"
+                 "simplified")
       ->check(count_between(1))
       ->type_name("N")
       ->capture_default_str()
       ->group("Page");
 }
 
-void check_html(const HtmlRequest& request, bool by_mesh, const std::vector<std::string>& files,
-                Run& run) {
+void check_html(const HtmlRequest& request, const std::vector<std::string>& files, Run& run) {
   if (!request.wanted()) return;
   const std::string& path = request.path;
   if (!is_html_name(path)) throw UsageError("--html: " + path + " ends neither in .html nor .htm");
-  if (by_mesh) throw UsageError("--html: shows a scene as one mesh, and excludes --scene each");
   check_side_file({"--html", path, "page"}, files, run);
 }
 
-void write_html_stage(const HtmlRequest& request, View::Up up, const TriangleSoup& input,
-                      const TriangleSoup& result, Run& run, Findings& findings) {
+void write_html_stage(const HtmlRequest& request, View::Up up, const Drawn& input,
+                      const Drawn& result, Run& run, Findings& findings) {
   if (!request.wanted()) return;
   StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
   meter.begin("html");
   const RepairExplanation& explanation = findings.repair.explanation;
-  std::vector<ShownMesh> meshes;
-  meshes.push_back({"input", name_of(findings.input, findings.input_name()), input,
-                    checked(input, run), kinds_of_fates(), numbers_of(explanation.fates)});
-  meshes.push_back({"result", name_of(findings.output, findings.output_name()), result,
-                    checked(result, run), kinds_of_origins(), numbers_of(explanation.origins)});
-  write_page(request, up, std::move(meshes), kPlacesInReport, run, findings);
+  PageContent content{"repair", up, findings.unit};
+  content.meshes.push_back({"input",
+                            page_name(findings.input, findings.input_name()),
+                            input.soup,
+                            check_for_page(input.soup, run),
+                            page_kinds(kinds_of_fates()),
+                            numbers_of(explanation.fates),
+                            {},
+                            &input.attributes});
+  content.meshes.push_back({"result",
+                            page_name(findings.output, findings.output_name()),
+                            result.soup,
+                            check_for_page(result.soup, run),
+                            page_kinds(kinds_of_origins()),
+                            numbers_of(explanation.origins),
+                            {},
+                            &result.attributes});
+  content.inputs = {findings.input};
+  content.report = page_sections(findings);
+  write_page(request, std::move(content), run);
 }
 
 void write_html_stage(const HtmlRequest& request, View::Up up, ShownMesh mesh, std::size_t places,
@@ -136,10 +195,13 @@ void write_html_stage(const HtmlRequest& request, View::Up up, ShownMesh mesh, s
   if (!request.wanted()) return;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("html");
-  mesh.name = name_of(findings.input, findings.input_name());
-  std::vector<ShownMesh> meshes;
-  meshes.push_back(std::move(mesh));
-  write_page(request, up, std::move(meshes), places, run, findings);
+  mesh.name = page_name(findings.input, findings.input_name());
+  PageContent content{"check", up, findings.unit};
+  content.meshes.push_back(std::move(mesh));
+  content.inputs = {findings.input};
+  content.places = places;
+  content.report = page_sections(findings);
+  write_page(request, std::move(content), run);
 }
 
 }  // namespace meshrepair

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <base/assert.h>
 
@@ -23,7 +24,7 @@ bool is_of_edges(Defect defect) {
 Json places_of(const ShownMesh& mesh, Defect defect, const PageGrid& grid) {
   Json at = Json::array();
   Json ends = Json::array();
-  const std::vector<Place>& places = mesh.check[defect].first;
+  const std::vector<Place>& places = (*mesh.check)[defect].first;
   for (std::size_t i = 0; i < std::min(kMostPagePlaces, places.size()); ++i) {
     if (!places[i].at.allFinite()) continue;
     append(grid.steps_of(places[i].at), at);
@@ -35,6 +36,7 @@ Json places_of(const ShownMesh& mesh, Defect defect, const PageGrid& grid) {
 
 Json places_of(const ShownMesh& mesh, const PageGrid& grid) {
   Json all = Json::object();
+  if (!mesh.check) return all;
   for (std::size_t d = 0; d < kDefects; ++d) {
     const auto defect = static_cast<Defect>(d);
     all[std::string(defect_name(defect))] = places_of(mesh, defect, grid);
@@ -47,26 +49,48 @@ Json kinds_of(const ShownMesh& mesh) {
   for (const std::uint32_t kind : mesh.kind_of) ++counts[kind];
   Json list = Json::array();
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    const TriangleKind& kind = mesh.kinds[k];
-    list.push_back({{"key", kind.name},
-                    {"words", kind.meaning},
-                    {"colour", kind.colour},
-                    {"count", counts[k]}});
+    const PageKind& kind = mesh.kinds[k];
+    list.push_back(
+        {{"key", kind.key}, {"words", kind.words}, {"colour", kind.colour}, {"count", counts[k]}});
   }
   return list;
+}
+
+Json middle_of(const TriangleSoup& soup, const std::array<std::uint32_t, 3>& triangle,
+               const PageGrid& grid) {
+  Vec3d middle = Vec3d::Zero();
+  for (const std::uint32_t p : triangle) middle += soup.points[p] / 3;
+  Json place = Json::array();
+  append(grid.steps_of(middle), place);
+  return place;
 }
 
 // In the middle of a triangle of each part that the section lists.
 Json part_places(const ShownMesh& mesh, std::size_t listed, const PageGrid& grid) {
   Json list = Json::array();
   for (std::size_t i = 0; i < listed; ++i) {
-    Vec3d middle = Vec3d::Zero();
-    for (const std::uint32_t p : mesh.soup.triangles[mesh.check.parts[i].first_triangle]) {
-      middle += mesh.soup.points[p] / 3;
-    }
-    Json place = Json::array();
-    append(grid.steps_of(middle), place);
-    list.push_back(std::move(place));
+    const auto& triangle = mesh.soup.triangles[mesh.check->parts[i].first_triangle];
+    list.push_back(middle_of(mesh.soup, triangle, grid));
+  }
+  return list;
+}
+
+// `until`: how many triangles are drawn of it and all before. `place` is on one of them, if any.
+Json objects_of(const ShownMesh& mesh, const PageGrid& grid) {
+  const DrawnMesh& drawn = *mesh.drawn;
+  Json list = Json::array();
+  std::size_t triangles = 0, until = 0;
+  for (const ShownObject& object : mesh.objects) {
+    triangles += object.triangles;
+    const std::size_t before = until;
+    while (until < drawn.source.size() && drawn.source[until] < triangles) ++until;
+    Json place = nullptr;
+    if (until > before) place = middle_of(drawn.soup, drawn.soup.triangles[before], grid);
+    list.push_back({{"name", object.name},
+                    {"triangles", object.triangles},
+                    {"valid_solid", object.is_solid},
+                    {"until", until},
+                    {"place", place}});
   }
   return list;
 }
@@ -79,17 +103,36 @@ void keep_places(SurfaceCheck& check, std::size_t most) {
   }
 }
 
-Json facts_of(const ShownMesh& mesh, Json section, std::size_t shown, const PageGrid& grid) {
-  MESHREPAIR_ASSERT(mesh.kinds.empty() || mesh.kind_of.size() == mesh.soup.triangles.size());
-  const std::size_t listed = section["first_parts"].size();
+std::vector<PageKind> page_kinds(const std::vector<TriangleKind>& kinds) {
+  std::vector<PageKind> list;
+  list.reserve(kinds.size());
+  for (const TriangleKind& kind : kinds) {
+    list.push_back({std::string(kind.name), std::string(kind.meaning), kind.colour});
+  }
+  return list;
+}
+
+Json facts_of(const ShownMesh& mesh, Json section, const PageGrid& grid) {
+  const TriangleSoup& soup = mesh.soup;
+  MESHREPAIR_ASSERT(mesh.kinds.empty() || mesh.kind_of.size() == soup.triangles.size());
+  MESHREPAIR_ASSERT(mesh.drawn.has_value());
+  std::size_t not_finite = 0;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+    not_finite += is_finite(soup, t) ? 0 : 1;
+  const std::size_t listed = section.is_null() ? 0 : section["first_parts"].size();
   return {{"role", mesh.role},
           {"name", mesh.name},
-          {"shown", shown},
-          {"not_finite", mesh.check[Defect::not_finite_triangle].count},
-          {"size", sides_of(mesh.soup, grid)},
+          {"triangles", soup.triangles.size()},
+          {"points", soup.points.size()},
+          {"shown", mesh.drawn->soup.triangles.size()},
+          {"simplified", mesh.drawn->is_simplified},
+          {"has_values", !mesh.drawn->values.empty()},
+          {"not_finite", not_finite},
+          {"size", sides_of(soup, grid)},
           {"kinds", kinds_of(mesh)},
           {"places", places_of(mesh, grid)},
           {"part_places", part_places(mesh, listed, grid)},
+          {"objects", objects_of(mesh, grid)},
           {"check", std::move(section)}};
 }
 

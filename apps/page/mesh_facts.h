@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <check/check_surface.h>
+#include <mesh/attributes.h>
 #include <mesh/soup.h>
 
 #include "common/explanation_file.h"
@@ -18,21 +20,40 @@ namespace meshrepair {
 // Of each kind of defect that are flown to, and whose edges are drawn.
 inline constexpr std::size_t kMostPagePlaces = 1000;
 
+// What a triangle can be, with the colour that says so.
+struct PageKind {
+  std::string key;
+  std::string words;
+  Colour colour;
+};
+// Those of --explain.
+[[nodiscard]] std::vector<PageKind> page_kinds(const std::vector<TriangleKind>& kinds);
+
+// One of those that stand beside each other.
+struct ShownObject {
+  std::string name;           // for people
+  std::size_t triangles = 0;  // of the soup, behind those of the objects before
+  bool is_solid = false;
+};
+
 struct ShownMesh {
-  std::string_view role;  // "input" or "result"
+  std::string_view role;  // "input", "result", "a" or "b": its key in the report
   std::string name;       // for people
   const TriangleSoup& soup;
-  SurfaceCheck check;                       // with marks, and up to kMostPagePlaces places
-  std::vector<TriangleKind> kinds;          // that a triangle may be; empty: nothing is known
+  std::optional<SurfaceCheck> check;        // with marks, and up to kMostPagePlaces places
+  std::vector<PageKind> kinds = {};         // that a triangle may be; empty: nothing is known
   std::vector<std::uint32_t> kind_of = {};  // of each triangle
+  std::optional<DrawnMesh> drawn = {};      // nothing: what drawn_mesh() makes of it
+  const Attributes* attributes = nullptr;   // of it; null: none
+  std::vector<ShownObject> objects = {};    // that it is made of; empty: nothing is known
 };
 
 // Of the check only the first `most` places of each defect stay.
 void keep_places(SurfaceCheck& check, std::size_t most);
 
-// `shown` is how many triangles are drawn. `section` is that of the check, as in the report.
-[[nodiscard]] Json facts_of(const ShownMesh& mesh, Json section, std::size_t shown,
-                            const PageGrid& grid);
+// What is drawn of it has to be there. `section` is that of the check, as in the report; null where
+// there is none.
+[[nodiscard]] Json facts_of(const ShownMesh& mesh, Json section, const PageGrid& grid);
 
 // Of each defect its key, colour and words, and the bit of its marks, or null. Worst first.
 [[nodiscard]] Json looks_of_defects();

@@ -7,23 +7,12 @@
 #include <base/base64.h>
 #include <mesh/packing.h>
 
+#include "page/packed_numbers.h"
+
 namespace meshrepair {
 namespace {
 
 constexpr std::uint32_t kNew = std::numeric_limits<std::uint32_t>::max();
-
-void append_number(std::string& out, std::uint32_t value) {
-  while (value >= 0x80) {
-    out += static_cast<char>(value | 0x80);
-    value >>= 7;
-  }
-  out += static_cast<char>(value);
-}
-
-void append_signed(std::string& out, std::int32_t value) {
-  const auto bits = static_cast<std::uint32_t>(value);
-  append_number(out, (bits << 1) ^ (value < 0 ? ~0u : 0u));
-}
 
 // Finite; nothing where there are none.
 struct Bounds {
@@ -42,10 +31,8 @@ struct Bounds {
   [[nodiscard]] bool empty() const { return low.x() > high.x(); }
 };
 
-// Every so many of a list, so that `wanted` are left.
-void append_evenly(const std::vector<std::uint32_t>& from, std::size_t wanted,
-                   std::vector<std::uint32_t>& to) {
-  for (std::size_t i = 0; i < wanted; ++i) to.push_back(from[i * from.size() / wanted]);
+void append_all(std::size_t count, const auto& numbers, std::string& out) {
+  for (std::size_t i = 0; i < count; ++i) append_number(out, numbers.empty() ? 0 : numbers[i]);
 }
 
 }  // namespace
@@ -59,12 +46,6 @@ PageGrid::Steps PageGrid::steps_of(const Vec3d& point) const {
         static_cast<std::int32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMost));
   }
   return steps;
-}
-
-bool is_finite(const TriangleSoup& soup, std::uint32_t triangle) {
-  const auto& corners = soup.triangles[triangle];
-  return std::all_of(corners.begin(), corners.end(),
-                     [&](std::uint32_t p) { return soup.points[p].allFinite(); });
 }
 
 PageGrid grid_of(const std::vector<const TriangleSoup*>& soups) {
@@ -88,45 +69,33 @@ PageGrid::Steps sides_of(const TriangleSoup& soup, const PageGrid& grid) {
   return sides;
 }
 
-std::vector<std::uint32_t> choose_triangles(const TriangleSoup& soup,
-                                            std::span<const std::uint16_t> marks,
-                                            std::size_t most) {
-  std::vector<std::uint32_t> marked;
-  std::vector<std::uint32_t> others;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-    if (is_finite(soup, t)) (marks[t] != 0 ? marked : others).push_back(t);
-  }
-  std::vector<std::uint32_t> chosen;
-  append_evenly(marked, std::min(most, marked.size()), chosen);
-  append_evenly(others, std::min(most - chosen.size(), others.size()), chosen);
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
-}
-
-std::string pack_mesh(const TriangleSoup& soup, std::span<const std::uint32_t> chosen,
-                      std::span<const std::uint32_t> kinds, std::span<const std::uint16_t> marks,
-                      const PageGrid& grid, ProgressObserver* progress) {
+std::string pack_mesh(const DrawnMesh& mesh, const PageGrid& grid, ProgressObserver* progress) {
+  const TriangleSoup& soup = mesh.soup;
   std::string bytes;
   std::vector<std::uint32_t> number_of(soup.points.size(), kNew);
-  std::vector<PageGrid::Steps> places;
-  for (const std::uint32_t t : chosen) {
-    for (const std::uint32_t p : soup.triangles[t]) {
-      const auto next = static_cast<std::uint32_t>(places.size());
+  std::vector<std::uint32_t> order;
+  for (const auto& t : soup.triangles) {
+    for (const std::uint32_t p : t) {
+      const auto next = static_cast<std::uint32_t>(order.size());
       append_number(bytes, number_of[p] == kNew ? 0 : next - number_of[p]);
       if (number_of[p] != kNew) continue;
       number_of[p] = next;
-      places.push_back(grid.steps_of(soup.points[p]));
+      order.push_back(p);
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::int32_t before = 0;
-    for (const PageGrid::Steps& place : places) {
-      append_signed(bytes, place[axis] - before);
-      before = place[axis];
+    for (const std::uint32_t p : order) {
+      const std::int32_t now = grid.steps_of(soup.points[p])[axis];
+      append_signed(bytes, now - before);
+      before = now;
     }
   }
-  for (const std::uint32_t t : chosen) append_number(bytes, kinds.empty() ? 0 : kinds[t]);
-  for (const std::uint32_t t : chosen) append_number(bytes, marks[t]);
+  append_all(soup.triangles.size(), mesh.kinds, bytes);
+  append_all(soup.triangles.size(), mesh.marks, bytes);
+  if (!mesh.values.empty()) {
+    for (const std::uint32_t p : order) append_number(bytes, mesh.values[p]);
+  }
   return encode_base64(pack_bytes(bytes, Packing::gzip, progress));
 }
 

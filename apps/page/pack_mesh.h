@@ -9,18 +9,20 @@
 //            with a sign, less the one before; steps of the grid
 //   kinds    one a triangle
 //   marks    one a triangle: bit d for Defect d
+//   values   one a point, in the same order, where the mesh has any
 //
 // How many points there are is not said, as the corners tell.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <base/progress.h>
 #include <mesh/soup.h>
+
+#include "page/drawn_mesh.h"
 
 namespace meshrepair {
 
@@ -44,19 +46,8 @@ struct PageGrid {
 // Of one mesh: how many steps its box has along each axis.
 [[nodiscard]] PageGrid::Steps sides_of(const TriangleSoup& soup, const PageGrid& grid);
 
-[[nodiscard]] bool is_finite(const TriangleSoup& soup, std::uint32_t triangle);
-
-// The triangles that are drawn, ascending: of those that are finite the ones with marks first, then
-// every so many of the others; no more than `most`. `marks` has one entry a triangle.
-[[nodiscard]] std::vector<std::uint32_t> choose_triangles(const TriangleSoup& soup,
-                                                          std::span<const std::uint16_t> marks,
-                                                          std::size_t most);
-
-// `kinds` has one entry a triangle, or none at all: then all are 0. Pre: the chosen are finite.
 // Throws Cancelled.
-[[nodiscard]] std::string pack_mesh(const TriangleSoup& soup, std::span<const std::uint32_t> chosen,
-                                    std::span<const std::uint32_t> kinds,
-                                    std::span<const std::uint16_t> marks, const PageGrid& grid,
+[[nodiscard]] std::string pack_mesh(const DrawnMesh& mesh, const PageGrid& grid,
                                     ProgressObserver* progress);
 
 }  // namespace meshrepair

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What meshrepair and meshcheck write with --html: one page that needs nothing else, whatever is in names and meshes.
+"""What programs write with --html: one page that needs nothing else, whatever is in names and meshes.
 
 Usage: html_test.py PROGRAMS
 """
@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -75,8 +76,8 @@ class Numbers:
         return (value >> 1) ^ -(value & 1)
 
 
-def unpack(text: str, triangles: int) -> tuple[list[int], list[list[int]], list[int], list[int]]:
-    """Corners, places, kinds and marks."""
+def unpack(text: str, triangles: int, has_values: bool = False) -> tuple[list[int], list[list[int]], list[int], list[int]]:
+    """Corners, places, kinds and marks, or instead of marks the values of points."""
     numbers = Numbers(text)
     corners: list[int] = []
     points = 0
@@ -93,8 +94,9 @@ def unpack(text: str, triangles: int) -> tuple[list[int], list[list[int]], list[
         axes.append(axis)
     kinds = [numbers.next() for _ in range(triangles)]
     marks = [numbers.next() for _ in range(triangles)]
+    values = [numbers.next() for _ in range(points)] if has_values else []
     assert numbers.at == len(numbers.bytes)
-    return corners, [list(place) for place in zip(*axes)], kinds, marks
+    return corners, [list(place) for place in zip(*axes)], kinds, values if has_values else marks
 
 
 class Pages(unittest.TestCase):
@@ -202,9 +204,180 @@ class Pages(unittest.TestCase):
         faults = sum(mark > 0 for mark in marks)
         for limit in (faults + 100, faults - 100):
             report = self.repaired(MESHES / "broken_torus_box.stl", "--html-triangles", str(limit))
-            self.assertEqual(report["html"]["input"]["triangles_shown"], limit)
-            *_, marks = unpack(Elements(self.page()).scripts["mesh-0"], limit)
+            shown = report["html"]["input"]["triangles_shown"]
+            self.assertLessEqual(shown, limit)
+            self.assertTrue(self.facts()["meshes"][0]["simplified"])
+            *_, marks = unpack(Elements(self.page()).scripts["mesh-0"], shown)
             self.assertEqual(sum(mark > 0 for mark in marks), min(limit, faults))
+
+    def combined(self, *command: str | pathlib.Path) -> dict:
+        self.assertEqual(self.run_program("bspbool", *command, "-o", "out.obj", "--html", "p.html", "--report", "r.json"), 0)
+        return json.loads((self.folder / "r.json").read_text(encoding="utf-8"))
+
+    def test_operands_are_checked_alone_and_told_apart(self):
+        # They cross each other; neither crosses itself.
+        report = self.combined(MESHES / "hollow_sphere.obj", MESHES / "cube.stl", "--op", "union")
+        self.assertTrue(report["html"]["input"]["check"]["valid_solid"])
+        self.assertEqual(report["html"]["input"]["check"]["parts"], 3)
+        facts = self.facts()
+        self.assertEqual([operand["name"] for operand in facts["operands"]], ["hollow_sphere.obj", "cube.stl"])
+        given, made = facts["meshes"]
+        self.assertEqual([kind["count"] for kind in given["kinds"]], [1116, 12, 0])
+        self.assertEqual(sum(kind["count"] for kind in made["kinds"]), made["triangles"])
+        *_, kinds, _ = unpack(Elements(self.page()).scripts["mesh-0"], given["shown"])
+        self.assertEqual(kinds, [0] * 1116 + [1] * 12)
+
+    def test_faults_of_operands_are_where_they_are(self):
+        self.combined(MESHES / "cube.stl", MESHES / "broken_torus_box.stl", "--op", "union")
+        both = self.facts()
+        self.assertEqual(self.run_program("meshcheck", MESHES / "broken_torus_box.stl", "--html", "p.html", "--report", "c.json"), 1)
+        alone = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))["check"]
+        for key, defect in both["meshes"][0]["check"]["defects"].items():
+            self.assertEqual(defect["count"], alone["defects"][key]["count"], key)
+            for one, other in zip(defect["first"], alone["defects"][key]["first"]):
+                shift = 8 if "points" in one else 12
+                ids = "points" if "points" in one else "triangles"
+                self.assertEqual([number - shift for number in one[ids]], other[ids], key)
+                self.assertEqual(one["at"], other["at"])
+
+    def test_distances_beyond_doubles_are_not_known(self):
+        self.write_obj(["1e308 0 0", "-1e308 0 0", "0 1e308 1"], ["1 2 3"])
+        self.assertEqual(self.run_program("meshdist", "in.obj", MESHES / "cube.stl", "--html", "p.html"), 0)
+        facts = self.facts()
+        self.assertIsNone(facts["scale"]["most"])
+        *_, values = unpack(Elements(self.page()).scripts["mesh-0"], facts["meshes"][0]["shown"], True)
+        self.assertEqual(set(values), {0})
+
+    def test_each_place_has_its_distance(self):
+        report = self.folder / "r.json"
+        self.assertEqual(self.run_program("meshdist", MESHES / "cube.stl", MESHES / "hollow_sphere.obj", "--html", "p.html", "--report",
+                                          report), 0)
+        distance = json.loads(report.read_text(encoding="utf-8"))["distance"]
+        facts = self.facts()
+        for way, key in zip(facts["ways"], ("a_to_b", "b_to_a")):
+            self.assertEqual((way["mean"], way["rms"], way["largest"]), tuple(distance[key][name] for name in ("mean", "rms", "hausdorff")))
+        self.assertEqual(facts["scale"]["most"], distance["hausdorff"])
+        cube = facts["meshes"][0]
+        self.assertGreater(cube["shown"], cube["triangles"])
+        _, places, _, values = unpack(Elements(self.page()).scripts["mesh-0"], cube["shown"], True)
+        self.assertEqual(len(values), len(places))
+        by_place = {tuple(place): value / facts["scale"]["steps"] * facts["scale"]["most"] for place, value in zip(places, values)}
+        grid = facts["grid"]
+        for place, value in by_place.items():
+            own = [grid["low"][k] + place[k] / MOST * 2 * grid["half"] for k in range(3)]
+            radius = sum(x * x for x in own) ** 0.5
+            # The sphere has a radius of 1, its cavity of 0.6; both are many flat triangles.
+            self.assertAlmostEqual(value, min(abs(1 - radius), abs(0.6 - radius)), delta=0.05)
+
+    def test_pages_of_all_programs_have_the_same_bytes_on_any_number_of_threads(self):
+        names = (MESHES / "hollow_sphere.obj", MESHES / "broken_torus_box.stl")
+        for program, *more in (("bspbool", "--op", "union", "-o", "out.obj"), ("meshdist", "--samples", "5000")):
+            pages = set()
+            for threads in ("1", "4"):
+                self.assertEqual(self.run_program(program, *names, *more, "--html", "p.html", "--threads", threads), 0)
+                pages.add(self.page())
+            self.assertEqual(len(pages), 1, program)
+
+    def test_names_of_all_programs_are_no_markup(self):
+        (self.folder / HOSTILE).write_bytes((MESHES / "cube.stl").read_bytes())
+        for program, *more in (("bspbool", "--op", "union", "-o", "out.obj"), ("meshdist",)):
+            self.assertEqual(self.run_program(program, MESHES / "cube.stl", MESHES / "cube.stl", *more, "--html", "p.html"), 0)
+            expected = Elements(self.page()).names
+            self.assertEqual(self.run_program(program, HOSTILE, MESHES / "cube.stl", *more, "--html", "p.html"), 0)
+            self.assertEqual(Elements(self.page()).names, expected)
+            facts = self.facts()
+            self.assertIn(HOSTILE, [named["name"] for named in facts["meshes"] + facts.get("operands", [])])
+
+    def write_pictured(self, picture: bytes, name: str = "wood.png", mesh: str = "in.obj") -> None:
+        """A tetrahedron with a picture on one side and a colour on another, and the picture if it has bytes."""
+        if picture:
+            (self.folder / name).write_bytes(picture)
+        (self.folder / "in.mtl").write_text(f"newmtl wood\nKd 1 1 1\nmap_Kd {name}\nnewmtl red\nKd 1 0 0\n")
+        (self.folder / mesh).write_text("mtllib in.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 2.5\n"
+                                        "usemtl wood\nf 1/1 3/3 2/2\nusemtl red\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+
+    def looks(self, number: int = 0) -> tuple[dict, Numbers]:
+        facts = self.facts()
+        return facts["meshes"][number]["looks"], Numbers(Elements(self.page()).scripts[f"looks-{number}"])
+
+    def test_colours_and_pictures_are_embedded_as_they_are(self):
+        picture = (ROOT / "docs/pictures/pawn.png").read_bytes()
+        self.write_pictured(picture)
+        self.repaired("in.obj")
+        scripts = Elements(self.page()).scripts
+        self.assertEqual(base64.b64decode(scripts["picture-0"], validate=True), picture)
+        self.assertNotIn("picture-1", scripts, "the result has the same one")
+        for number in (0, 1):
+            looks, numbers = self.looks(number)
+            self.assertEqual(sorted(material["colour"] for material in looks["materials"]), [[255, 0, 0], [255, 255, 255]])
+            self.assertEqual(sum(numbers.next() & 1 for _ in range(4)), 1)
+        looks, numbers = self.looks()
+        self.assertEqual([numbers.next() for _ in range(4)], [3, 4, 4, 4])
+        self.assertEqual([numbers.next() for _ in range(3)], [0, 0, 0])
+        places = [numbers.signed() for _ in range(6)]
+        self.assertEqual(places, [0, 0, 8192, 0, 20480, -20480])
+        self.assertEqual(numbers.at, len(numbers.bytes))
+
+    def test_pictures_that_cannot_be_shown_are_named(self):
+        (self.folder / "deeper").mkdir()
+        many = b"\x89PNG\r\n\x1a\n" + bytes(8 << 20)
+        for picture, name, why in ((b"", "none.png", "is not there"), (b"<svg onload='alert(1)'/>", "a.png", "is neither PNG nor JPEG"),
+                                   (many, "big.png", "would make the page too large"), (b"GIF89a", "../out.gif", "is not there")):
+            self.write_pictured(picture, name, "deeper/in.obj" if ".." in name else "in.obj")
+            mesh = "in.obj"
+            if ".." in name:
+                (self.folder / "in.mtl").rename(self.folder / "deeper/in.mtl")
+                mesh = "deeper/in.obj"
+            self.repaired(mesh)
+            self.assertNotIn("picture-0", Elements(self.page()).scripts)
+            (line,) = self.facts()["left_out"]
+            self.assertIn(why, line)
+
+    def test_colours_of_corners(self):
+        points = ["0 0 0 1 0 0", "1 0 0 0 1 0", "0 1 0 0 0 1", "0 0 1 1 1 1"]
+        self.write_obj(points, ["1 3 2", "1 2 4", "1 4 3", "2 3 4"])
+        self.repaired("in.obj")
+        looks, numbers = self.looks()
+        self.assertEqual((looks["has_places"], looks["has_colours"]), (False, True))
+        self.assertEqual([numbers.next() for _ in range(4)], [0] * 4)
+        self.assertEqual([numbers.next() for _ in range(12)], [1, 1, 1, 4, 2, 1, 5, 2, 4, 3, 4, 2])
+        self.assertEqual([numbers.next() for _ in range(12)], [255, 0, 0, 255, 0, 0, 255, 255, 0, 255, 0, 255])
+
+    def write_scene(self) -> None:
+        """A tetrahedron in two places, one of them twice as large, and farther along x."""
+        points = struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)
+        corners = struct.pack("<12H", 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2)
+        data = base64.b64encode(points + corners).decode()
+        scene = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64," + data}],
+                 "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
+                               {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+                 "nodes": [{"name": HOSTILE, "mesh": 0}, {"name": "large", "mesh": 0, "translation": [0.25, 0, 0], "scale": [2, 2, 2]}],
+                 "scenes": [{"nodes": [0, 1]}]}
+        (self.folder / "scene.gltf").write_text(json.dumps(scene), encoding="utf-8")
+
+    def test_objects_of_a_scene_stand_in_their_places_and_are_checked_alone(self):
+        self.write_scene()
+        self.assertEqual(self.run_program("meshcheck", "scene.gltf", "--html", "p.html"), 1, "as one mesh they cross each other")
+        markup = Elements(self.page()).names
+        report = self.repaired("scene.gltf", "--scene", "each", "--format", "gltf")
+        self.assertEqual([name for name in Elements(self.page()).names if name != "script"], [name for name in markup if name != "script"])
+        for mesh in self.facts()["meshes"]:
+            self.assertTrue(mesh["check"]["valid_solid"])
+            self.assertEqual([(one["name"], one["triangles"], one["valid_solid"], one["until"]) for one in mesh["objects"]],
+                             [(HOSTILE, 4, True, 4), ("large", 4, True, 8)])
+            volumes = [part["volume"] for part in mesh["check"]["first_parts"]]
+            self.assertAlmostEqual(volumes[0], 1 / 6)
+            self.assertAlmostEqual(volumes[1], 8 / 6)
+            self.assertEqual([steps / MOST * 2 * self.facts()["grid"]["half"] for steps in mesh["size"]], [2.25, 2, 2])
+        self.assertEqual(report["html"]["input"]["check"]["triangles"], 8)
+        self.assertEqual(self.run_program("meshcheck", "scene.gltf", "--scene", "each", "--html", "p.html"), 0)
+        self.assertEqual(len(self.facts()["meshes"][0]["objects"]), 2)
+
+    def test_meshes_without_colours_have_no_looks(self):
+        self.repaired(MESHES / "cube.stl")
+        self.assertEqual([mesh["looks"] for mesh in self.facts()["meshes"]], [None, None])
 
     def write_obj(self, points: list[str], faces: list[str]) -> None:
         text = "".join(f"v {p}\n" for p in points) + "".join(f"f {f}\n" for f in faces)

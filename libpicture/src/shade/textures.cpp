@@ -1,14 +1,11 @@
-#include <algorithm>
 #include <cstdint>
-#include <system_error>
 #include <utility>
 
 #include <base/error.h>
-#include <base/file_bytes.h>
 #include <base/ids.h>
 #include <mesh/mesh_source.h>
-#include <mesh/named_files.h>
 #include <picture/decode_image.h>
+#include <picture/image_bytes.h>
 #include <picture/textures.h>
 
 namespace meshrepair {
@@ -64,16 +61,7 @@ std::shared_ptr<const Texture> Textures::get(const Image& image) {
 Pixels Textures::pixels_of(const Image& image) const {
   const std::size_t most = kMostImagePixels - pixels_;
   if (image.bytes) return decode_image(*image.bytes, most);
-  const fs::path path = image.path;
-  const bool is_allowed =
-      std::any_of(folders_.begin(), folders_.end(),
-                  [&](const fs::path& folder) { return is_file_within(folder, path); });
-  if (!is_allowed) throw InputError("is not there, or not in the mesh's folder");
-  std::error_code error;
-  if (const auto size = fs::file_size(path, error); error || size > kMostFileBytes) {
-    throw InputError("is too large");
-  }
-  return decode_image(FileBytes(path).bytes(), most);
+  return decode_image(image_bytes(image, folders_, kMostFileBytes), most);
 }
 
 }  // namespace meshrepair

@@ -1,8 +1,11 @@
 // The meshes of the page: packed as apps/page/pack_mesh.h says.
 
+export function bytesOf(base64) {
+  return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+}
+
 async function unpack(base64) {
-  const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream('gzip'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -26,10 +29,14 @@ class Numbers {
   }
 }
 
-// `facts` has the numbers of points and triangles. Corners are numbers of points, three a triangle; places are steps of the grid,
-// three a point; kinds and marks have one entry a triangle.
+export async function numbersOf(base64) {
+  return new Numbers(await unpack(base64));
+}
+
+// `facts` says how many triangles there are. Corners are numbers of points, three a triangle; places are steps of the grid, three a
+// point; kinds and marks have one entry a triangle; values, if there are any, one a point.
 export async function decodeMesh(base64, facts) {
-  const numbers = new Numbers(await unpack(base64));
+  const numbers = await numbersOf(base64);
   const corners = new Uint32Array(3 * facts.shown);
   let points = 0;
   for (let i = 0; i < corners.length; ++i) {
@@ -41,9 +48,9 @@ export async function decodeMesh(base64, facts) {
     let value = 0;
     for (let p = 0; p < points; ++p) places[3 * p + axis] = value += numbers.nextSigned();
   }
-  const kinds = Uint8Array.from({length: facts.shown}, () => numbers.next());
-  const marks = Uint16Array.from({length: facts.shown}, () => numbers.next());
-  return {corners, places, kinds, marks};
+  const list = (length) => Uint32Array.from({length}, () => numbers.next());
+  const [kinds, marks] = [list(facts.shown), list(facts.shown)];
+  return {corners, places, kinds, marks, values: facts.has_values ? list(points) : null};
 }
 
 // From steps of the grid to the mesh's own units, and to the box that is drawn: its centre is 0, its largest side 2.

@@ -1,10 +1,12 @@
 // The list of defects: shows and hides each kind, and goes from place to place.
 import {button, make, swatch} from './dom.js';
-import {defectWords, grouped, roleWords} from './words.js';
+import {defectWords, grouped, subjectOf} from './words.js';
 
 export class Layers {
   // `go` is called with the surface, the key, and the number of the place.
-  constructor(looks, surfaces, {changed, go}) {
+  constructor(page, surfaces, {changed, go}) {
+    const {looks} = page;
+    this.subject = subjectOf(page);
     this.looks = looks;
     this.surfaces = surfaces;
     this.changed = changed;
@@ -22,12 +24,12 @@ export class Layers {
     const present = this.looks.filter(({key}) => this.counts(key).some((count) => count > 0));
     const absent = this.looks.filter((look) => !present.includes(look));
     const two = this.surfaces.length > 1;
-    const heads = two ? this.surfaces.map(({facts}) => roleWords[facts.role]) : ['Count'];
+    const heads = two ? this.surfaces.map(({facts}) => this.subject.roles[facts.role]) : ['Count'];
     const head = make('tr', {}, make('td'), make('th', {scope: 'col'}, 'Kind'),
         ...heads.map((text) => make('th', {scope: 'col', class: 'number'}, text)));
     const list = make('table', {class: 'layers'}, make('thead', {}, head), make('tbody', {}, ...present.map((look) => this.row(look))));
     const none = absent.map(({key}) => defectWords[key][0].toLowerCase()).join(', ');
-    return make('section', {'aria-labelledby': 'defects'}, make('h2', {id: 'defects'}, this.surfaces.length > 1 ? 'What was wrong' : 'What is wrong'),
+    return make('section', {'aria-labelledby': 'defects'}, make('h2', {id: 'defects'}, this.subject.found),
         present.length > 0 ? make('p', {}, 'Click a name to fly to a place; click again for the next one.') :
             make('p', {class: 'good'}, 'Nothing was found.'),
         present.length > 0 ? make('div', {class: 'wide'}, list) : null,

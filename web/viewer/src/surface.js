@@ -1,98 +1,58 @@
 // A mesh as it is drawn: flat triangles in the colours that are asked for, edges of defects, and the places of defects.
-import {BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, Points, Scene, ShaderMaterial,
-  Vector3, Vector4} from 'three';
+import {Box3, BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, Scene, ShaderMaterial, Vector3,
+  Vector4} from 'three';
 
+import {coarseMesh} from './coarse.js';
+import {HEAT} from './heat.js';
+import {partsOf} from './parts.js';
+import {dots, FRAGMENT, VERTEX} from './shaders.js';
 import {plain} from './words.js';
 
-const PLAIN = [200, 204, 210];
+export const PLAIN = [200, 204, 210];
+const CHOSEN = [40, 120, 240];  // of the part that was chosen in the list
 // Of triangles that are seen from behind: nobody should see that, unless a solid is cut open.
 const BEHIND = [0.8, 0.25, 0.2];
 const BEHIND_SOLID = [0.5, 0.54, 0.62];
-
-// Each corner is a vertex of its own, so its number says which corner of the triangle it is.
-const VERTEX = `
-attribute vec3 tint;
-varying vec3 place; varying vec3 seen; varying vec3 colour; varying vec3 corner;
-void main() {
-  place = position;
-  colour = tint;
-  int which = gl_VertexID % 3;
-  corner = vec3(float(which == 0), float(which == 1), float(which == 2));
-  vec4 view = modelViewMatrix * vec4(position, 1.0);
-  seen = view.xyz;
-  gl_Position = projectionMatrix * view;
-}`;
-const FRAGMENT = `
-uniform vec4 cut; uniform bool cutting; uniform bool wires; uniform bool kinds; uniform vec3 behind;
-varying vec3 place; varying vec3 seen; varying vec3 colour; varying vec3 corner;
-void main() {
-  if (cutting && dot(place, cut.xyz) > cut.w) discard;
-  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
-  float light = 0.42 + 0.5 * max(dot(normal, normalize(vec3(0.25, 0.5, 0.85))), 0.0) + 0.08 * normal.y;
-  vec3 base = (gl_FrontFacing ? colour : kinds ? 0.7 * colour : behind) * light;
-  if (wires) {
-    vec3 width = fwidth(corner);
-    vec3 near = smoothstep(vec3(0.0), width * 1.3, corner);
-    base = mix(base * 0.35, base, min(near.x, min(near.y, near.z)));
-  }
-  gl_FragColor = vec4(base, 1.0);
-}`;
-const DOT_VERTEX = `
-attribute vec3 tint; varying vec3 colour; varying vec3 place; uniform float size;
-void main() {
-  colour = tint;
-  place = position;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  gl_Position.z -= 0.001 * gl_Position.w;  // in front of what it lies in
-  gl_PointSize = size;
-}`;
-const DOT_FRAGMENT = `
-uniform vec4 cut; uniform bool cutting; uniform bool ring;
-varying vec3 colour; varying vec3 place;
-void main() {
-  if (cutting && dot(place, cut.xyz) > cut.w) discard;
-  float from = length(gl_PointCoord - 0.5) * 2.0;
-  if (from > 1.0 || (ring && from < 0.66)) discard;
-  gl_FragColor = vec4(from > 0.72 && !ring ? vec3(1.0) : colour, 1.0);
-}`;
-
-function dots(places, tints, options) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(new Float32Array(places), 3));
-  geometry.setAttribute('tint', new BufferAttribute(new Uint8Array(tints), 3, true));
-  const uniforms = {size: {value: options.size}, ring: {value: options.ring}, ...options.cut};
-  const material = new ShaderMaterial({uniforms, vertexShader: DOT_VERTEX, fragmentShader: DOT_FRAGMENT, depthTest: !options.ring});
-  const points = new Points(geometry, material);
-  points.frustumCulled = false;
-  points.renderOrder = options.ring ? 3 : 2;
-  return points;
-}
+const WHILE_MOVING = 20000;  // triangles
 
 export class Surface {
-  // `facts` are those of the mesh in the page's data, `cut` the uniforms of the plane that all share, `plane` the
-  // same for three.js.
-  constructor(facts, data, grid, cut, plane, looks) {
+  // `facts` are those of the mesh in the page's data, `cut` the uniforms of the plane that all share, `plane` the same for three.js.
+  constructor(facts, data, grid, cut, plane, page) {
     this.facts = facts;
     this.data = data;
     this.grid = grid;
     this.cut = cut;
     this.plane = plane;
-    this.looks = looks;
+    this.looks = page.looks;
+    this.steps = page.scale?.steps;
+    this.isValid = facts.check?.valid_solid ?? false;
+    // Meshes that are checked alone may overlap: where they do, the back of one is not all that a cut shows.
+    this.isSolid = this.isValid && facts.objects.length <= 1 && !(page.subject === 'boolean' && facts === page.meshes[0]);
     this.scene = new Scene();
-    this.mesh = new Mesh(this.geometry(), new ShaderMaterial({
-      uniforms: {...cut, wires: {value: false}, kinds: {value: false}, behind: {value: new Vector3(...facts.check.valid_solid ? BEHIND_SOLID : BEHIND)}},
-      vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2}));
-    this.mesh.frustumCulled = false;
-    this.scene.add(this.mesh);
-    this.markers = new Map(looks.map((look) => [look.key, this.marker(look)]));
-    this.ring = dots([0, 0, 0], [20, 110, 240], {size: 30 * devicePixelRatio, ring: true, cut: {cut: {value: new Vector4()}, cutting: {value: false}}});
+    this.material = this.shading();
+    this.mesh = this.added(data.corners);
+    this.coarse = null;
+    this.fileLooks = null;
+    this.looksMesh = null;
+    this.markers = new Map(page.looks.map((look) => [look.key, this.marker(look)]));
+    const uncut = {cut: {value: new Vector4()}, cutting: {value: false}};
+    this.ring = dots([0, 0, 0], [20, 110, 240], {size: 30 * devicePixelRatio, ring: true, cut: uncut});
     this.ring.visible = false;
     this.scene.add(this.ring);
   }
 
-  geometry() {
-    const {corners, places} = this.data;
+  shading() {
+    const value = (what) => ({value: what});
+    const uniforms = {...this.cut, wires: value(false), kinds: value(false), heated: value(false), top: value(1), solid: value(this.isSolid),
+      heat_colours: value(HEAT.map((colour) => new Vector3(...colour).divideScalar(255))),
+      behind: value(new Vector3(...this.isValid ? BEHIND_SOLID : BEHIND)), picture: value(null), pictured: value(false)};
+    return new ShaderMaterial({uniforms, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide, polygonOffset: true,
+      polygonOffsetFactor: 1, polygonOffsetUnits: 2});
+  }
+
+  // Each corner is a vertex of its own.
+  added(corners) {
+    const {places, values} = this.data;
     const position = new Float32Array(3 * corners.length);
     for (let i = 0; i < corners.length; ++i) {
       for (let axis = 0; axis < 3; ++axis) position[3 * i + axis] = this.grid.drawn(places[3 * corners[i] + axis], axis);
@@ -100,12 +60,38 @@ export class Surface {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(position, 3));
     geometry.setAttribute('tint', new BufferAttribute(new Uint8Array(3 * corners.length), 3, true));
-    return geometry;
+    if (values) geometry.setAttribute('heat', new BufferAttribute(Float32Array.from(corners, (p) => values[p] / this.steps), 1));
+    const mesh = new Mesh(geometry, this.material);
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+    return mesh;
+  }
+
+  // Fewer triangles are drawn, if there are many.
+  setCoarse(on) {
+    if (on && !this.coarse && this.facts.shown > WHILE_MOVING) {
+      const {source, corners} = coarseMesh(this.data, this.grid.most, WHILE_MOVING);
+      this.coarse = this.added(corners);
+      this.coarseSource = source;
+      this.tintCoarse();
+    }
+    const coarse = on && this.coarse !== null;
+    const looks = this.mode === 'looks' && this.looksMesh !== null;
+    this.mesh.visible = !coarse && !looks;
+    if (this.looksMesh) this.looksMesh.visible = !coarse && looks;
+    if (this.coarse) this.coarse.visible = coarse;
+  }
+
+  tintCoarse() {
+    if (!this.coarse) return;
+    const [from, to] = [this.mesh, this.coarse].map(({geometry}) => geometry.getAttribute('tint'));
+    this.coarseSource.forEach((t, i) => to.array.set(from.array.subarray(9 * t, 9 * t + 9), 9 * i));
+    to.needsUpdate = true;
   }
 
   // What shows where a defect is: its edges, or a dot at each place. Nothing where there is none.
   marker(look) {
-    const {at, ends} = this.facts.places[look.key];
+    const {at, ends} = this.facts.places[look.key] ?? {at: [], ends: []};
     const all = ends.length > 0 ? ends : at;
     const places = [];
     for (let i = 0; i < all.length; ++i) places.push(this.grid.drawn(all[i], i % 3));
@@ -125,23 +111,73 @@ export class Surface {
     return shown;
   }
 
-  // `mode` is "defects", "fate" or "plain"; `layers` the keys of the defects that are shown.
+  colourOf(t, mode, shown) {
+    if (this.isChosen?.(t)) return CHOSEN;
+    if (mode === 'fate' && this.facts.kinds.length > 0) return this.facts.kinds[this.data.kinds[t]].colour;
+    if (mode !== 'defects') return PLAIN;
+    return (shown.find((look) => this.data.marks[t] >> look.bit & 1) ?? {colour: PLAIN}).colour;
+  }
+
+  // What it looks like in its file, which may be nothing.
+  setLooks(looks) {
+    this.fileLooks = looks;
+  }
+
+  // `mode` is "defects", "fate", "heat", "looks" or "plain"; `layers` the keys of the defects that are shown.
   paint(mode, layers) {
+    this.mode = mode;
     const tint = this.mesh.geometry.getAttribute('tint');
+    const looks = mode === 'looks' ? this.fileLooks : null;
+    if (looks) this.showLooks();
     const shown = this.looks.filter((look) => layers.has(look.key) && look.bit !== null);
     for (let t = 0; t < this.facts.shown; ++t) {
-      let colour = PLAIN;
-      if (mode === 'fate') colour = this.facts.kinds[this.data.kinds[t]].colour;
-      if (mode === 'defects') colour = (shown.find((look) => this.data.marks[t] >> look.bit & 1) ?? {colour: PLAIN}).colour;
-      for (let corner = 0; corner < 3; ++corner) tint.array.set(colour, 9 * t + 3 * corner);
+      const colour = looks ? null : this.colourOf(t, mode, shown);
+      for (let corner = 0; corner < 3; ++corner) tint.array.set(colour ?? looks.farColourOf(t, corner), 9 * t + 3 * corner);
     }
     tint.needsUpdate = true;
-    this.mesh.material.uniforms.kinds.value = mode === 'fate';  // also of turned triangles
+    this.tintCoarse();
+    this.material.uniforms.kinds.value = mode === 'fate' || mode === 'heat';  // also of turned triangles
+    this.material.uniforms.heated.value = mode === 'heat';
     for (const [key, marker] of this.markers) if (marker) marker.visible = mode === 'defects' && layers.has(key);
   }
 
+  showLooks() {
+    if (this.looksMesh) return;
+    this.looksMesh = this.fileLooks.mesh(this.mesh.geometry.getAttribute('position').array, this.material);
+    this.looksMesh.frustumCulled = false;
+    this.scene.add(this.looksMesh);
+  }
+
+  // Colours the part in which a place is, or none; paint() shows it.
+  choosePart(place) {
+    this.isChosen = null;
+    const triangle = place ? this.nearest(place, null) : undefined;
+    if (triangle === undefined) return;
+    this.parts ??= partsOf(this.data.corners);
+    this.isChosen = (t) => this.parts[t] === this.parts[triangle];
+  }
+
+  // The first triangle of an object, and the one behind its last.
+  objectRange(i) {
+    const {objects} = this.facts;
+    return [i > 0 ? objects[i - 1].until : 0, objects[i].until];
+  }
+
+  // Colours an object of a scene.
+  chooseObject(i) {
+    const [first, end] = this.objectRange(i);
+    this.isChosen = (t) => t >= first && t < end;
+  }
+
+  // Around an object that has triangles.
+  objectBox(i) {
+    const [first, end] = this.objectRange(i);
+    const box = new Box3().setFromArray(this.mesh.geometry.getAttribute('position').array.subarray(9 * first, 9 * end));
+    return {centre: box.getCenter(new Vector3()), radius: box.getSize(new Vector3()).length() / 2};
+  }
+
   wires(on) {
-    this.mesh.material.uniforms.wires.value = on;
+    this.material.uniforms.wires.value = on;
   }
 
   corner(triangle, which) {
@@ -167,6 +203,15 @@ export class Surface {
     if (triangle === undefined) return new Vector3();
     const [a, b, c] = [0, 1, 2].map((which) => this.corner(triangle, which));
     return b.sub(a).cross(c.sub(a)).normalize();
+  }
+
+  // The value at a place of a triangle, as a share of the largest.
+  valueAt(triangle, place) {
+    const [a, b, c] = [0, 1, 2].map((which) => this.corner(triangle, which));
+    const heat = this.mesh.geometry.getAttribute('heat');
+    const opposite = [[b, c], [c, a], [a, b]].map(([p, q]) => p.clone().sub(place).cross(q.clone().sub(place)).length());
+    const sum = opposite[0] + opposite[1] + opposite[2];
+    return [0, 1, 2].reduce((all, k) => all + heat.getX(3 * triangle + k) * (sum > 0 ? opposite[k] / sum : 1 / 3), 0);
   }
 
   // What a triangle is, in words.

@@ -1,9 +1,9 @@
 // The rows of buttons above the canvas, and what keys do.
 import {button, make} from './dom.js';
+import {subjectOf} from './words.js';
 
-const MODES = {input: 'Before', result: 'After', both: 'Side by side', slider: 'Slider'};
-const PAINTS = {defects: 'Defects', fate: 'What became of it', plain: 'Plain'};
-const KEYS = [['\u2190 \u2191 \u2192 \u2193', 'turn'], ['+  \u2212', 'nearer, farther'], ['1 2 3 4', 'before, after, side by side, slider'],
+const BOTH = {both: 'Side by side', slider: 'Slider'};
+const KEYS = [['\u2190 \u2191 \u2192 \u2193', 'turn'], ['+  \u2212', 'nearer, farther'], ['1 2 3 4', 'the first, the second, side by side, slider'],
   ['N  P', 'next, previous place'], ['W', 'wireframe'], ['X', 'cut open'], ['M', 'measure'], ['R', 'the whole mesh again'],
   ['[  ]', 'move the slider']];
 
@@ -30,11 +30,20 @@ function toggle(text, name, change) {
   return element;
 }
 
+function paintsOf(page) {
+  if (page.scale) return {heat: 'Distance', plain: 'Plain'};
+  const {kinds} = subjectOf(page);
+  const hasLooks = page.meshes.some(({looks}) => looks !== null);
+  return {defects: 'Defects', ...(kinds ? {fate: kinds} : {}), ...(hasLooks ? {looks: 'As it looks'} : {}), plain: 'Plain'};
+}
+
 // `act` has the functions that the buttons call. Gives the rows, and a function that takes the keys.
 export function tools(page, mode, paint, act) {
   const two = page.meshes.length > 1;
-  const modes = two ? choice('What is shown', MODES, mode, act.mode) : null;
-  const paints = choice('Colours', two ? PAINTS : {defects: 'Defects', plain: 'Plain'}, paint, act.paint);
+  const roles = page.meshes.map(({role}) => role);
+  const names = Object.fromEntries(roles.map((role) => [role, subjectOf(page).roles[role]]));
+  const modes = two ? choice('What is shown', {...names, ...BOTH}, mode, act.mode) : null;
+  const paints = choice('Colours', paintsOf(page), paint, act.paint);
   const wires = toggle('Wireframe', 'wires', act.wires);
   const measure = toggle('Measure', 'measure', act.measure);
   const cutRow = cutTools(page, act.cut);
@@ -43,7 +52,7 @@ export function tools(page, mode, paint, act) {
   const look = button('\u25d0', {'aria-label': 'Light or dark', title: 'Light or dark', 'data-tool': 'look', onclick: act.look});
   const row = make('div', {class: 'tools', role: 'toolbar', 'aria-label': 'View'}, modes?.group, paints.group, wires, cut, measure, reset, look);
   const taken = {
-    1: () => modes?.set('input'), 2: () => modes?.set('result'), 3: () => modes?.set('both'), 4: () => modes?.set('slider'),
+    1: () => modes?.set(roles[0]), 2: () => modes?.set(roles[1]), 3: () => modes?.set('both'), 4: () => modes?.set('slider'),
     n: () => act.step(1), p: () => act.step(-1), w: () => wires.click(), x: () => cut.click(), m: () => measure.click(), r: act.reset,
     '+': () => act.near(0.8), '=': () => act.near(0.8), '-': () => act.near(1.25), '[': () => act.slide(-0.05), ']': () => act.slide(0.05),
   };

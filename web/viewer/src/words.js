@@ -13,7 +13,19 @@ export const defectWords = {
   unused_points: ['Points that no triangle uses', 'Left over. They do no harm.'],
 };
 
-export const roleWords = {input: 'Before', result: 'After'};
+// What a page is about, and what is said of it then.
+const subjects = {
+  repair: {roles: {input: 'Before', result: 'After'}, found: 'What was wrong', kinds: 'What became of it',
+    legend: 'What became of each triangle', paint: 'defects'},
+  check: {roles: {input: 'Value'}, found: 'What is wrong', paint: 'defects'},
+  boolean: {roles: {input: 'Operands', result: 'Result'}, found: 'What is wrong', kinds: 'Where it comes from',
+    legend: 'Where each triangle comes from', paint: 'fate'},
+  distance: {roles: {a: 'A', b: 'B'}, paint: 'heat'},
+};
+
+export function subjectOf(page) {
+  return subjects[page.subject];
+}
 
 export function grouped(number) {
   return number.toLocaleString('en-US');
