@@ -5,7 +5,7 @@ set -euo pipefail
 
 usage() {
   cat <<TEXT
-Usage: scripts/setup.sh [build|python|all|bench|package]
+Usage: scripts/setup.sh [build|python|all|bench|package|cluster]
 
   build   what is needed to build the programs and to run the tests
   python  the same, and what the Python package needs; "pip install ." uses no
@@ -19,6 +19,8 @@ Usage: scripts/setup.sh [build|python|all|bench|package]
           this project with
   package
           the same as python, and what is needed to make and to check packages
+  cluster
+          what is needed to build, and Slurm and Snakemake, to try job scripts on this machine
 
 Asks for nothing, and does nothing if all is there. Without npm's registry its packages are left out, with a
 warning; tests that need them are skipped. Needs Debian 12 or a relative of it, and root or sudo
@@ -107,12 +109,21 @@ package_packages=(
   lintian
 )
 
+cluster_packages=(
+  munge
+  slurm-client
+  slurmctld
+  slurmd
+  snakemake
+)
+
 case "${1:-all}" in
   build) packages=("${build_packages[@]}") ;;
   python) packages=("${build_packages[@]}" "${python_packages[@]}") ;;
   all) packages=("${build_packages[@]}" "${python_packages[@]}" "${check_packages[@]}") ;;
   bench) packages=("${build_packages[@]}" "${bench_packages[@]}") ;;
   package) packages=("${build_packages[@]}" "${python_packages[@]}" "${package_packages[@]}") ;;
+  cluster) packages=("${build_packages[@]}" "${cluster_packages[@]}") ;;
   -h | --help) usage; exit 0 ;;
   *) usage >&2; exit 2 ;;
 esac
