@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 
-from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
+from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NO_SOLID, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
                      names_of, print_to, say, text, value_of)
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
@@ -201,6 +201,8 @@ class FolderRun:
         job.note_needs(names_of(report, "files") + names_of(report, "pictures"))
         if code in WRITTEN and os.path.isfile(worker.mesh):
             row = self.take_output(worker, row, report)
+        elif row["exit_code"] == NO_SOLID:
+            self.take_pages(worker, report)
         row["seconds"] = round(time.monotonic() - worker.started, 3)
         row["peak_memory_bytes"] = value_of(report, "peak_memory_bytes") or worker.peak_memory
         worker.clear()
@@ -291,7 +293,7 @@ class FolderRun:
     def remove_old(self, job, is_written):
         """What an earlier run has made and this one has not."""
         old, new = self.journal.files_beside(job), job.beside.keys() | job.pictures.keys() | job.shown.keys()
-        old = old - new if is_written else old | new
+        old = old - new if is_written else (old | new) - job.shown.keys()
         for name in old:
             if not self.journal.others_with(name, job):
                 self.out.remove(os.path.join(self.out.path, name))

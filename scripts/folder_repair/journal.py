@@ -136,7 +136,7 @@ class Journal:
            any(job.state_of(name) != state for name, state in entry.get("needs", {}).items()):
             return None
         promised = entry["row"]["bytes_out"]
-        is_whole = promised is None or self.is_there(job.target, promised) and all(
+        is_whole = (promised is None or self.is_there(job.target, promised)) and all(
             self.is_there(os.path.join(self.folder, bytes_of(name)), size)
             for name, size in self.files_of(entry).items())
         return entry["row"] if is_whole else None
@@ -175,7 +175,7 @@ class Journal:
             entry["beside"] = {key_of(name): size for name, size in job.beside.items()}
         if row["output"] and job.pictures:
             entry["pictures"] = {key_of(name): size for name, size in job.pictures.items()}
-        if row["output"] and job.shown:
+        if job.shown:
             entry["shown"] = {key_of(name): size for name, size in job.shown.items()}
             entry["facts"] = job.facts
         if job.needs:

@@ -8,7 +8,8 @@ import signal
 import subprocess
 import time
 
-from .basics import DONE, GUARANTEES, INTERNAL, LIMIT, WRITTEN, text, value_of
+from .basics import DONE, GUARANTEES, INTERNAL, LIMIT, NO_SOLID, WRITTEN, text, value_of
+from .gallery import SIZE
 from .program import last_line
 
 UNKILLABLE_SECONDS = 10  # from SIGKILL until a worker that a dead disk holds is given up
@@ -46,16 +47,21 @@ class Worker:
         self.told_to_end = self.killed = None  # when
         self.reason = None  # why
         self.said = b""
-        self.code = self.peak_memory = None
-        parent = os.getpid()
+        self.code = self.signal_number = self.peak_memory = None
+        self.locks = locks
+        self.looks = has_page  # if nothing becomes of the mesh
+        self.is_looking = False
         shown = ["--html", self.pages[b".html"], "--picture", self.pages[b".png"]] if has_page else []
-        self.process = subprocess.Popen(
-            [*command, "--format", job.format, "--report", self.report_path, *shown, "--staging", folder,
-             job.source, job.target],
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-            start_new_session=True, pass_fds=locks, preexec_fn=lambda: bind_to_parent(parent))
-        self.stderr = self.process.stderr.fileno()
+        self.process = self.started_process([*command, "--format", job.format, "--report", self.report_path, *shown, "--staging",
+                                             folder, job.source, job.target], subprocess.PIPE)
+        self.pipe = self.process.stderr
+        self.stderr = self.pipe.fileno()
         os.set_blocking(self.stderr, False)
+
+    def started_process(self, command, stderr):
+        parent = os.getpid()
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=stderr, start_new_session=True,
+                                pass_fds=self.locks, preexec_fn=lambda: bind_to_parent(parent))
 
     def listen(self):
         """Reads some of what it says. False at the end of it."""
@@ -82,10 +88,26 @@ class Worker:
         _, status, usage = os.wait4(pid, 0)
         code = os.waitstatus_to_exitcode(status)
         self.process.returncode = code
-        self.code = code if code >= 0 else 128 - code
-        self.peak_memory = usage.ru_maxrss * 1024
-        self.listen()
-        self.process.stderr.close()
+        if not self.is_looking:
+            self.code = code if code >= 0 else 128 - code
+            self.signal_number = -code if code < 0 else None
+            self.peak_memory = usage.ru_maxrss * 1024
+            self.listen()
+            if self.code == NO_SOLID and not self.reason and self.looks and self.look():
+                return False
+        self.pipe.close()
+        return True
+
+    def look(self):
+        """Has meshcheck draw the mesh, of which nothing has become. False if there is none."""
+        meshcheck = os.path.join(os.path.dirname(os.fsencode(self.process.args[0])), b"meshcheck")
+        try:
+            self.process = self.started_process(
+                [meshcheck, "--quiet", "--threads", "1", "--html", self.pages[b".html"], "--picture", self.pages[b".png"],
+                 "--picture-size", f"{SIZE[0]}x{SIZE[1]}", "--", self.job.source], subprocess.DEVNULL)
+        except (OSError, subprocess.SubprocessError):
+            return False
+        self.is_looking = True
         return True
 
     def memory(self):
@@ -158,10 +180,10 @@ class Worker:
             if complaint:
                 return INTERNAL, complaint, None
             return self.code, None if self.code == DONE else self.error_line(report), report
-        if self.reason:
+        if self.reason and not self.is_looking:
             return LIMIT, self.reason, report
-        if self.process.returncode < 0:
-            return self.code, f"killed by signal {-self.process.returncode}", report
+        if self.signal_number:
+            return self.code, f"killed by signal {self.signal_number}", report
         return self.code, self.error_line(report), report
 
     def error_line(self, report):

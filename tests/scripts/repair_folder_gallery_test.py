@@ -71,9 +71,10 @@ class Gallery(FolderTest):
         for path, row in rows.items():
             for column in ("exit_code", "triangles_in", "triangles_out", "bytes_out", "error", "output"):
                 self.assertEqual(str(shown[path][column] if shown[path][column] is not None else ""), row[column], path)
-        self.assertEqual({path for path, row in shown.items() if row["page"] and row["picture"]}, {"cube.stl", "sub/tetra.obj"})
+        self.assertEqual({path for path, row in shown.items() if row["page"] and row["picture"]},
+                         {"cube.stl", "sub/tetra.obj", "flat.obj"})
         self.assertEqual(names_in(self.out) - {"index.html"}, {
-            "cube.stl", "sub/tetra.obj", *(f"index.files/{name}.{ending}" for name in ("cube.stl", "sub/tetra.obj")
+            "cube.stl", "sub/tetra.obj", *(f"index.files/{name}.{ending}" for name in ("cube.stl", "sub/tetra.obj", "flat.obj")
                                            for ending in ("html", "png"))})
 
     def test_pictures_have_the_size_that_the_gallery_says(self):
@@ -126,7 +127,7 @@ class Gallery(FolderTest):
     def test_pages_go_with_their_mesh(self):
         write_files(self.source, {"a.stl": CUBE, "b.obj": TETRAHEDRON})
         self.repair()
-        write_files(self.source, {"b.obj": FLAT})
+        write_files(self.source, {"b.obj": b"v 1 2 3\n"})
         self.repair(code=1)
         self.assertEqual(set(os.listdir(self.pages)), {"a.stl.html", "a.stl.png"})
         self.assertFalse(self.shown()["b.obj"]["page"])

@@ -55,8 +55,8 @@
 
   function look(mesh) {
     if (!mesh.picture) return [make('small', {}, 'no picture')];
-    const image = make('img', {src: `${facts.folder}/${mesh.url}.png`, alt: `${mesh.path}, before and after`, loading: 'lazy',
-      decoding: 'async', width: facts.picture[0], height: facts.picture[1]});
+    const image = make('img', {src: `${facts.folder}/${mesh.url}.png`, alt: mesh.output === null ? `${mesh.path}, as it is` : `${mesh.path}, before and after`, loading: 'lazy',
+      decoding: 'async'});
     return [mesh.page ? make('a', {href: page(mesh), tabindex: '-1', 'aria-hidden': 'true'}, image) : image];
   }
 
