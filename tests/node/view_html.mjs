@@ -27,6 +27,7 @@ async function viewRepairs({browser, folder}) {
     await compareViews(page, differ);
     if (differ) {
       await useKeys(page);
+      await restAWhile(page);
       await chooseAPart(page);
       await measureSomething(page);
       await onAPhone(browser, file, 'result');
@@ -43,6 +44,14 @@ async function useKeys(page) {
   await turnByKeys(page, ['ArrowLeft', 'ArrowUp', '+', 'w', 'w', 'x', 'x', 'n', 'r']);
   const reached = await reachedByTab(page, 80);
   for (const name of ['wires', 'cut', 'measure', 'reset', 'open_edges']) expect(reached.has(name), `Tab does not reach ${name}`);
+}
+
+// Nothing is drawn where nothing changes.
+async function restAWhile(page) {
+  await picture(page);
+  const frames = await page.getAttribute('#canvas', 'data-frames');
+  await page.waitForTimeout(400);
+  expect(await page.getAttribute('#canvas', 'data-frames') === frames, 'it draws though nothing changes');
 }
 
 async function chooseAPart(page) {

@@ -13,14 +13,15 @@ export function isSlowCard() {
 }
 
 export class FrameClock {
-  // `least` is the least time of the last pictures that were measured, in milliseconds.
   constructor(context) {
     this.context = context;
     this.times = [];
   }
 
-  get least() {
-    return this.times.length > 0 ? Math.min(...this.times) : 0;
+  // The median of the last pictures that were measured, in milliseconds; the first may have been empty, and any may have had to wait.
+  get usual() {
+    const sorted = [...this.times].sort((a, b) => a - b);
+    return sorted[Math.floor(sorted.length / 2)] ?? 0;
   }
 
   // Of what was drawn last, unless one is being measured.

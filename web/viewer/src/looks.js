@@ -59,26 +59,36 @@ function decodeColours(numbers, shown) {
   return colours;
 }
 
-// A picture, the lower row first, and its colour from afar; null where the browser cannot read it.
+// A canvas with a picture, upside down as textures are; white shows through where it is clear.
+function canvasOf(image, width, height) {
+  const canvas = document.createElement('canvas');
+  [canvas.width, canvas.height] = [width, height];
+  const context = canvas.getContext('2d');
+  context.fillStyle = '#fff';
+  context.fillRect(0, 0, width, height);
+  context.setTransform(1, 0, 0, -1, 0, height);
+  context.imageSmoothingQuality = 'high';
+  context.drawImage(image, 0, 0, width, height);
+  return canvas;
+}
+
+// A picture, the lower row first, and its colour from afar; null where the browser cannot read it. It is not loaded: no policy has to
+// allow that.
 export async function decodePicture(base64) {
   try {
-    const blob = new Blob([bytesOf(base64)]);
-    const whole = await createImageBitmap(blob);
+    const whole = await createImageBitmap(new Blob([bytesOf(base64)]));
     const scale = Math.min(1, MOST_SIDE / Math.max(whole.width, whole.height));
-    const bitmap = await createImageBitmap(whole, {imageOrientation: 'flipY', resizeWidth: Math.max(1, Math.floor(whole.width * scale)),
-      resizeHeight: Math.max(1, Math.floor(whole.height * scale)), resizeQuality: 'medium'});
-    const dot = document.createElement('canvas');
-    dot.width = dot.height = 1;
-    const context = dot.getContext('2d');
-    context.drawImage(await createImageBitmap(whole, {resizeWidth: 1, resizeHeight: 1, resizeQuality: 'high'}), 0, 0);
-    return {bitmap, mean: [...context.getImageData(0, 0, 1, 1).data.subarray(0, 3)]};
+    const canvas = canvasOf(whole, Math.max(1, Math.floor(whole.width * scale)), Math.max(1, Math.floor(whole.height * scale)));
+    const mean = canvasOf(canvas, 1, 1).getContext('2d').getImageData(0, 0, 1, 1).data.subarray(0, 3);
+    whole.close();
+    return {canvas, mean: [...mean]};
   } catch {
     return null;
   }
 }
 
-function textureOf(bitmap, {wrap, nearest}) {
-  const texture = new Texture(bitmap);
+function textureOf(canvas, {wrap, nearest}) {
+  const texture = new Texture(canvas);
   [texture.wrapS, texture.wrapT] = wrap.map((word) => WRAPS[word]);
   texture.flipY = false;  // it is turned already
   texture.magFilter = nearest ? NearestFilter : LinearFilter;
@@ -144,7 +154,7 @@ export class Looks {
 
   // As the base, with a picture.
   materialFor(key, base) {
-    const texture = key < 0 ? null : textureOf(this.pictures[this.materials[key].picture].bitmap, this.materials[key]);
+    const texture = key < 0 ? null : textureOf(this.pictures[this.materials[key].picture].canvas, this.materials[key]);
     return new ShaderMaterial({uniforms: {...base.uniforms, picture: {value: texture}, pictured: {value: texture !== null}},
       vertexShader: base.vertexShader, fragmentShader: base.fragmentShader, side: base.side, polygonOffset: true,
       polygonOffsetFactor: base.polygonOffsetFactor, polygonOffsetUnits: base.polygonOffsetUnits});

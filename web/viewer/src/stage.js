@@ -76,7 +76,7 @@ export class Stage {
   move() {
     this.moving = true;
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.draw(), Math.max(REST, Math.min(this.clock.least, LONGEST_REST)));
+    this.resting = setTimeout(() => this.draw(), Math.max(REST, Math.min(this.clock.usual, LONGEST_REST)));
     this.ask();
   }
 
@@ -108,7 +108,7 @@ export class Stage {
   }
 
   render() {
-    const coarse = this.moving && this.clock.least > TOO_LONG;
+    const coarse = this.moving && this.clock.usual > TOO_LONG;
     const {clientWidth: across, clientHeight: down} = this.canvas.parentElement;
     for (const surface of this.surfaces) surface.setCoarse(coarse);
     this.fit(this.pixelRatio(coarse, Math.max(across, 1), Math.max(down, 1)));
