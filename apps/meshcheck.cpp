@@ -1,174 +1,11 @@
 // meshcheck IN: what is wrong with a mesh, and whether it is the boundary of a solid.
-#include <algorithm>
-#include <iostream>
-#include <string>
-#include <utility>
-
-#include <spdlog/fmt/fmt.h>
-
-#include <base/atomic_file.h>
-#include <base/error.h>
-#include <check/check_surface.h>
-
-#include "common/attribute_report.h"
-#include "common/check_report.h"
-#include "common/check_steps.h"
+#include "common/check_command.h"
 #include "common/file_kinds.h"
-#include "common/picture_steps.h"
-#include "common/repair_steps.h"
-#include "common/scene_steps.h"
-#include "common/summary.h"
-#include "page/html_report.h"
-#include "page/scene_page.h"
-
-namespace meshrepair {
-namespace {
-
-struct Options {
-  std::string input;
-  AssetOptions assets;
-  std::string marked;  // empty: no such file
-  bool json = false;
-  PictureRequest picture;
-  HtmlRequest html;
-  CheckRequest request;
-};
-
-void write_marked(const TriangleSoup& soup, const std::vector<Colour>& colours,
-                  const Options& options, Run& run) {
-  std::vector<std::string> comments;
-  for (const std::string& line : colour_legend()) comments.push_back(line);
-  const std::string ply = format_coloured_ply(soup, colours, comments);
-  const Packing packing = packing_of_extension(options.marked);
-  write_file_atomically(options.marked,
-                        packing == Packing::none ? ply : pack_bytes(ply, packing, &run.progress));
-  run.report.set_output({{"path", options.marked}, {"format", "coloured PLY"}});
-}
-
-std::string what_was_read(const Findings& findings, const TriangleSoup& soup) {
-  return fmt::format(
-      "{}: {}, {}, {}", findings.input_name(),
-      format_words(format_name(findings.mesh_read->format), findings.mesh_read->packed),
-      number_of(soup.triangles.size(), "triangle"), number_of(soup.points.size(), "point"));
-}
-
-// What is found of the soup, or of the meshes in it.
-struct Verdict {
-  bool is_valid = true;
-  std::vector<Colour> colours;  // if they are asked for
-  std::string table;
-  SurfaceCheck check;  // if a page is asked for
-};
-
-Verdict check_one(const ReadResult& input, const Options& options, Run& run,
-                  const Findings& findings) {
-  CheckOptions request = options.request.check;
-  if (options.html.wanted()) request.most_places = std::max(request.most_places, kMostPagePlaces);
-  SurfaceCheck check = check_surface(input.soup, request);
-  SurfaceCheck kept;
-  if (options.html.wanted()) kept = check;
-  keep_places(check, options.request.check.most_places);
-  Json section = check_section(check);
-  const std::string openings = add_openings(input.soup, check, options.request, section);
-  run.report.set_section("check", std::move(section));
-  return {check.valid_solid(), defect_colours(check),
-          check_table(check, what_was_read(findings, input.soup),
-                      attribute_words(input.soup, input.attributes), findings.unit) +
-              openings,
-          std::move(kept)};
-}
-
-// A line for each mesh, and a table for one that is no solid.
-Verdict check_each(const ReadResult& input, const Options& options, Run& run,
-                   const Findings& findings) {
-  Verdict all;
-  Json sections = Json::array();
-  std::vector<TriangleSoup> meshes = meshes_of(input.soup, input.scene);
-  std::size_t solids = 0;
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const SurfaceCheck check = check_surface(meshes[m], options.request.check);
-    const std::string name = mesh_name(input.scene, m);
-    solids += check.valid_solid() ? 1 : 0;
-    Json section = check_section(check);
-    const std::string openings = add_openings(meshes[m], check, options.request, section);
-    sections.push_back({{"name", name}, {"check", std::move(section)}});
-    const std::vector<Colour> colours = defect_colours(check);
-    all.colours.insert(all.colours.end(), colours.begin(), colours.end());
-    const std::string what =
-        fmt::format("{}: {}, {}", name, number_of(meshes[m].triangles.size(), "triangle"),
-                    number_of(meshes[m].points.size(), "point"));
-    all.table += check.valid_solid() ? what + ", a valid solid\n"
-                                     : check_table(check, what, {}, findings.unit);
-    all.table += openings;
-  }
-  run.report.set_section("meshes", std::move(sections));
-  all.is_valid = solids == meshes.size();
-  all.table += fmt::format("{}: {}, {} of them valid solids\n", findings.input_name(),
-                           number_of(meshes.size(), "mesh", "meshes"), grouped(solids));
-  return all;
-}
-
-void write_page_stage(const ReadResult& input, SurfaceCheck check, const Options& options, Run& run,
-                      Findings& findings) {
-  if (options.assets.by_mesh) {
-    const ScenePage page = {
-        up_of(findings), {input.soup, input.attributes, input.scene}, {}, options.request.check};
-    return write_scene_page_stage(options.html, page, run, findings);
-  }
-  write_html_stage(options.html, up_of(findings),
-                   {"input", {}, input.soup, std::move(check), {}, {}, {}, &input.attributes},
-                   options.request.check.most_places, run, findings);
-}
-
-ExitCode check_mesh(Options& options, Run& run) {
-  if (options.marked == "-") throw UsageError("--mark: needs the name of a file");
-  if (!options.marked.empty() && is_same_file(options.marked, options.input)) {
-    throw UsageError("--mark: " + options.marked + " is the input, too");
-  }
-  check_files(options.input, options.marked, run);
-  check_picture(options.picture, {options.input, options.marked}, run);
-  check_html(options.html, {options.input, options.marked, options.picture.path}, run);
-  options.request.check.progress = &run.progress;
-  options.request.check.mark_triangles =
-      !options.marked.empty() || options.html.wanted() || options.picture.painted;
-  Findings findings(options.input, options.marked);
-  return with_findings(run, findings, [&] {
-    ReadOptions reading = read_options(run);
-    reading.attributes = true;
-    reading.by_mesh = options.assets.by_mesh;
-    ReadResult input = read_mesh_stage(reading, run, findings);
-    check_picture(options.picture, input.attributes);
-    run.report.set_section("attributes", attributes_section(input.soup, input.attributes));
-    StageMeter meter(findings.repair.stages, nullptr);  // the check tells of its own stages
-    meter.begin("check");
-    Verdict verdict = options.assets.by_mesh ? check_each(input, options, run, findings)
-                                             : check_one(input, options, run, findings);
-    meter.end();
-    if (!options.marked.empty()) write_marked(input.soup, verdict.colours, options, run);
-    write_page_stage(input, std::move(verdict.check), options, run, findings);
-    if (options.picture.painted) input.attributes = painted(verdict.colours);
-    place_instances(input.soup, input.attributes, input.scene);
-    draw_picture_stage(options.picture, up_of(findings), {options.input},
-                       {{input.soup, input.attributes}}, run, findings);
-    run.progress.finish();
-    print_summary(findings.shown);
-    if (run.options.report != "-" && !run.options.quiet) std::cout << verdict.table;
-    return verdict.is_valid ? ExitCode::done : ExitCode::not_certified;
-  });
-}
-
-std::string mark_help() {
-  std::string text = "Write the mesh as PLY, each triangle coloured by its worst defect:";
-  for (const std::string& line : colour_legend()) text += "\n  " + line;
-  return text;
-}
-
-}  // namespace
-}  // namespace meshrepair
 
 int main(int argc, char** argv) {
   using namespace meshrepair;
-  Options options;
+  CheckCommand command;
+  bool json = false;
   Program program(
       "meshcheck",
       "Says what is wrong with a mesh. Exit code 0: it is the boundary of a solid, 1: it "
@@ -177,25 +14,16 @@ int main(int argc, char** argv) {
       "  meshcheck part.obj --mark defects.ply\n"
       "  meshcheck part.obj --json | jq .check.defects.open_edges.count\n");
   CLI::App& app = program.command_line();
-  app.add_option("IN", options.input,
+  app.add_option("IN", command.input,
                  "Mesh to check: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
                  "- is standard input")
       ->check(names_file(mesh_extensions()))
       ->required();
-  add_check_options(app, options.request);
-  add_scene_option(app, options.assets, "Check");
-  app.add_option("--mark", options.marked, mark_help())
-      ->check(names_file(".ply"))
-      ->type_name("FILE")
+  add_check_command(app, command);
+  app.add_flag("--json", json, "Print the report instead of the table: --report -")
       ->group("Output");
-  app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
-      ->group("Output");
-  add_picture_options(app, options.picture, "IN");
-  add_colours_option(app, options.picture, "defects", "as --mark has them");
-  add_show_options(app, options.picture, "IN");
-  add_html_options(app, options.html, "IN, with all that is wrong");
   return program.run(argc, argv, [&](Run& run) {
-    if (options.json) program.report_to_standard_output();
-    return check_mesh(options, run);
+    if (json) program.report_to_standard_output();
+    return check_file(command, run);
   });
 }

@@ -5,7 +5,7 @@ set -euo pipefail
 
 usage() {
   cat <<TEXT
-Usage: scripts/setup.sh [build|python|all|bench|package|cluster]
+Usage: scripts/setup.sh [build|python|all|bench|package|wasm|cluster]
 
   build   what is needed to build the programs and to run the tests
   python  the same, and what the Python package needs; "pip install ." uses no
@@ -17,6 +17,9 @@ Usage: scripts/setup.sh [build|python|all|bench|package|cluster]
           three.js (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
+  wasm    what is needed to build for browsers and node: emscripten, and what
+          builds Debian's sources of the libraries that are linked; of npm
+          esbuild
   package
           the same as python, and what is needed to make and to check packages
   cluster
@@ -117,11 +120,28 @@ cluster_packages=(
   snakemake
 )
 
+wasm_packages=(
+  ca-certificates
+  cmake
+  dpkg-dev
+  emscripten
+  libboost-dev
+  libfast-float-dev
+  libnanoflann-dev
+  make
+  ninja-build
+  pkg-config
+  python3
+  xz-utils
+)
+command -v npm >/dev/null || wasm_packages+=(npm)
+
 case "${1:-all}" in
   build) packages=("${build_packages[@]}") ;;
   python) packages=("${build_packages[@]}" "${python_packages[@]}") ;;
   all) packages=("${build_packages[@]}" "${python_packages[@]}" "${check_packages[@]}") ;;
   bench) packages=("${build_packages[@]}" "${bench_packages[@]}") ;;
+  wasm) packages=("${wasm_packages[@]}") ;;
   package) packages=("${build_packages[@]}" "${python_packages[@]}" "${package_packages[@]}") ;;
   cluster) packages=("${build_packages[@]}" "${cluster_packages[@]}") ;;
   -h | --help) usage; exit 0 ;;
@@ -183,6 +203,9 @@ if [ "${#missing[@]}" -gt 0 ]; then
   install_packages "${missing[@]}"
 else
   echo "setup: all ${#packages[@]} packages are installed"
+fi
+if [ "${1:-all}" = wasm ]; then
+  install_node_packages web/viewer
 fi
 if [ "${1:-all}" = all ]; then
   install_node_packages tests/node

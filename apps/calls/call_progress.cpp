@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "calls/worker.h"
+
 namespace meshrepair {
 
 void CallProgress::stage(std::string_view name) {
@@ -18,6 +20,11 @@ void CallProgress::advance(double share) {
   if (events_.empty() || share <= events_.back().share) return;
   events_.back().share = share;
   has_new_ = true;
+}
+
+bool CallProgress::cancelled() {
+  let_look();
+  return asked_to_stop_ || ProgressBar::cancelled();
 }
 
 std::vector<CallProgress::Event> CallProgress::take_events() {

@@ -22,7 +22,7 @@ class CallProgress : public ProgressBar {
 
   void stage(std::string_view name) override;
   void advance(double share) override;
-  bool cancelled() override { return asked_to_stop_ || ProgressBar::cancelled(); }
+  bool cancelled() override;
 
   // From another thread.
   void ask_to_stop() { asked_to_stop_ = true; }

@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include <base/error.h>
 #include <check/mesh_distance.h>
 
+#include "common/check_command.h"
 #include "common/check_report.h"
 #include "common/check_steps.h"
 #include "common/distance_report.h"
@@ -26,6 +28,16 @@ CheckOutcome check_call(const TriangleSoup& soup, const Keywords& keywords, cons
     return outcome.check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
   });
   return outcome;
+}
+
+Outcome check_file_call(const std::string& input, const Keywords& keywords, const Runner& runner) {
+  Session session("meshcheck");
+  CheckCommand command;
+  add_check_command(session.options(), command);
+  session.parse(keywords, {});
+  if (input == "-") throw UsageError("-: is no file");
+  command.input = input;
+  return runner(session, [&](Run& run) { return check_file(command, run); });
 }
 
 Outcome distance_call(const TriangleSoup& first, const TriangleSoup& second,

@@ -20,6 +20,9 @@ struct CheckOutcome : Outcome {
 // The outcome is not_certified where the mesh is not the boundary of a solid.
 [[nodiscard]] CheckOutcome check_call(const TriangleSoup& soup, const Keywords& keywords,
                                       const Runner& runner);
+// The same of a file, with all options of meshcheck, those for further files, too.
+[[nodiscard]] Outcome check_file_call(const std::string& input, const Keywords& keywords,
+                                      const Runner& runner);
 // The report says the distances.
 [[nodiscard]] Outcome distance_call(const TriangleSoup& first, const TriangleSoup& second,
                                     const Keywords& keywords, const Runner& runner);

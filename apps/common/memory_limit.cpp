@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +18,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <base/decimal.h>
 #include <base/error.h>
 
 namespace meshrepair {
@@ -115,7 +115,7 @@ std::uint64_t of_self(std::string_view key) {
 MemoryLimit parse_memory_limit(const std::string& text) {
   double number = 0;
   const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, number);
+  const auto [at, error] = read_decimal(text.data(), end, number);
   if (error != std::errc() || !(number >= 0)) fail(text);
   const std::string_view unit(at, static_cast<std::size_t>(end - at));
   if (unit == "%") return {share_of_free(number, text), true};

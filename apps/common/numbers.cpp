@@ -1,9 +1,10 @@
 #include "common/numbers.h"
 
-#include <charconv>
 #include <cmath>
 
 #include <spdlog/fmt/fmt.h>
+
+#include <base/decimal.h>
 
 namespace meshrepair {
 namespace {
@@ -12,7 +13,7 @@ template <class Number>
 std::optional<Number> parsed(std::string_view word) {
   Number number = 0;
   const char* const end = word.data() + word.size();
-  const auto [at, error] = std::from_chars(word.data(), end, number);
+  const auto [at, error] = read_decimal(word.data(), end, number);
   if (error != std::errc() || at != end) return std::nullopt;
   return number;
 }

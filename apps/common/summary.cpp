@@ -36,7 +36,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-void add_count(std::vector<std::string>& texts, std::size_t count, std::string_view noun,
+void add_count(std::vector<std::string>& texts, std::uint64_t count, std::string_view noun,
                const std::string& what) {
   if (count > 0) texts.push_back(number_of(count, noun) + " " + what);
 }
@@ -406,17 +406,17 @@ void describe_tree(const Findings& findings, double seconds, Lines& lines) {
 
 }  // namespace
 
-std::string grouped(std::size_t number) {
+std::string grouped(std::uint64_t number) {
   std::string text = std::to_string(number);
   for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');
   return text;
 }
 
-std::string number_of(std::size_t count, std::string_view noun) {
+std::string number_of(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
-std::string number_of(std::size_t count, std::string_view noun, std::string_view plural) {
+std::string number_of(std::uint64_t count, std::string_view noun, std::string_view plural) {
   return fmt::format("{} {}", grouped(count), count == 1 ? noun : plural);
 }
 

@@ -1,7 +1,7 @@
 // What a program did, in a few lines for people.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -10,13 +10,13 @@
 namespace meshrepair {
 
 // 1234567 as "1,234,567", whatever the locale.
-[[nodiscard]] std::string grouped(std::size_t number);
+[[nodiscard]] std::string grouped(std::uint64_t number);
 
 // "1 triangle", "1,200 triangles".
-[[nodiscard]] std::string number_of(std::size_t count, std::string_view noun);
+[[nodiscard]] std::string number_of(std::uint64_t count, std::string_view noun);
 
 // With the plural of a noun that has another one than with an s.
-[[nodiscard]] std::string number_of(std::size_t count, std::string_view noun,
+[[nodiscard]] std::string number_of(std::uint64_t count, std::string_view noun,
                                     std::string_view plural);
 
 // "the input's units" where the unit is not known.

@@ -167,6 +167,9 @@ MESHREPAIR_API meshrepair_result* meshrepair_boolean(const meshrepair_mesh* cons
  * of a solid, else MESHREPAIR_NOT_CERTIFIED. There are marks, and no mesh. */
 MESHREPAIR_API meshrepair_result* meshrepair_check(const meshrepair_mesh* mesh,
                                                    const meshrepair_options* options);
+/* All options of meshcheck, those for further files, too. The same code; there are no marks. */
+MESHREPAIR_API meshrepair_result* meshrepair_check_file(const char* input,
+                                                        const meshrepair_options* options);
 /* Options of meshdist. The report says the distances. */
 MESHREPAIR_API meshrepair_result* meshrepair_distance(const meshrepair_mesh* mesh,
                                                       const meshrepair_mesh* other,

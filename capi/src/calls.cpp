@@ -109,6 +109,11 @@ std::vector<Vec3d> rows_of(const double* numbers, std::size_t count, const char*
   return rows;
 }
 
+void say_not_solid(meshrepair_result& result) {
+  if (result.outcome.code != ExitCode::not_certified) return;
+  result.outcome.error = "the mesh is not the boundary of a solid";
+}
+
 std::string path_of(const char* path) {
   if (path == nullptr || *path == '\0') throw UsageError("there is no name of a file");
   return path;
@@ -169,10 +174,16 @@ meshrepair_result* meshrepair_check(const meshrepair_mesh* mesh,
         CheckOutcome outcome = check_call(soup_behind(mesh, "the mesh"), keywords, runner);
         result.marks = std::move(outcome.check.marks);
         result.outcome = std::move(outcome);
-        if (result.outcome.code == ExitCode::not_certified) {
-          result.outcome.error = "the mesh is not the boundary of a solid";
-        }
+        say_not_solid(result);
       });
+}
+
+meshrepair_result* meshrepair_check_file(const char* input, const meshrepair_options* options) {
+  return called(options,
+                [&](meshrepair_result& result, const Keywords& keywords, const Runner& runner) {
+                  result.outcome = check_file_call(path_of(input), keywords, runner);
+                  say_not_solid(result);
+                });
 }
 
 meshrepair_result* meshrepair_distance(const meshrepair_mesh* mesh, const meshrepair_mesh* other,

@@ -65,9 +65,11 @@ class Collapser {
   TreeRef copy_of(TreeRef from, Tree& to) const {
     if (from.is_leaf()) return TreeRef(to.leaves.push_back(tree_.leaves[from.leaf()]));
     TreeNode node = tree_.nodes[from.node()];
-    const auto first = tree_.node_triangles.begin() + node.first_triangle;
+    const auto first =
+        tree_.node_triangles.begin() + static_cast<std::ptrdiff_t>(node.first_triangle);
     node.first_triangle = static_cast<std::uint32_t>(to.node_triangles.size());
-    to.node_triangles.insert(to.node_triangles.end(), first, first + node.triangle_count);
+    to.node_triangles.insert(to.node_triangles.end(), first,
+                             first + static_cast<std::ptrdiff_t>(node.triangle_count));
     return TreeRef(to.nodes.push_back(node));
   }
 

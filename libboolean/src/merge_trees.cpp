@@ -226,7 +226,7 @@ class Merger {
   // A face of both solids is there once.
   void sort_triangles_at_node(TreeNode& node) {
     auto& list = merged_.node_triangles;
-    const auto first = list.begin() + node.first_triangle;
+    const auto first = list.begin() + static_cast<std::ptrdiff_t>(node.first_triangle);
     std::sort(first, list.end());
     list.erase(std::unique(first, list.end()), list.end());
     node.triangle_count = static_cast<std::uint32_t>(list.size()) - node.first_triangle;

@@ -52,12 +52,13 @@ std::size_t SectionReader::enter(std::string_view name, std::uint32_t item_bytes
   if (!rest_.starts_with(name)) fail("is missing: another one stands in its place");
   rest_.remove_prefix(name.size());
   if (get<std::uint32_t>() != item_bytes) fail("has items of another size");
-  const auto items = get<std::uint64_t>();
+  const auto promised = get<std::uint64_t>();
   const auto sum = get<std::uint64_t>();
-  if (items > rest_.size() / item_bytes) {
-    fail("is cut: it promises " + std::to_string(items) + " items, the file holds " +
+  if (promised > rest_.size() / item_bytes) {
+    fail("is cut: it promises " + std::to_string(promised) + " items, the file holds " +
          std::to_string(rest_.size() / item_bytes));
   }
+  const auto items = static_cast<std::size_t>(promised);
   if (items >> 31 != 0) fail("has more than 2^31 items");
   if (checksum_of(rest_.substr(0, items * item_bytes)) != sum) {
     fail("is damaged: its checksum is wrong");

@@ -106,6 +106,22 @@ TEST(CCalls, CheckMarksTrianglesAtFault) {
   EXPECT_EQ(code_of(Result(meshrepair_check(solid.get(), nullptr))), MESHREPAIR_DONE);
 }
 
+TEST(CCalls, CheckOfAFileTakesAllOptionsOfTheProgram) {
+  const TemporaryFolder folder;
+  const std::string in = folder.path() / "in.obj", marked = folder.path() / "marked.ply";
+  TriangleSoup soup = cube();
+  soup.triangles.pop_back();
+  const Mesh open = mesh_of(soup);
+  ASSERT_EQ(code_of(Result(meshrepair_write(in.c_str(), open.get(), nullptr))), MESHREPAIR_DONE);
+  const Options options = options_of({{"mark", marked.c_str()}});
+  const Result result(meshrepair_check_file(in.c_str(), options.get()));
+  EXPECT_EQ(code_of(result), MESHREPAIR_NOT_CERTIFIED);
+  EXPECT_EQ(error_of(result), "the mesh is not the boundary of a solid");
+  EXPECT_EQ(report_of(result)["check"]["defects"]["open_edges"]["count"], 3);
+  EXPECT_FALSE(bytes_of(marked).empty());
+  EXPECT_EQ(code_of(Result(meshrepair_check_file(nullptr, nullptr))), MESHREPAIR_USAGE);
+}
+
 TEST(CCalls, DistanceIsInTheReport) {
   const Mesh first = mesh_of(cube()), second = mesh_of(moved(cube(), {0.25, 0, 0}));
   const Options options = options_of({{"samples", "1000"}});

@@ -26,7 +26,7 @@ std::vector<std::uint32_t> first_equal(std::size_t count, const HashOf& hash_of,
   const auto bits = std::bit_width(std::min(count / kItemsPerBucket, kMostBuckets));
   const Buckets<Entry> buckets(count, std::size_t{1} << bits, [&](std::size_t i, const auto& put) {
     const std::uint64_t hash = hash_of(i);
-    put(bits == 0 ? 0 : hash >> (64 - bits),
+    put(bits == 0 ? 0 : static_cast<std::size_t>(hash >> (64 - bits)),
         {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(hash ^ (hash >> 32))});
   });
   std::vector<std::uint32_t> first(count);

@@ -110,8 +110,11 @@ std::vector<std::uint32_t> KnownIntersections::find_fresh(
 std::size_t KnownIntersections::find_known(const IndexTriangle& places) const {
   if (std::size_t{places[0]} + 1 >= first_.size()) return others_.size();
   const std::array others{places[1], places[2]};
-  const auto end = others_.begin() + first_[places[0] + 1];
-  const auto found = std::lower_bound(others_.begin() + first_[places[0]], end, others);
+  const auto behind = [&](std::uint32_t n) {
+    return others_.begin() + static_cast<std::ptrdiff_t>(first_[n]);
+  };
+  const auto end = behind(places[0] + 1);
+  const auto found = std::lower_bound(behind(places[0]), end, others);
   if (found == end || *found != others) return others_.size();
   return static_cast<std::size_t>(found - others_.begin());
 }

@@ -166,8 +166,9 @@ void SortedTriangles::leave_out_hubs(const std::vector<std::uint32_t>& hubs) {
       if (node_hub[n + 1] == node_hub[node.right]) node_hub[n] = node_hub[n + 1];
       continue;
     }
-    const auto first = hub.begin() + node.first;
-    if (std::all_of(first, first + node.count, [&](std::uint32_t h) { return h == *first; })) {
+    const auto first = hub.begin() + static_cast<std::ptrdiff_t>(node.first);
+    if (std::all_of(first, first + static_cast<std::ptrdiff_t>(node.count),
+                    [&](std::uint32_t h) { return h == *first; })) {
       node_hub[n] = *first;
     }
   }

@@ -240,7 +240,8 @@ class FacetArranger {
     facets.across.resize(3 * std::size_t{count});
     for_all(all.size(), [&](std::uint32_t t, std::size_t) {
       const std::uint32_t first = facets.first[t];
-      std::copy(all[t].corners.begin(), all[t].corners.end(), facets.corners.begin() + first);
+      std::copy(all[t].corners.begin(), all[t].corners.end(),
+                facets.corners.begin() + static_cast<std::ptrdiff_t>(first));
       for (std::size_t i = 0; i < all[t].across.size(); ++i) {
         const std::uint32_t s = all[t].across[i];
         facets.across[3 * std::size_t{first} + i] = s == kNone ? kNone : s + 3 * first;

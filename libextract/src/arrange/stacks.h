@@ -23,7 +23,8 @@ class Stacks {
   [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t facet) const {
     const auto less = [&](std::uint32_t a, std::uint32_t b) { return stack_of_[a] < stack_of_[b]; };
     const auto [first, last] = std::equal_range(facets_.begin(), facets_.end(), facet, less);
-    return {first, last};
+    return std::span(facets_).subspan(static_cast<std::size_t>(first - facets_.begin()),
+                                      static_cast<std::size_t>(last - first));
   }
   // Calls visit(facets) for each: all in it, in the order of their triangles, which lie on each
   // other in this order along the normal of their plane.

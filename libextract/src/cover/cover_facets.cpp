@@ -169,8 +169,9 @@ class FacetCoverer {
         while (covering < judged.covering_end) add_cover(judged.facet, task.covering[covering++]);
         if (undecided == judged.undecided_end) continue;
         Piece whole{judged.facet, {}};
-        whole.undecided.assign(task.undecided.begin() + undecided,
-                               task.undecided.begin() + judged.undecided_end);
+        whole.undecided.assign(
+            task.undecided.begin() + static_cast<std::ptrdiff_t>(undecided),
+            task.undecided.begin() + static_cast<std::ptrdiff_t>(judged.undecided_end));
         undecided = judged.undecided_end;
         divide(whole, task.cuts[judged.cut]);
         cover_pieces();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -60,8 +61,13 @@ struct FirstBad {
 void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& first,
                  std::string_view face, std::string_view why, std::string_view point = "point");
 
+// How many of what a header promises there is room for.
+[[nodiscard]] inline std::size_t within(std::uint64_t promised, std::size_t room) {
+  return promised < room ? static_cast<std::size_t>(promised) : room;
+}
+
 // "1 face", "2 faces".
-[[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
 
 // A word of the file for a message: a broken file's words may be long, or no text at all.
 [[nodiscard]] std::string printable(std::string_view word);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include <base/error.h>
@@ -21,7 +22,7 @@ class ReadGuard {
   }
 
   // For a reader that knows beforehand how many triangles there are.
-  void require(std::size_t triangles) const {
+  void require(std::uint64_t triangles) const {
     if (triangles > source_.options.max_triangles) fail(0);
   }
 

@@ -31,7 +31,7 @@ struct ReadReport {
   std::size_t bytes = 0;                          // unpacked
   std::optional<LengthUnit> unit = std::nullopt;  // of the soup; nothing: the file does not say
   PackedFile packed;
-  std::size_t declared_triangles =
+  std::uint64_t declared_triangles =
       0;                      // faces or triangles that the header promised; 0 if it has none
   std::size_t polygons = 0;   // faces with more than three corners, triangulated
   std::size_t bad_faces = 0;  // faces dropped: index out of range, too few corners, not numbers
@@ -39,8 +39,8 @@ struct ReadReport {
   // others hold. "nan", "inf", "-1.#IND" and the like are numbers: kept as they are, and not
   // counted.
   std::size_t bad_points = 0;
-  std::size_t missing_faces = 0;   // promised by the header, not in the file
-  std::size_t trailing_bytes = 0;  // after the last element of a binary file
+  std::uint64_t missing_faces = 0;  // promised by the header, not in the file
+  std::size_t trailing_bytes = 0;   // after the last element of a binary file
   NamesInFile names;
   // One sentence for each kind of oddity, for the user, without the file's name.
   std::vector<std::string> warnings;

@@ -1,9 +1,9 @@
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
+#include <base/decimal.h>
 #include <picture/view.h>
 
 namespace meshrepair {
@@ -20,7 +20,7 @@ constexpr std::array<std::pair<std::string_view, View>, 7> kNamedViews = {{{"fro
 std::optional<double> angle_of(std::string_view text) {
   double value = 0;
   const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, value);
+  const auto [at, error] = read_decimal(text.data(), end, value);
   if (error != std::errc() || at != end || !std::isfinite(value)) return std::nullopt;
   return value;
 }

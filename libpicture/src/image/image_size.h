@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include <base/error.h>
@@ -10,7 +11,7 @@
 namespace meshrepair {
 
 // What a file says of itself. Throws InputError.
-[[nodiscard]] inline PictureSize checked_image_size(std::size_t width, std::size_t height,
+[[nodiscard]] inline PictureSize checked_image_size(std::uint64_t width, std::uint64_t height,
                                                     std::size_t most_pixels) {
   if (width == 0 || height == 0) throw InputError("has no pixels");
   // No product of more than 64 bits.

@@ -16,7 +16,8 @@ Pixels beside(const Pixels& left, const Pixels& right, std::uint32_t bar, const 
   both.values.reserve(both.size.pixels());
   const auto add_row = [&](const Pixels& from, std::size_t y) {
     const auto begin = from.values.begin() + static_cast<std::ptrdiff_t>(y * from.size.width);
-    both.values.insert(both.values.end(), begin, begin + from.size.width);
+    both.values.insert(both.values.end(), begin,
+                       begin + static_cast<std::ptrdiff_t>(from.size.width));
   };
   for (std::size_t y = 0; y < both.size.height; ++y) {
     add_row(left, y);

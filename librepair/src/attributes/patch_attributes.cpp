@@ -206,7 +206,8 @@ class PatchFiller {
   [[nodiscard]] Eigen::MatrixXd solve(const PointValues& rim,
                                       const CornerAttribute& attribute) const {
     const auto components = static_cast<Eigen::Index>(attribute.components);
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(inner_, components);
+    const auto inner = static_cast<Eigen::Index>(inner_);
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(inner, components);
     std::vector<Eigen::Triplet<double>> entries;
     for (const std::uint32_t t : patch_.triangles) {
       const auto& corners = surface_.mesh.triangles[t];
@@ -228,7 +229,7 @@ class PatchFiller {
         }
       }
     }
-    Eigen::SparseMatrix<double> system(inner_, inner_);
+    Eigen::SparseMatrix<double> system(inner, inner);
     system.setFromTriplets(entries.begin(), entries.end());
     return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system).solve(right);
   }

@@ -110,7 +110,7 @@ class Bending {
     points_.insert(points_.end(), collar.points.begin(), collar.points.end());
     const auto shift = static_cast<std::uint32_t>(inner_ - rim_);
     for (auto t : collar.triangles) {
-      for (std::uint32_t& p : t) p += p < rim_ ? 0 : shift;
+      for (std::uint32_t& p : t) p += static_cast<Eigen::Index>(p) < rim_ ? 0 : shift;
       triangles_.push_back(t);
     }
   }

@@ -90,7 +90,7 @@ void SpaceGrid::refine_around(const std::vector<Brick>& narrow) {
 }
 
 std::uint32_t SpaceGrid::refined_at(std::uint64_t number) const {
-  if (is_whole()) return bricks_[number];
+  if (is_whole()) return bricks_[static_cast<std::size_t>(number)];
   return refined_of_.find(hash_mix(0, number),
                           [&](std::uint32_t b) { return refined_[b] == number; });
 }
@@ -213,7 +213,8 @@ void SpaceGrid::find_refined(ProgressObserver* progress) {
   for (std::uint32_t t = 0; t < soup_->triangles.size(); ++t) {
     check.tick();
     visit_near(t, reach_, kBrick, [&](const CubePlace& low) {
-      bricks_[number_of({low[0] / kBrick, low[1] / kBrick, low[2] / kBrick})] = 0;
+      bricks_[static_cast<std::size_t>(
+          number_of({low[0] / kBrick, low[1] / kBrick, low[2] / kBrick}))] = 0;
     });
   }
   for (std::uint32_t b = 0; b < bricks_.size(); ++b) {

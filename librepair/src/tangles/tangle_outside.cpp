@@ -72,7 +72,8 @@ class OutsideFinder {
   static std::span<const Member> members_of(std::uint32_t set, const std::vector<Member>& all) {
     const auto first = std::lower_bound(all.begin(), all.end(), Member{set, 0});
     const auto last = std::lower_bound(first, all.end(), Member{set + 1, 0});
-    return {first, last};
+    return std::span(all).subspan(static_cast<std::size_t>(first - all.begin()),
+                                  static_cast<std::size_t>(last - first));
   }
 
   [[nodiscard]] bool is_empty(CellId c) const { return winding_.of_cell[c.index()] == 0; }

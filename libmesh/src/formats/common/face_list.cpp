@@ -76,7 +76,7 @@ void FaceList::append_to(ReadResult& result, ProgressObserver* progress,
         pieces.clear();
         triangulate_polygon(soup.points, corners, pieces);
       }
-      const std::uint64_t first_corner = at - corners.size() - 1 - face;
+      const std::size_t first_corner = at - corners.size() - 1 - face;
       for (const auto& [a, b, c] : pieces) {
         soup.triangles.push_back({corners[a], corners[b], corners[c]});
         if (origins == nullptr) continue;

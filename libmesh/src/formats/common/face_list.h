@@ -34,7 +34,7 @@ class FaceList {
   // What a triangle was made of.
   struct Origin {
     std::uint32_t face;
-    std::array<std::uint64_t, 3> corners;  // among those of all faces
+    std::array<std::size_t, 3> corners;  // among those of all faces
   };
 
   // Moves the faces into the soup, triangulated. Those with an index out of range or with fewer

@@ -36,7 +36,7 @@ void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& f
   }
 }
 
-std::string counted(std::size_t count, std::string_view noun) {
+std::string counted(std::uint64_t count, std::string_view noun) {
   return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
 }
 

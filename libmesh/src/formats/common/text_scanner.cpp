@@ -39,7 +39,7 @@ bool is_microsoft_special(std::string_view unsigned_token) {
 
 bool parse_plain(std::string_view number, double& value) {
   const char* const last = number.data() + number.size();
-  const auto [end, error] = std::from_chars(number.data(), last, value);
+  const auto [end, error] = read_decimal(number.data(), last, value);
   if (end != last || number.empty()) return false;
   if (error == std::errc::result_out_of_range) value = is_too_large(number) ? kInfinity : 0.0;
   return error == std::errc() || error == std::errc::result_out_of_range;

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include <base/decimal.h>
+
 namespace meshrepair {
 
 // No byte that text does not have, near the start.
@@ -130,7 +132,7 @@ inline void TextScanner::skip_line() {
 }
 
 inline bool TextScanner::read_real(double& value) {
-  const auto [end, error] = std::from_chars(at_, end_, value);
+  const auto [end, error] = read_decimal(at_, end_, value);
   if (error == std::errc() && ends_token(end)) {
     at_ = end;
     return true;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <span>
 #include <string>
 
+#include <base/decimal.h>
 #include <base/parallel.h>
 #include <mesh/soup.h>
 
@@ -15,7 +15,7 @@ namespace meshrepair {
 template <class Number>
 void append_number(std::string& text, Number value) {
   std::array<char, 32> digits;
-  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [end, error] = write_decimal(digits.data(), digits.data() + digits.size(), value);
   text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 

@@ -1,21 +1,19 @@
 #include "written_float.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include <base/decimal.h>
 #include <base/error.h>
 
 namespace meshrepair {
 
 float written_float(double coordinate, std::string_view format) {
   if (std::abs(coordinate) > std::numeric_limits<float>::max() && !std::isinf(coordinate)) {
-    constexpr int kDigits = 6;
     std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), coordinate,
-                                   std::chars_format::general, kDigits);
+    const auto end = write_decimal(text.data(), text.data() + text.size(), coordinate);
     std::string message = "a coordinate of ";
     message.append(text.data(), end.ptr).append(" does not fit into ").append(format);
     throw OutputError(message.append("; write another format"));

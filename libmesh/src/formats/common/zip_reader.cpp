@@ -133,7 +133,7 @@ void ZipReader::read(const Entry& entry, const std::function<void(std::string_vi
     total += read;
     if (total > entry.size) fail("is larger than it says");
     if (!budget_.take(read)) fail(kTooMuch);
-    sink(std::string_view(piece.data(), read));
+    sink(std::string_view(piece.data(), static_cast<std::size_t>(count)));
   }
   if (total != entry.size) fail("is smaller than it says");
 }

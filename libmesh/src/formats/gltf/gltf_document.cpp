@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace meshrepair {
 namespace {
@@ -170,11 +171,11 @@ std::size_t GltfDocument::required_whole(const GltfJson& object, const char* key
 std::size_t GltfDocument::whole_of(const GltfJson& value, const char* what) const {
   // 2^53: doubles hold all whole numbers below.
   constexpr double kMost = 9007199254740992.0;
-  if (value.is_number_unsigned()) return value.get<std::size_t>();
+  if (value.is_number_unsigned()) return gltf_whole(value);
   if (value.is_number_float()) {
     const double number = value.get<double>();
     if (number >= 0 && number < kMost && number == std::floor(number)) {
-      return static_cast<std::size_t>(number);
+      return within(static_cast<std::uint64_t>(number), std::numeric_limits<std::size_t>::max());
     }
   }
   source_.fail("its JSON has a '" + std::string(what) + "' that is no whole number from 0 on");

@@ -23,7 +23,7 @@ std::size_t texture_set_of(const GltfJson& texture) {
   }
   constexpr std::size_t kMost = 8;  // no more than any program has
   const bool is_number = set != nullptr && set->is_number_unsigned();
-  return is_number ? std::min(set->get<std::size_t>(), kMost - 1) : 0;
+  return is_number ? std::min(gltf_whole(*set), kMost - 1) : 0;
 }
 
 // Those that have none, or that of one before, get one.
@@ -76,7 +76,7 @@ void place_texture(const GltfJson& texture, Material& look) {
 // kNone: there is none. No file is refused for what its pictures look like.
 std::size_t number_in(const GltfJson& object, const char* key) {
   const GltfJson* const number = gltf_member(object, key);
-  return number != nullptr && number->is_number_unsigned() ? number->get<std::size_t>() : kNone;
+  return number != nullptr && number->is_number_unsigned() ? gltf_whole(*number) : kNone;
 }
 
 TextureSampling::Wrap wrap_of(std::size_t number) {

@@ -40,7 +40,7 @@ void show(GltfJson& root, std::size_t number) {
     return;
   }
   const GltfJson* const chosen = gltf_member(root, "scene");
-  const std::size_t scene = chosen == nullptr ? 0 : chosen->get<std::size_t>();
+  const std::size_t scene = chosen == nullptr ? 0 : gltf_whole(*chosen);
   root["scene"] = scene;
   GltfJson& nodes = root["scenes"][scene]["nodes"];
   if (!nodes.is_array()) nodes = GltfJson::array();
@@ -121,7 +121,7 @@ void renumber_gltf_meshes(GltfBuilder& builder, const std::vector<std::size_t>& 
   for (GltfJson& node : *nodes) {
     const auto mesh = node.find("mesh");
     if (mesh == node.end()) continue;
-    const std::size_t number = numbers[mesh->get<std::size_t>()];
+    const std::size_t number = numbers[gltf_whole(*mesh)];
     if (number == kNoGltfMesh) {
       node.erase("mesh");
     } else {

@@ -151,7 +151,7 @@ class GltfWriter {
     for (const GltfJson& mapping : *mappings) {
       const GltfJson* const material = gltf_member(mapping, "material");
       if (material == nullptr || !material->is_number_unsigned()) continue;
-      textures = std::max(textures, textures_of(material->get<std::size_t>()));
+      textures = std::max(textures, textures_of(gltf_whole(*material)));
     }
     return textures;
   }

@@ -168,7 +168,7 @@ CornerAttribute ObjAttributes::Corners::take(CornerAttribute::Kind kind,
   const auto count = static_cast<std::int64_t>(taken.count());
   taken.of_corner.reserve(3 * origins.size());
   for (const FaceList::Origin& origin : origins) {
-    for (const std::uint64_t corner : origin.corners) {
+    for (const std::size_t corner : origin.corners) {
       const std::int64_t value = of_corner[corner];
       const bool is_there = value >= 0 && value < count;
       if (!is_there && value != kNoValue) ++bad;
@@ -182,7 +182,7 @@ void ObjAttributes::Corners::count_bad(const std::vector<FaceList::Origin>& orig
   for (const FaceList::Origin& origin : origins) {
     bad += static_cast<std::size_t>(
         std::count_if(origin.corners.begin(), origin.corners.end(),
-                      [&](std::uint64_t corner) { return of_corner[corner] != kNoValue; }));
+                      [&](std::size_t corner) { return of_corner[corner] != kNoValue; }));
   }
 }
 

@@ -60,7 +60,7 @@ class BinaryOffReader {
 
   void read_points() {
     const std::size_t stride = header_.numbers_per_point();
-    const std::size_t count = std::min(header_.points, words_left() / stride);
+    const std::size_t count = within(header_.points, words_left() / stride);
     result_.soup.points.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       guard_.step(0, at_);

@@ -39,14 +39,14 @@ class OffHeaderReader {
     }
   }
 
-  std::size_t read_count(const std::string& what) {
+  std::uint64_t read_count(const std::string& what) {
     if (!text_.next_anywhere()) source_.fail("an OFF file that ends before " + what);
     const std::size_t start = text_.position();
     std::int64_t count = 0;
     if (!text_.read_integer(count) || count < 0) {
       source_.fail_at(start, what + " of the OFF file is not a number");
     }
-    return static_cast<std::size_t>(count);
+    return static_cast<std::uint64_t>(count);
   }
 
   const MeshSource& source_;

@@ -18,8 +18,8 @@ struct OffHeader {
   bool homogeneous = false;  // 4: a fourth coordinate, by which the others are divided
   bool dimension = false;    // n: the dimension comes before the counts
   bool binary = false;
-  std::size_t points = 0;
-  std::size_t faces = 0;
+  std::uint64_t points = 0;  // as promised
+  std::uint64_t faces = 0;
   bool counts_end_line = true;  // false: data follow on the line of the counts
   std::size_t data_at =
       0;  // position of the byte behind the counts (text), the keyword line (binary)

@@ -43,7 +43,7 @@ class OffReader {
     text_.go_to(header_.data_at);
     lines_count_ = header_.counts_end_line && lines_hold_points();
     // A point takes at least six bytes, "0 0 0" and a blank.
-    result_.soup.points.reserve(std::min(header_.points, text_.remaining() / 6 + 1));
+    result_.soup.points.reserve(within(header_.points, text_.remaining() / 6 + 1));
     while (result_.soup.points.size() < header_.points && text_.next_anywhere()) {
       guard_.step(0, text_.position());
       read_point();

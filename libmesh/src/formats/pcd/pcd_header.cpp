@@ -93,20 +93,21 @@ class PcdHeaderReader {
     return words;
   }
 
-  std::size_t take_number() {
+  std::uint64_t take_number() {
     std::int64_t value = -1;
     if (!text_.next_on_line() || !text_.read_integer(value) || value < 0) {
       fail("a number of the PCD header is none");
     }
-    return static_cast<std::size_t>(value);
+    return static_cast<std::uint64_t>(value);
   }
 
   std::vector<std::size_t> take_numbers() {
     std::vector<std::size_t> numbers;
     while (text_.next_on_line()) {
       if (numbers.size() == kMostFields) fail("too many fields in the PCD header");
-      numbers.push_back(take_number());
-      if (numbers.back() > kMostValues) fail("a field of the PCD header is too large");
+      const std::uint64_t number = take_number();
+      if (number > kMostValues) fail("a field of the PCD header is too large");
+      numbers.push_back(static_cast<std::size_t>(number));
     }
     return numbers;
   }
@@ -147,8 +148,8 @@ class PcdHeaderReader {
     header_.points = points_.value_or(saturated_product(width_.value_or(0), height_.value_or(1)));
   }
 
-  static std::size_t saturated_product(std::size_t a, std::size_t b) {
-    constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  static std::uint64_t saturated_product(std::uint64_t a, std::uint64_t b) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
     return b != 0 && a > kMost / b ? kMost : a * b;
   }
 
@@ -157,7 +158,7 @@ class PcdHeaderReader {
   PcdHeader header_;
   std::vector<std::string> names_, types_;
   std::vector<std::size_t> sizes_, counts_;
-  std::optional<std::size_t> width_, height_, points_;
+  std::optional<std::uint64_t> width_, height_, points_;
   std::size_t line_at_ = 0;
 };
 

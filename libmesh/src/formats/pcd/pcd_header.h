@@ -43,8 +43,8 @@ struct PcdField {
 struct PcdHeader {
   PcdEncoding encoding = PcdEncoding::ascii;
   std::vector<PcdField> fields;
-  std::size_t record = 0;  // bytes of a point
-  std::size_t points = 0;  // as declared: not to be trusted
+  std::size_t record = 0;    // bytes of a point
+  std::uint64_t points = 0;  // as declared: not to be trusted
   std::size_t data_at = 0;
 };
 

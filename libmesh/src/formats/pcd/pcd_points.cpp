@@ -115,7 +115,7 @@ class PcdReader {
 
   void read_records() {
     const std::string_view data = source_.bytes.substr(header_.data_at);
-    const std::size_t count = std::min(header_.points, data.size() / header_.record);
+    const std::size_t count = within(header_.points, data.size() / header_.record);
     for (std::size_t i = 0; i < count; ++i) {
       guard_.step(0, header_.data_at + i * header_.record);
       const char* const record = data.data() + i * header_.record;
@@ -140,11 +140,12 @@ class PcdReader {
     }
     const std::optional<std::string> bytes = expand_lzf(data.substr(kSizes, packed_size), size);
     if (!bytes) source_.fail("the compressed points of the PCD file are damaged");
-    for (std::size_t i = 0; i < header_.points; ++i) {
+    const std::size_t count = size / header_.record;
+    for (std::size_t i = 0; i < count; ++i) {
       guard_.step(0, source_.bytes.size());
       // The fields that stand before this one have all their values before.
       take_bytes([&](const PcdField& field) {
-        return bytes->data() + field.at * header_.points + i * field.bytes();
+        return bytes->data() + field.at * count + i * field.bytes();
       });
     }
     result_.report.trailing_bytes = data.size() - kSizes - packed_size;

@@ -288,7 +288,7 @@ CornerAttribute PlyAttributes::take_of_faces(Group& group,
   const std::vector<std::uint32_t> of_corner = std::exchange(taken.of_corner, {});
   taken.of_corner.reserve(3 * origins.size());
   for (const FaceList::Origin& origin : origins) {
-    for (const std::uint64_t corner : origin.corners) {
+    for (const std::size_t corner : origin.corners) {
       if (group.is_list) {
         taken.of_corner.push_back(of_corner[corner]);
       } else {

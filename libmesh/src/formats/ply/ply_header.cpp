@@ -98,7 +98,7 @@ class PlyHeaderReader {
     if (!text_.next_on_line() || !text_.read_integer(count) || count < 0) {
       fail("the count of the PLY element '" + printable(element.name) + "' is not a number");
     }
-    element.count = static_cast<std::size_t>(count);
+    element.count = static_cast<std::uint64_t>(count);
     header_.elements.push_back(std::move(element));
   }
 

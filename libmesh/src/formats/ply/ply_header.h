@@ -29,7 +29,7 @@ struct PlyProperty {
 
 struct PlyElement {
   std::string name;
-  std::size_t count = 0;  // as declared: not to be trusted
+  std::uint64_t count = 0;  // as declared: not to be trusted
   std::vector<PlyProperty> properties;
 };
 

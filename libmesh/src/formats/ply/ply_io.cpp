@@ -147,7 +147,7 @@ class PlyBody {
       axes[found] = axis;
     }
     // Three numbers take at least three bytes.
-    result_.soup.points.reserve(std::min(element.count, cursor_.remaining() / 3 + 1));
+    result_.soup.points.reserve(within(element.count, cursor_.remaining() / 3 + 1));
     read_items(element, [&] { return read_point(element, axes); });
   }
 

@@ -61,7 +61,7 @@ void append_floats(std::string& out, const Vec3d& vector) {
 
 bool is_binary_stl(std::string_view bytes) {
   return bytes.size() >= kStlHeaderSize &&
-         bytes.size() - kStlHeaderSize == kStlTriangleSize * std::size_t{declared_count(bytes)};
+         bytes.size() - kStlHeaderSize == kStlTriangleSize * std::uint64_t{declared_count(bytes)};
 }
 
 ReadResult read_stl_binary(const MeshSource& source) {

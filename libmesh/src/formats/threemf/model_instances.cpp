@@ -53,8 +53,8 @@ class InstancePlacer {
     MeshTotal total;
     for (const ObjectReference& item : items) total.add(count(item, 1));
     require_sane(total);
-    result_.soup.points.reserve(total.points);
-    result_.soup.triangles.reserve(total.triangles);
+    result_.soup.points.reserve(static_cast<std::size_t>(total.points));
+    result_.soup.triangles.reserve(static_cast<std::size_t>(total.triangles));
     for (const ObjectReference& item : items) {
       if (const auto number = number_of(item)) {
         place(item.part, *number, placement_in(0, item), {});

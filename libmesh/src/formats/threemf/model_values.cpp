@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <base/decimal.h>
+
 #include "formats/common/text_scanner.h"
 
 namespace meshrepair {
@@ -24,7 +26,7 @@ Value value_named(std::string_view name, const std::array<std::string_view, kCou
 
 bool read_model_number(std::string_view text, double& value) {
   const std::string_view word = without_blanks(text);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = read_decimal(word.data(), word.data() + word.size(), value);
   if (error == std::errc() && end == word.data() + word.size()) return true;
   return parse_odd_real(word, value);
 }

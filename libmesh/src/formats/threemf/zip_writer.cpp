@@ -69,7 +69,7 @@ std::string ZipWriter::finish() {
   if (zip_source_open(packed) != 0 || zip_source_stat(packed, &stat) != 0) {
     fail_to_pack("it cannot be read back");
   }
-  std::string bytes(stat.size, '\0');
+  std::string bytes(static_cast<std::size_t>(stat.size), '\0');
   const zip_int64_t read = zip_source_read(packed, bytes.data(), bytes.size());
   (void)zip_source_close(packed);
   if (read < 0 || static_cast<zip_uint64_t>(read) != stat.size) {

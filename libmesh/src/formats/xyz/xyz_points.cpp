@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include <mesh/mesh_limits.h>
+#include <mesh/mesh_source.h>
 #include <mesh/read_guard.h>
 
 #include "formats/common/point_columns.h"
@@ -87,7 +89,7 @@ class XyzReader {
     const PointLine line = arranged(read_line(text_), names_);
     PointCloud& cloud = result_.cloud;
     if (is_count(line) && !text_.next_on_line()) {
-      result_.report.declared_points += static_cast<std::size_t>(line.numbers[0]);
+      result_.report.declared_points += static_cast<std::uint64_t>(line.numbers[0]);
     } else if (line.count < 3) {
       if (result_.report.bad_points++ == 0) first_bad_ = line_at;
     } else {
@@ -109,7 +111,8 @@ class XyzReader {
   // there are none.
   void split_normals() {
     auto& points = result_.cloud.points;
-    const std::size_t all = points.size(), promised = result_.report.declared_points;
+    const std::size_t all = points.size();
+    const std::size_t promised = within(result_.report.declared_points, kMostPoints);
     if (promised == 0 || promised == all || columns_.normal != 0) return;
     const std::size_t half = all / 2;
     const std::size_t wrong = std::max(half, promised) - std::min(half, promised);

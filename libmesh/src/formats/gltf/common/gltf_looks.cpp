@@ -1,7 +1,9 @@
 #include "gltf_looks.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -147,11 +149,10 @@ class LooksAppender {
   static std::optional<std::size_t> number_in(const GltfJson& object, const char* key) {
     const GltfJson* const value = gltf_member(object, key);
     if (value == nullptr || !value->is_number()) return std::nullopt;
-    if (value->is_number_unsigned()) return value->get<std::size_t>();
-    constexpr double kMost = 4294967296.0;  // more than any list has
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();  // no list has more
+    if (value->is_number_unsigned()) return std::min<std::size_t>(gltf_whole(*value), kMost);
     const double number = value->get<double>();
-    return number >= 0 && number < kMost ? static_cast<std::size_t>(number)
-                                         : static_cast<std::size_t>(kMost);
+    return number >= 0 && number < kMost ? static_cast<std::size_t>(number) : std::size_t{kMost};
   }
 
   // Of materials that stand for one from farther away.
@@ -163,8 +164,8 @@ class LooksAppender {
       if (ids == nullptr || !ids->is_array()) continue;
       GltfJson renumbered = GltfJson::array();
       for (const GltfJson& id : *ids) {
-        const bool is_there = id.is_number_unsigned() && id.get<std::size_t>() < materials.size();
-        if (is_there) renumbered.push_back(materials[id.get<std::size_t>()]);
+        const bool is_there = id.is_number_unsigned() && gltf_whole(id) < materials.size();
+        if (is_there) renumbered.push_back(materials[gltf_whole(id)]);
       }
       material["extensions"]["MSFT_lod"]["ids"] = std::move(renumbered);
     }
@@ -207,8 +208,7 @@ using TextureSets = std::vector<std::uint32_t>;
 
 void renumber_set(GltfJson& use, const TextureSets& numbers) {
   const GltfJson* const given = gltf_member(use, "texCoord");
-  const std::size_t set =
-      given != nullptr && given->is_number_unsigned() ? given->get<std::size_t>() : 0;
+  const std::size_t set = given != nullptr && given->is_number_unsigned() ? gltf_whole(*given) : 0;
   if (set < numbers.size() && numbers[set] != set) use["texCoord"] = numbers[set];
 }
 

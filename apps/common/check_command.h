@@ -1,0 +1,32 @@
+// The program meshcheck as a step: for its command line, and for calls from other languages.
+#pragma once
+
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "common/asset_options.h"
+#include "common/check_steps.h"
+#include "common/picture_request.h"
+#include "common/program.h"
+#include "page/html_request.h"
+
+namespace meshrepair {
+
+struct CheckCommand {
+  std::string input;
+  AssetOptions assets;
+  std::string marked;  // empty: no such file
+  PictureRequest picture;
+  HtmlRequest html;
+  CheckRequest request;
+};
+
+// All options but IN and --json, and those of every program, which are for the caller to add.
+void add_check_command(CLI::App& app, CheckCommand& command);
+
+// Reads command.input, and says what is wrong with it. not_certified where it is not the boundary
+// of a solid. Unless --quiet, what is found is printed.
+[[nodiscard]] ExitCode check_file(CheckCommand& command, Run& run);
+
+}  // namespace meshrepair
