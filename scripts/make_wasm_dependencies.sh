@@ -119,12 +119,15 @@ link_headers fast_float libfast-float-dev
 link_headers nanoflann.hpp libnanoflann-dev
 describe_nanoflann
 
+# For what takes no time in the end, and is loaded over networks all the same.
+small=("-DCMAKE_C_FLAGS_RELEASE=-Os -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-Os -DNDEBUG")
+
 # Its vectors are used as on x86, without the assembler of that.
 fetch eigen3
 sed -i 's/^#if EIGEN_COMP_GNUC && EIGEN_COMP_GNUC < 63$/& \&\& !defined(__EMSCRIPTEN__)/' "$work/eigen3/Eigen/src/Core/arch/SSE/PacketMath.h"
 build eigen3 . -DEIGEN_BUILD_DOC=OFF -DEIGEN_BUILD_PKGCONFIG=OFF
-build fmtlib . -DFMT_DOC=OFF -DFMT_TEST=OFF
-build spdlog . -DSPDLOG_FMT_EXTERNAL=ON -DSPDLOG_BUILD_EXAMPLE=OFF
+build fmtlib . "${small[@]}" -DFMT_DOC=OFF -DFMT_TEST=OFF
+build spdlog . "${small[@]}" -DSPDLOG_FMT_EXTERNAL=ON -DSPDLOG_BUILD_EXAMPLE=OFF
 build cli11 . -DCLI11_BUILD_DOCS=OFF -DCLI11_BUILD_TESTS=OFF -DCLI11_BUILD_EXAMPLES=OFF
 build nlohmann-json3 . -DJSON_BuildTests=OFF
 build_zlib
@@ -136,7 +139,7 @@ build expat expat -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF -DEXPAT_BUI
   -DEXPAT_SHARED_LIBS=OFF
 build libpng1.6 . -DPNG_SHARED=OFF -DPNG_TESTS=OFF
 build libjpeg-turbo . -DENABLE_SHARED=OFF -DWITH_TURBOJPEG=OFF -DWITH_SIMD=OFF
-build libzip . -DENABLE_COMMONCRYPTO=OFF -DENABLE_GNUTLS=OFF -DENABLE_MBEDTLS=OFF -DENABLE_OPENSSL=OFF \
+build libzip . "${small[@]}" -DENABLE_COMMONCRYPTO=OFF -DENABLE_GNUTLS=OFF -DENABLE_MBEDTLS=OFF -DENABLE_OPENSSL=OFF \
   -DENABLE_WINDOWS_CRYPTO=OFF -DENABLE_BZIP2=OFF -DENABLE_LZMA=OFF -DBUILD_TOOLS=OFF -DBUILD_REGRESS=OFF \
   -DBUILD_EXAMPLES=OFF -DBUILD_DOC=OFF
 # Vectors leave variables unused in it.
@@ -144,5 +147,5 @@ fetch meshoptimizer
 sed -i 's/ -Werror)/)/' "$work/meshoptimizer/CMakeLists.txt"
 build meshoptimizer .
 EMSCRIPTEN=/usr/share/emscripten build draco . -DDRACO_TESTS=OFF -DDRACO_JS_GLUE=OFF -DDRACO_WASM=ON -DDRACO_TRANSCODER_SUPPORTED=OFF
-build openmesh . -DBUILD_APPS=OFF -DOPENMESH_DOCS=OFF
+build openmesh . "${small[@]}" -DBUILD_APPS=OFF -DOPENMESH_DOCS=OFF
 echo "wasm: all dependencies are in $prefix"

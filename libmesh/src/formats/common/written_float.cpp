@@ -1,11 +1,12 @@
 #include "written_float.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
-#include <base/decimal.h>
 #include <base/error.h>
 
 namespace meshrepair {
@@ -13,10 +14,10 @@ namespace meshrepair {
 float written_float(double coordinate, std::string_view format) {
   if (std::abs(coordinate) > std::numeric_limits<float>::max() && !std::isinf(coordinate)) {
     std::array<char, 32> text;
-    const auto end = write_decimal(text.data(), text.data() + text.size(), coordinate);
-    std::string message = "a coordinate of ";
-    message.append(text.data(), end.ptr).append(" does not fit into ").append(format);
-    throw OutputError(message.append("; write another format"));
+    std::snprintf(text.data(), text.size(), "%.6g", coordinate);
+    std::replace(text.begin(), text.end(), ',', '.');  // as some locales have it
+    throw OutputError(std::string("a coordinate of ") + text.data() + " does not fit into " +
+                      std::string(format) + "; write another format");
   }
   return static_cast<float>(coordinate) + 0.0f;  // no -0: as it will be read back
 }
