@@ -153,10 +153,15 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->type_name("SECONDS")
       ->group(running);
   app.add_option("--max-memory", options.max_memory,
-                 "Give up rather than take more memory: 200M, 1.5G, or a share of what\n"
-                 "is free; 0: no limit")
+                 "Take no more memory: 200M, 1.5G, or a share of what is free; large\n"
+                 "arrays go into a file where there would be more; 0: no limit")
       ->capture_default_str()
       ->type_name("SIZE")
+      ->group(running);
+  app.add_option("--temp", options.temp,
+                 "Folder for this file; $TMPDIR or /var/tmp unless told; none: give up\n"
+                 "rather than take more memory")
+      ->type_name("DIR")
       ->group(running);
   app.add_option_function<std::string>(
          "--max-triangles",

@@ -17,6 +17,7 @@ struct CommonOptions {
   unsigned threads = 0;            // 0: all that the machine has
   double time_limit = 0;           // seconds, 0: none
   std::string max_memory = "80%";  // see parse_memory_limit
+  std::string temp;                // a folder for what is more; empty: one of the system, "none"
   std::size_t max_triangles = 0;   // of a mesh that is read, 0: any number
   int progress_to = -1;            // a descriptor; -1: none
 

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <string_view>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -110,6 +110,30 @@ std::uint64_t of_self(std::string_view key) {
   return kilobytes_of_key("/proc/self/status", key).value_or(0);
 }
 
+struct Pages {
+  unsigned long resident = 0;
+  unsigned long shared = 0;  // of files; resident
+  unsigned long data = 0;    // private, resident or not
+};
+
+// Asked often, by several threads: the file of plain numbers is read with the least effort.
+Pages pages_now() {
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return {};
+  std::array<char, 128> text = {};
+  const ssize_t size = ::read(file, text.data(), text.size() - 1);
+  ::close(file);
+  Pages pages;
+  unsigned long total = 0, code = 0, libraries = 0;
+  if (size <= 0 || std::sscanf(text.data(), "%lu %lu %lu %lu %lu %lu", &total, &pages.resident,
+                               &pages.shared, &code, &libraries, &pages.data) != 6) {
+    return {};
+  }
+  return pages;
+}
+
+std::uint64_t page_bytes() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
+
 }  // namespace
 
 MemoryLimit parse_memory_limit(const std::string& text) {
@@ -130,15 +154,14 @@ std::optional<std::uint64_t> free_memory() {
   return std::min(*machine, free_in_groups());
 }
 
-// Asked often: the file of plain numbers is read with the least effort.
-std::uint64_t resident_memory() {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/statm", "r"),
-                                                             &std::fclose);
-  unsigned long total = 0;
-  unsigned long resident = 0;
-  if (!file || std::fscanf(file.get(), "%lu %lu", &total, &resident) != 2) return 0;
-  return std::uint64_t{resident} * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+std::uint64_t resident_memory() { return pages_now().resident * page_bytes(); }
+
+std::uint64_t private_memory() {
+  const Pages now = pages_now();
+  return (now.resident - std::min(now.resident, now.shared)) * page_bytes();
 }
+
+std::uint64_t reserved_memory() { return pages_now().data * page_bytes(); }
 
 void limit_memory(const MemoryLimit& limit_wanted, std::size_t threads) {
   const std::uint64_t bytes = limit_wanted.bytes;

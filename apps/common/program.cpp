@@ -14,15 +14,18 @@
 #include "common/memory_limit.h"
 #include "common/signals.h"
 #include "common/watchdog.h"
+#include "spill/spilling.h"
 
 namespace meshrepair {
 namespace {
 
-ProgressBar::Options bar_options(const CommonOptions& options, const MemoryLimit& memory) {
+ProgressBar::Options bar_options(const CommonOptions& options, const MemoryLimit& memory,
+                                 const Spilling& spilling) {
   ProgressBar::Options bar;
   bar.draw = !options.quiet && stderr_is_terminal();
   bar.time_limit = options.time_limit;
   bar.memory_limit = memory.bytes;
+  bar.spills = spilling.is_on();
   bar.told = options.progress_to;
   return bar;
 }
@@ -54,6 +57,7 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
   JsonReport report(command_line_.get_name(), std::vector<std::string>(argv, argv + argc));
   std::optional<ProgressBar> progress(std::in_place);
   std::optional<Watchdog> watchdog;
+  std::optional<Spilling> spilling;
   ExitCode code = ExitCode::done;
   std::exception_ptr error;
   try {
@@ -61,7 +65,8 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
     if (!parse(argc, argv)) return ExitCode::done;
     set_up_logging(command_line_.get_name(), options_.verbosity());
     const MemoryLimit memory = parse_memory_limit(options_.max_memory);
-    progress.emplace(bar_options(options_, memory));
+    spilling.emplace(options_.temp, memory);
+    progress.emplace(bar_options(options_, memory, *spilling));
     watchdog.emplace(command_line_.get_name(), *progress);
     const ThreadLimit thread_limit(options_.threads);
     limit_memory(memory, most_threads());
@@ -70,13 +75,17 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
     code = body(run);
     flush_standard_output();
   } catch (const std::bad_alloc&) {
-    error = std::make_exception_ptr(LimitError(progress->out_of_memory()));
+    error = std::make_exception_ptr(
+        LimitError(progress->out_of_memory() + (spilling ? spilling->why_not_more() : "")));
   } catch (const OutOfThreads&) {
     error = std::make_exception_ptr(progress->out_of_threads());
   } catch (...) {
     error = std::current_exception();
   }
   progress->finish();
+  if (spilling && spilling->most_bytes() > 0) {
+    report.set_section("temp_file", {{"bytes", spilling->most_bytes()}});
+  }
   write_report(report, code, error, *progress);
   if (error) std::rethrow_exception(error);
   return code;

@@ -103,7 +103,8 @@ std::optional<std::string> ProgressBar::limit_reached() const {
   if (options_.time_limit > 0 && seconds() > options_.time_limit) {
     return fmt::format("time limit of {:g} s reached {}", options_.time_limit, where());
   }
-  if (options_.memory_limit > 0 && resident_memory() > options_.memory_limit) {
+  const std::uint64_t memory = options_.spills ? private_memory() : resident_memory();
+  if (options_.memory_limit > 0 && memory > options_.memory_limit) {
     return out_of_memory();
   }
   return std::nullopt;

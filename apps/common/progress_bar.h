@@ -32,6 +32,7 @@ class ProgressBar : public ProgressObserver {
     bool draw = false;               // on `terminal`, from the first half second on
     double time_limit = 0;           // seconds from construction on; 0 is none
     std::uint64_t memory_limit = 0;  // bytes; 0 is none
+    bool spills = false;             // what is a file's can be let go of, so it does not count
     std::FILE* terminal = stderr;    // not owned
     int told = -1;                   // a descriptor that gets a line for each percent; -1: none
     double delay = 0.5;              // seconds before anything is drawn: short runs stay silent

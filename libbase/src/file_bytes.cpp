@@ -62,7 +62,7 @@ FileBytes::FileBytes(const std::filesystem::path& path, ProgressObserver* progre
 }
 
 void FileBytes::reserve(std::size_t capacity) {
-  char* const moved = static_cast<char*>(std::realloc(buffer_.get(), capacity));
+  char* const moved = static_cast<char*>(resize_block(buffer_.get(), size_, capacity));
   if (moved == nullptr) throw std::bad_alloc();
   static_cast<void>(buffer_.release());
   buffer_.reset(moved);

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include <base/block_source.h>
 #include <base/progress.h>
 
 namespace meshrepair {
@@ -24,7 +24,7 @@ class FileBytes {
 
  private:
   struct Free {
-    void operator()(char* bytes) const { std::free(bytes); }
+    void operator()(char* bytes) const { free_block(bytes); }
   };
 
   void reserve(std::size_t capacity);

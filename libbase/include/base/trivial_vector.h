@@ -3,15 +3,16 @@
 //
 // std::vector grows by allocating a second, larger array and copying, which for the pools of a
 // large complex doubles the peak memory and touches every page twice. realloc() remaps large blocks
-// in place of that.
+// of the system in place of that.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <new>
 #include <type_traits>
 #include <utility>
+
+#include <base/block_source.h>
 
 namespace meshrepair {
 
@@ -38,7 +39,7 @@ class TrivialVector {
     swap(other);
     return *this;
   }
-  ~TrivialVector() { std::free(data_); }
+  ~TrivialVector() { free_block(data_); }
 
   void swap(TrivialVector& other) noexcept {
     std::swap(data_, other.data_);
@@ -86,7 +87,8 @@ class TrivialVector {
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
     if (count > static_cast<std::size_t>(-1) / sizeof(Value)) throw std::bad_alloc();
-    void* moved = std::realloc(static_cast<void*>(data_), count * sizeof(Value));
+    void* moved =
+        resize_block(static_cast<void*>(data_), capacity_ * sizeof(Value), count * sizeof(Value));
     if (moved == nullptr) throw std::bad_alloc();
     data_ = static_cast<Value*>(moved);
     capacity_ = count;

@@ -1,0 +1,56 @@
+#include "spill/spilling.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <linux/magic.h>
+#include <sys/vfs.h>
+
+#include <spdlog/logger.h>
+
+#include <base/block_source.h>
+#include <base/error.h>
+
+#include "common/logging.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr const char* kDefaultFolder = "/var/tmp";  // for large files, which /tmp may not be
+
+std::string default_folder() {
+  const char* const named = std::getenv("TMPDIR");
+  return named != nullptr && *named != '\0' ? named : kDefaultFolder;
+}
+
+// Files there take the memory that they are to spare.
+bool is_in_memory(const std::string& folder) {
+  struct statfs status = {};
+  if (::statfs(folder.c_str(), &status) != 0) return false;
+  return status.f_type == TMPFS_MAGIC || status.f_type == RAMFS_MAGIC;
+}
+
+}  // namespace
+
+Spilling::Spilling(const std::string& folder, const MemoryLimit& limit)
+    : folder_(folder.empty() ? default_folder() : folder) {
+  if (limit.bytes == 0 || folder == "none") return;
+  if (folder.empty() && is_in_memory(folder_)) return;
+  try {
+    file_ = new SpillFile(folder_, limit.bytes / 2);
+  } catch (const OutputError& error) {
+    if (!folder.empty()) throw;
+    logger().debug("{}", error.what());
+    return;
+  }
+  resident_limit_ = std::make_unique<ResidentLimit>(*file_, limit.bytes);
+  set_block_source(file_);
+}
+
+// Blocks that are still in the file are given back to it later.
+Spilling::~Spilling() = default;
+
+std::string Spilling::why_not_more() const {
+  return is_on() && file_->was_full() ? ", and the disk of " + folder_ + " is full" : "";
+}
+
+}  // namespace meshrepair

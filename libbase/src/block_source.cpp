@@ -1,0 +1,39 @@
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include <base/block_source.h>
+
+namespace meshrepair {
+
+void* take_block(std::size_t bytes) noexcept {
+  BlockSource* const source = bytes < kLeastBlock ? nullptr : block_source();
+  void* const block = source == nullptr ? nullptr : source->take(bytes);
+  return block != nullptr ? block : std::malloc(bytes);
+}
+
+// A block of the system is moved by its page tables as long as it stays the system's.
+void* resize_block(void* block, std::size_t old_bytes, std::size_t bytes) noexcept {
+  BlockSource* const source = block_source();
+  if (source == nullptr) return std::realloc(block, bytes);
+  const bool is_owned = block != nullptr && source->owns(block);
+  if (is_owned && bytes >= kLeastBlock && bytes <= source->size_of(block)) return block;
+  void* moved = bytes < kLeastBlock ? nullptr : source->take(bytes);
+  if (moved == nullptr && !is_owned) return std::realloc(block, bytes);
+  if (moved == nullptr) moved = std::malloc(bytes);
+  if (moved == nullptr) return nullptr;
+  if (block != nullptr) std::memcpy(moved, block, std::min(old_bytes, bytes));
+  free_block(block);
+  return moved;
+}
+
+void free_block(void* block) noexcept {
+  BlockSource* const source = block_source();
+  if (source != nullptr && source->owns(block)) {
+    source->give_back(block);
+  } else {
+    std::free(block);
+  }
+}
+
+}  // namespace meshrepair
