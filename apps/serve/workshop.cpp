@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <mesh/soup_format.h>
 
 #include "common/exit_code.h"
 #include "common/side_file.h"
@@ -26,11 +27,8 @@ constexpr std::size_t kLongestName = 200;                     // bytes
 constexpr std::size_t kLongestReport = std::size_t{1} << 26;  // a longer one is none
 constexpr std::chrono::seconds kPatience(3);                  // from SIGTERM to SIGKILL
 
-constexpr std::array<std::string_view, 8> kExtensions = {".stl", ".obj",  ".off", ".ply",
-                                                         ".glb", ".gltf", ".3mf", ".om"};
 constexpr std::array<std::string_view, 6> kResults = {".stl", ".obj", ".off",
                                                       ".ply", ".glb", ".3mf"};
-constexpr std::array<std::string_view, 2> kPackings = {".gz", ".zst"};
 constexpr std::array<std::string_view, 15> kOpenOptions = {
     "for",      "inside",   "sew",    "seal",  "holes",  "max-hole",   "thicken", "min-part",
     "touching", "simplify", "always", "units", "strict", "attributes", "keep"};
@@ -78,12 +76,8 @@ bool is_mesh_name(const std::string& name) {
     return c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
   });
   if (!is_plain) return false;
-  std::string extension = lower_extension(name);
-  if (extension == ".zip") return true;
-  if (is_among(kPackings, extension)) {
-    extension = lower_extension(fs::path(name).stem().string());
-  }
-  return is_among(kExtensions, extension);
+  // The name of what is in an archive is in there.
+  return format_of_extension(name).has_value() || lower_extension(name) == ".zip";
 }
 
 bool is_result_extension(const std::string& extension) { return is_among(kResults, extension); }

@@ -6,23 +6,15 @@
 // no Chromium.
 
 import {spawn, spawnSync} from 'node:child_process';
-import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readFileSync, writeFileSync} from 'node:fs';
 import path from 'node:path';
 
-const CHROMIUM = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-const DRAWING = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+import {about, expect, withBrowser} from './pages.mjs';
+
 const MESHES = ['broken_torus_box.stl', 'broken_spheres.obj', 'open_bowl.ply', 'overlapping_spheres.off', 'cube.stl'];
 
 const [programs, meshes, screenshot] = process.argv.slice(2).map((name) => path.resolve(name));
-const folder = mkdtempSync(path.join(tmpdir(), 'view_serve_'));
-let faults = 0;
-
-function expect(holds, what) {
-  if (holds) return;
-  console.log(what);
-  ++faults;
-}
+let folder = ''; // empty at first
 
 // The address that it prints, and how to end it.
 function served() {
@@ -157,29 +149,14 @@ async function useKeysAndAPhone(browser, address) {
   await page.close();
 }
 
-async function main() {
-  let playwright;
-  try {
-    playwright = await import('playwright-core');
-  } catch (error) {
-    console.log(`playwright is not installed: ${error.code}`);
-    return 77;
-  }
-  if (!CHROMIUM) {
-    console.log('there is no Chromium');
-    return 77;
-  }
+await withBrowser(async ({browser, folder: empty}) => {
+  folder = empty;
+  about('the page of --serve');
   const {server, address} = await served();
-  const browser = await playwright.chromium.launch({executablePath: CHROMIUM, args: DRAWING});
   await repairAll(browser, address);
   await forwarded(browser, address);
   await failClearly(browser, address);
   await failOnPurpose(browser, address);
   await useKeysAndAPhone(browser, address);
-  await browser.close();
   await ended(server);
-  return faults === 0 ? 0 : 1;
-}
-
-const code = await main().finally(() => rmSync(folder, {recursive: true}));
-process.exit(code);
+});
