@@ -47,10 +47,13 @@
     at('verdict').className = kind ?? '';
   }
 
+  // Another frame for each page: browsers may leave one blank that was hidden when its address changed.
   function show(path) {
-    at('page').hidden = path === null;
-    if (path === null) at('page').removeAttribute('src');
-    else at('page').src = path;
+    const frame = at('page').cloneNode();
+    frame.hidden = path === null;
+    if (path === null) frame.removeAttribute('src');
+    else frame.src = path;
+    at('page').replaceWith(frame);
   }
 
   function verdict(state) {
