@@ -73,6 +73,10 @@ class Serving(unittest.TestCase):
                 said += some
             return said
 
+    def upload_head(self, headers="", version="1.1", name="a.stl"):
+        head = f"POST /jobs?name={name} HTTP/{version}\r\nHost: {self.host}\r\nX-Meshrepair-Token: {self.token}\r\n{headers}\r\n"
+        return head.encode()
+
     def hand_in(self, name="mesh.stl", data=BROKEN):
         status, _, body = self.ask("POST", f"/jobs?name={name}", data)
         self.assertEqual(status, 201, body)
@@ -131,6 +135,35 @@ class Work(Serving):
         for text in ("", "{", '{"format":"stl"}}', "\u00ff"):
             status, _, _ = self.ask("POST", f"/jobs/{job}/repair", headers={"X-Meshrepair-Options": text.encode("latin-1").decode("latin-1")})
             self.assertEqual(status, 400, text)
+
+    def test_a_mesh_without_a_byte(self):
+        """It is answered at once, however it is sent."""
+        for headers in ("Content-Length: 0\r\n", "Transfer-Encoding: chunked\r\n"):
+            body = b"0\r\n\r\n" if "chunked" in headers else b""
+            start = time.monotonic()
+            answer = self.raw(self.upload_head(headers + "Connection: close\r\n") + body)
+            self.assertLess(time.monotonic() - start, 5)
+            self.assertRegex(answer, rb"^HTTP/1.1 201 ", headers)
+            state = self.finished(json.loads(answer.split(b"\r\n\r\n")[1])["job"])
+            self.assertIn("empty", state["report"]["error"])
+
+    def test_a_slow_download(self):
+        """It may take longer than the time that is allowed without a byte."""
+        job = self.hand_in()
+        self.finished(job)
+        with socket.socket() as line:
+            line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            line.settimeout(SECONDS)
+            line.connect(("127.0.0.1", self.port))
+            line.sendall(f"GET /jobs/{job}/check.html HTTP/1.1\r\nHost: {self.host}\r\nConnection: close\r\n\r\n".encode())
+            start = time.monotonic()
+            said = b""
+            while some := line.recv(2048):
+                said += some
+                if time.monotonic() - start < 36:
+                    time.sleep(0.25)
+        head, _, body = said.partition(b"\r\n\r\n")
+        self.assertIn(b"Content-Length: %d\r\n" % len(body), head + b"\r\n")
 
     def test_cancel_and_remove(self):
         # Much to cut: many overlapping balls.
@@ -253,6 +286,26 @@ class Attacks(Serving):
         self.is_alive()
         self.assertEqual(self.jobs(), 0)
         self.assertIn(self.finished(self.hand_in("a.stl", bytes(LIMIT)))["exit_code"], (1, 3))
+
+    def test_uploads_without_an_end(self):
+        """What cannot be told from the next request is refused, and nothing after it is a request."""
+        after = f"GET /favicon.ico HTTP/1.1\r\nHost: {self.host}\r\n\r\n".encode()
+        for headers, version, code in (("", "1.0", 411), ("", "1.1", 411), ("Transfer-Encoding: xchunked\r\n", "1.1", 501),
+                                       ("Transfer-Encoding: gzip\r\n", "1.1", 501), ("Transfer-Encoding: gzip, chunked\r\n", "1.1", 501)):
+            answer = self.raw(self.upload_head(headers, version) + after)
+            self.assertRegex(answer, rb"^HTTP/1.1 %d " % code, headers)
+            self.assertEqual(answer.count(b"HTTP/1.1 "), 1, headers)
+        answer = self.raw(f"GET / HTTP/1.1\r\nHost: {self.host}\r\nTransfer-Encoding: gzip\r\n\r\n".encode() + after)
+        self.assertRegex(answer, rb"^HTTP/1.1 501 ")
+        self.assertEqual(answer.count(b"HTTP/1.1 "), 1)
+        self.assertEqual(self.jobs(), 0)
+
+    def test_headers_that_stand_twice(self):
+        for first, second in ((f"Host: {self.host}", "Host: evil.example"), (f"Host: {self.host}", f"host: {self.host}"),
+                              (f"Host: {self.host}\r\nOrigin: http://{self.host}", "Origin: https://evil.example"),
+                              (f"Host: {self.host}\r\nOrigin: ", "Origin: https://evil.example")):
+            answer = self.raw(f"GET / HTTP/1.1\r\n{first}\r\n{second}\r\nConnection: close\r\n\r\n".encode())
+            self.assertRegex(answer, rb"^HTTP/1.1 400 ", (first, second))
 
     def test_uploads_that_end_early(self):
         head = f"POST /jobs?name=a.stl HTTP/1.1\r\nHost: {self.host}\r\nX-Meshrepair-Token: {self.token}\r\nContent-Length: 1000\r\n\r\n"
