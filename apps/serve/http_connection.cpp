@@ -1,7 +1,9 @@
 #include "serve/http_connection.h"
 
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +12,7 @@
 #include <spdlog/logger.h>
 
 #include "common/logging.h"
+#include "serve/own_folder.h"
 
 namespace meshrepair {
 namespace {
@@ -142,10 +145,25 @@ void HttpConnection::take_body(Error error) {
   }
   if (error) return close();
   const std::size_t count = piece_.size() - body_->get().body().size;
-  file_.write(piece_.data(), count, error);
-  if (error) return fail_upload(refused(507, "there is no room for the mesh"));
+  if (!keep_piece(count)) return fail_upload(refused(507, "there is no room for the mesh"));
   if (!body_->is_done()) return read_body();
   end_upload();
+}
+
+// A disk that is full has room for it once older meshes are gone.
+bool HttpConnection::keep_piece(std::size_t count) {
+  Error error;
+  const std::uint64_t begin = file_.pos(error);
+  if (error) return false;
+  for (;;) {
+    file_.write(piece_.data(), count, error);
+    if (!error) return true;
+    const bool is_full =
+        error == boost::system::errc::no_space_on_device || error.value() == EDQUOT;
+    if (!is_full || !answers_.free_room()) return false;
+    file_.seek(begin, error);
+    if (error) return false;
+  }
 }
 
 void HttpConnection::end_upload() {
@@ -177,8 +195,11 @@ void HttpConnection::send(const Answer& answer, bool keeps) {
   auto message = std::make_shared<http::response<http::file_body>>(
       static_cast<http::status>(answer.status), version);
   Error error;
-  message->body().open(answer.file.c_str(), beast::file_mode::scan, error);
-  if (error) return send(refused(404, "it is not there any more"), keeps);
+  beast::file_posix file;
+  file.native_handle(open_plain_file(answer.file));
+  if (!file.is_open()) return send(refused(404, "it is not there any more"), keeps);
+  message->body().reset(std::move(file), error);
+  if (error) return send(refused(500, "it cannot be read"), false);
   add_headers(*message, answer);
   message->keep_alive(keeps);
   message->prepare_payload();

@@ -40,6 +40,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void take_upload(Answers::Upload upload);
   void read_body();
   void take_body(Error error);
+  [[nodiscard]] bool keep_piece(std::size_t count);
   void end_upload();
   void fail_upload(const Answer& refusal);
   void send(const Answer& answer, bool keeps);

@@ -105,17 +105,16 @@ std::vector<std::string> options_for_all(const ServeOptions& options) {
 }
 
 // By a file that only this user can read: all users see the arguments of processes, and the address
-// has the token.
-void open_browser(const std::string& address, const fs::path& folder) {
+// has the token. The browser makes files as it would without us.
+void open_browser(const std::string& address, const OwnFolder& folder, ::mode_t mask) {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): never changed
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  const std::string file = folder / "open.html";
-  const ::mode_t mask = ::umask(077);
-  std::ofstream(file) << R"(<!doctype html><meta http-equiv="refresh" content="0; url=)" << address
-                      << "\">\n";
-  ::umask(mask);
+  const std::string file = folder.name() + "/open.html";
+  std::ofstream(folder.path() / "open.html")
+      << R"(<!doctype html><meta http-equiv="refresh" content="0; url=)" << address << "\">\n";
   const pid_t child = ::fork();
   if (child == 0) {
+    ::umask(mask);
     if (::fork() == 0) {  // whose parent ends at once, so that nobody has to wait for it
       ::execlp("xdg-open", "xdg-open", file.c_str(), nullptr);
       ::_exit(127);
@@ -126,6 +125,7 @@ void open_browser(const std::string& address, const fs::path& folder) {
 }
 
 ExitCode serve_until_signal(const ServeOptions& options) {
+  const ::mode_t mask = ::umask(077);  // the programs that are started keep to it, too
   const std::string token = random_secret();
   Workshop::Options of_workshop;
   of_workshop.programs = folder_of_programs();
@@ -134,14 +134,15 @@ ExitCode serve_until_signal(const ServeOptions& options) {
   limits.body = parse_memory_limit(options.max_upload).bytes;
   if (limits.body == 0) throw UsageError("--max-upload: is to be more than 0");
   HttpServer server(static_cast<unsigned short>(options.port));
-  Workshop workshop(std::move(of_workshop));
+  const OwnFolder folder("meshrepair-serve");
+  Workshop workshop(std::move(of_workshop), folder);
   const Guard guard(server.port(), token);
   const Answers answers(guard, workshop);
   const std::string address = fmt::format("http://127.0.0.1:{}/#{}", server.port(), token);
   fmt::print("{}\n", address);
   std::fflush(stdout);
   print_summary("meshrepair: open this address in a browser on this machine; Ctrl-C ends it\n");
-  if (options.opens_browser) open_browser(address, workshop.own_folder());
+  if (options.opens_browser) open_browser(address, folder, mask);
   server.serve(answers, limits, [] { return received_signal() != 0; });
   return ExitCode::done;
 }
