@@ -6,7 +6,7 @@
 // no Chromium.
 
 import {spawn, spawnSync} from 'node:child_process';
-import {readFileSync, writeFileSync} from 'node:fs';
+import {readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import path from 'node:path';
 
 import {about, expect, withBrowser} from './pages.mjs';
@@ -118,6 +118,27 @@ async function failClearly(browser, address) {
   await page.close();
 }
 
+const kept = () => readdirSync(folder, {recursive: true}).filter((name) => /\bin$/.test(name)).length;
+
+async function nothingIsKept(what) {
+  for (let i = 0; i < 100 && kept() > 0; ++i) await new Promise((done) => setTimeout(done, 100));
+  expect(kept() === 0, `${what} leaves ${kept()} meshes`);
+}
+
+// Nobody could end the work on a mesh of a page that is gone.
+async function leave(browser, address) {
+  await nothingIsKept('a page that was closed');
+  const page = await opened(browser, address);
+  await checked(page, path.join(meshes, MESHES[1]));
+  expect(kept() === 1, 'the mesh of a page is not kept');
+  await page.click('#repair');
+  await page.reload();
+  await nothingIsKept('a page that is loaded again');
+  await checked(page, path.join(meshes, MESHES[0]));
+  await page.close();
+  await nothingIsKept('a page that is closed');
+}
+
 // They make the browser itself print errors.
 async function failOnPurpose(browser, address) {
   const page = await browser.newPage();
@@ -158,5 +179,6 @@ await withBrowser(async ({browser, folder: empty}) => {
   await failClearly(browser, address);
   await failOnPurpose(browser, address);
   await useKeysAndAPhone(browser, address);
+  await leave(browser, address);
   await ended(server);
 });

@@ -159,6 +159,14 @@
     at('drop').classList.remove('over');
     if (event.dataTransfer.files.length > 0) open(event.dataTransfer.files[0]);
   });
+  // Nobody could end the work, or ask for the result, once the page is gone. It starts anew where a browser brings it back.
+  addEventListener('pagehide', () => {
+    sending?.abort();
+    if (job !== null) fetch(`/jobs/${job}`, {method: 'DELETE', headers: {'X-Meshrepair-Token': token}, keepalive: true}).catch(() => {});
+  });
+  addEventListener('pageshow', (event) => {
+    if (event.persisted) location.reload();
+  });
   if (token === '') say('The address lacks its token: use the whole one that the program prints.', 'bad');
   at('work').hidden = token !== '';
   at('options').hidden = false;
