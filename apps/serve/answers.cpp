@@ -122,7 +122,7 @@ std::optional<RepairWish> wish_of(std::string_view text) {
     } else if (is_open_option(name) && value.is_string() && is_plain_value(value) &&
                !value.get<std::string>().empty()) {
       wish.options.emplace_back(name, value.get<std::string>());
-    } else if (is_open_option(name) && value.is_boolean()) {
+    } else if (is_open_flag(name) && value.is_boolean()) {
       if (value.get<bool>()) wish.options.emplace_back(name, "");
     } else {
       return std::nullopt;

@@ -1,5 +1,6 @@
 #include "serve/serve.h"
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -78,7 +79,7 @@ bool parse(CLI::App& app, int argc, const char* const* argv) {
     std::fputs(app.help().c_str(), stdout);
     return false;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(std::string(error.what()) + " (try 'meshrepair --serve --help')");
+    throw UsageError(error.what());
   }
   return true;
 }
@@ -125,13 +126,15 @@ void open_browser(const std::string& address, const OwnFolder& folder, ::mode_t 
 }
 
 ExitCode serve_until_signal(const ServeOptions& options) {
+  // Else each mesh would fail.
+  if (!options.max_memory.empty()) (void)parse_memory_limit(options.max_memory);
   const ::mode_t mask = ::umask(077);  // the programs that are started keep to it, too
   const std::string token = random_secret();
   Workshop::Options of_workshop;
   of_workshop.programs = folder_of_programs();
   of_workshop.for_all = options_for_all(options);
   HttpServer::Limits limits;
-  limits.body = parse_memory_limit(options.max_upload).bytes;
+  limits.body = parse_size(options.max_upload, "--max-upload");
   if (limits.body == 0) throw UsageError("--max-upload: is to be more than 0");
   HttpServer server(static_cast<unsigned short>(options.port));
   const OwnFolder folder("meshrepair-serve");
@@ -154,6 +157,7 @@ bool asks_to_serve(int argc, const char* const* argv) { return argc > 1 && argv[
 int serve(int argc, const char* const* argv) {
   return run_guarded("meshrepair", [&] {
     install_signal_handlers();
+    install_signal_handler(SIGQUIT);  // its folder would stay
     set_up_logging("meshrepair", Verbosity::normal);
     CLI::App app(
         "Serves a page on this machine that checks and repairs meshes, of any size, with this "
@@ -161,8 +165,12 @@ int serve(int argc, const char* const* argv) {
         "meshrepair --serve");
     ServeOptions options;
     add_options(app, options);
-    if (!parse(app, argc, argv)) return ExitCode::done;
-    return serve_until_signal(options);
+    try {
+      if (!parse(app, argc, argv)) return ExitCode::done;
+      return serve_until_signal(options);
+    } catch (const UsageError& error) {  // the help of --serve says more, not that of the program
+      throw ValueError(std::string(error.what()) + " (try 'meshrepair --serve --help')");
+    }
   });
 }
 

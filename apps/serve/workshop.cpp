@@ -31,9 +31,10 @@ constexpr const char* kGone = "the folder of this server is gone: start it anew"
 
 constexpr std::array<std::string_view, 6> kResults = {".stl", ".obj", ".off",
                                                       ".ply", ".glb", ".3mf"};
-constexpr std::array<std::string_view, 15> kOpenOptions = {
-    "for",      "inside",   "sew",    "seal",  "holes",  "max-hole",   "thicken", "min-part",
-    "touching", "simplify", "always", "units", "strict", "attributes", "keep"};
+constexpr std::array<std::string_view, 13> kOpenOptions = {
+    "for",      "inside",   "sew",      "seal",  "holes",      "max-hole", "thicken",
+    "min-part", "touching", "simplify", "units", "attributes", "keep"};
+constexpr std::array<std::string_view, 2> kOpenFlags = {"always", "strict"};
 
 template <class List>
 bool is_among(const List& list, std::string_view word) {
@@ -80,6 +81,8 @@ bool is_result_extension(const std::string& extension) { return is_among(kResult
 
 bool is_open_option(const std::string& name) { return is_among(kOpenOptions, name); }
 
+bool is_open_flag(const std::string& name) { return is_among(kOpenFlags, name); }
+
 Workshop::Workshop(Options options, const OwnFolder& folder)
     : options_(std::move(options)), folder_(folder), worker_([this] { work(); }) {}
 
@@ -118,8 +121,7 @@ void Workshop::make_folder(const std::string& id) {
     if (!failed) return;
     remove_folder(folder(id));
   } while (is_full(failed) && drop_oldest());
-  throw OutputError(is_full(failed) ? "there is no room for the mesh"
-                                    : kGone);
+  throw OutputError(is_full(failed) ? "there is no room for the mesh" : kGone);
 }
 
 void Workshop::discard(const Intake& intake) {

@@ -129,7 +129,9 @@ class Workshop {
 [[nodiscard]] bool is_mesh_name(const std::string& name);
 // ".stl" and so on, that results may have.
 [[nodiscard]] bool is_result_extension(const std::string& extension);
-// Which options of meshrepair may be asked for: none of them names a file.
+// Which options of meshrepair may be asked for: none of them names a file. Those with a value, and
+// those without: one that lacks its value would take the next word of the command for it.
 [[nodiscard]] bool is_open_option(const std::string& name);
+[[nodiscard]] bool is_open_flag(const std::string& name);
 
 }  // namespace meshrepair

@@ -49,7 +49,8 @@ class Work(Serving):
         self.assertEqual(self.repaired(job, format="ply", seal="nonsense")["exit_code"], 2)
         for wrong in ({}, {"format": "txt"}, {"format": "../stl"}, {"format": "stl", "report": "x.json"}, {"format": "stl", "html": "x"},
                       {"format": "stl", "root": "/"}, {"format": "stl", "for": ["print"]}, {"format": "stl", "for": "a\nb"},
-                      {"format": "stl", "seal": "1" * 101}, {"format": "stl", "staging": "/tmp"}, []):
+                      {"format": "stl", "seal": "1" * 101}, {"format": "stl", "staging": "/tmp"}, {"format": "stl", "for": True}, {"format": "stl", "for": False},
+                      {"format": "stl", "always": "yes"}, {"format": "stl", "seal": ""}, []):
             status, _, _ = self.ask("POST", f"/jobs/{job}/repair", headers={"X-Meshrepair-Options": json.dumps(wrong)})
             self.assertEqual(status, 400, wrong)
         for text in ("", "{", '{"format":"stl"}}', "\u00ff"):
@@ -121,12 +122,15 @@ class Work(Serving):
                 self.assertNotIn(job, text)
 
     def test_the_end(self):
-        folder = next(self.folder.glob("meshrepair-serve-*"))
-        self.assertEqual(stat.S_IMODE(folder.stat().st_mode), 0o700)
-        self.hand_in()
-        self.server.send_signal(signal.SIGINT)
-        self.assertEqual(self.server.wait(SECONDS), 0)
-        self.assertFalse(folder.exists())
+        for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP):
+            folder = next(self.folder.glob("meshrepair-serve-*"))
+            self.assertEqual(stat.S_IMODE(folder.stat().st_mode), 0o700)
+            self.hand_in()
+            self.server.send_signal(number)
+            self.assertEqual(self.server.wait(SECONDS), 0)
+            self.assertFalse(folder.exists())
+            self.end()
+            self.start(self.folder)
 
     def test_a_port_that_is_taken(self):
         result = subprocess.run([self.programs / "meshrepair", "--serve", "--port", str(self.port)], capture_output=True, check=False)
@@ -139,6 +143,16 @@ class Work(Serving):
             result = subprocess.run([self.programs / "meshrepair", *words], capture_output=True, check=False)
             self.assertEqual(result.returncode, 0 if "--help" in words else 2)
             self.assertIn(what, result.stdout if "--help" in words else result.stderr)
+
+    def test_wrong_limits(self):
+        for option, value in (("--max-memory", "foo"), ("--max-memory", "500%"), ("--max-memory", "0%"), ("--max-upload", "-1"),
+                              ("--max-upload", "50%"), ("--max-upload", "0"), ("--max-upload", "1X"), ("--threads", "-1")):
+            result = subprocess.run([self.programs / "meshrepair", "--serve", "--no-browser", f"{option}={value}"], capture_output=True,
+                                    check=False, timeout=SECONDS)
+            self.assertEqual(result.returncode, 2, value)
+            self.assertTrue(result.stderr.startswith(f"meshrepair: {option}: ".encode()), result.stderr)
+            self.assertEqual(result.stderr.count(b"(try "), 1, result.stderr)
+            self.assertIn(b"(try 'meshrepair --serve --help')", result.stderr)
 
 
 class Attacks(Serving):
