@@ -282,7 +282,7 @@ void Workshop::follow(const std::string& id, const std::vector<std::string>& wor
 void Workshop::finish(const std::string& id, int code) {
   // Where files lie here is nobody's business. There is nothing in these names that JSON escapes.
   std::string report = read_report(folder(id) / "report.json");
-  for (const char* const part : {"/in/", "/out/", "/"}) report = without(report, id + part);
+  report = without(without(without(report, id + "/in/"), id + "/out/"), id + "/");
   const std::scoped_lock lock(mutex_);
   Job& job = jobs_.at(id);
   JobState& state = job.state;
