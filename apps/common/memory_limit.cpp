@@ -15,6 +15,7 @@
 #include <string_view>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -29,25 +30,44 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kStackBytes = std::uint64_t{4} << 20;  // of a thread
 constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;       // beyond what the program has taken
 
-[[noreturn]] void fail(const std::string& text) {
-  throw UsageError("--max-memory: " + (text.empty() ? "''" : text) +
-                   " is no size of memory such as 200M, 1.5G or 80%");
-}
-
-double factor_of(std::string_view unit, const std::string& text) {
+// Nothing: it is none.
+std::optional<double> factor_of(std::string_view unit) {
   constexpr std::string_view kUnits = "KMGT";
   std::string upper;
   for (const char c : unit) upper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   if (upper.empty() || upper == "B") return 1;
   const std::size_t power = kUnits.find(upper[0]);
   const std::string rest = upper.substr(1);
-  if (power == std::string_view::npos || !(rest.empty() || rest == "B" || rest == "IB")) fail(text);
+  const bool is_one =
+      power != std::string_view::npos && (rest.empty() || rest == "B" || rest == "IB");
+  if (!is_one) return std::nullopt;
   return std::pow(1024.0, static_cast<double>(power) + 1);
 }
 
+// The number, and what is behind it; -1 where there is none.
+std::pair<double, std::string_view> amount_in(std::string_view text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = read_decimal(text.data(), end, number);
+  if (error != std::errc() || !(number >= 0)) return {-1, {}};
+  return {number, std::string_view(at, static_cast<std::size_t>(end - at))};
+}
+
+// Nothing: it is no size.
+std::optional<std::uint64_t> bytes_in(double number, std::string_view unit) {
+  const auto factor = factor_of(unit);
+  if (number < 0 || !factor) return std::nullopt;
+  const double bytes = number * *factor;
+  if (!(bytes < 9e18) || (bytes > 0 && bytes < 1)) return std::nullopt;
+  return static_cast<std::uint64_t>(bytes);
+}
+
+[[noreturn]] void fail(const std::string& option, const std::string& text, const char* what) {
+  throw UsageError(option + ": " + (text.empty() ? "''" : text) + " is no " + what);
+}
+
 // Nothing free is no reason for no limit.
-std::uint64_t share_of_free(double percent, const std::string& text) {
-  if (percent > 100 || percent == 0) fail(text);
+std::uint64_t share_of_free(double percent) {
   const auto free = free_memory();
   if (!free) return 0;
   return static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(*free) * percent / 100));
@@ -137,15 +157,18 @@ std::uint64_t page_bytes() { return static_cast<std::uint64_t>(sysconf(_SC_PAGES
 }  // namespace
 
 MemoryLimit parse_memory_limit(const std::string& text) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [at, error] = read_decimal(text.data(), end, number);
-  if (error != std::errc() || !(number >= 0)) fail(text);
-  const std::string_view unit(at, static_cast<std::size_t>(end - at));
-  if (unit == "%") return {share_of_free(number, text), true};
-  const double bytes = number * factor_of(unit, text);
-  if (!(bytes < 9e18) || (bytes > 0 && bytes < 1)) fail(text);
-  return {static_cast<std::uint64_t>(bytes), false};
+  const auto [number, unit] = amount_in(text);
+  if (unit == "%" && number > 0 && number <= 100) return {share_of_free(number), true};
+  const auto bytes = bytes_in(number, unit);
+  if (!bytes) fail("--max-memory", text, "size of memory such as 200M, 1.5G or 80%");
+  return {*bytes, false};
+}
+
+std::uint64_t parse_size(const std::string& text, const std::string& option) {
+  const auto [number, unit] = amount_in(text);
+  const auto bytes = bytes_in(number, unit);
+  if (!bytes) fail(option, text, "size such as 200M or 1.5G");
+  return *bytes;
 }
 
 std::optional<std::uint64_t> free_memory() {

@@ -16,6 +16,9 @@ struct MemoryLimit {
 // share is one of what the machine has free, and taken now. 0 is no limit. Throws UsageError.
 [[nodiscard]] MemoryLimit parse_memory_limit(const std::string& text);
 
+// The same without shares, of another option, which messages name.
+[[nodiscard]] std::uint64_t parse_size(const std::string& text, const std::string& option);
+
 // What can be taken without swapping: of the machine, or of the control groups that the process
 // lives in. Empty where the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> free_memory();

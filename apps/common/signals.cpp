@@ -19,8 +19,10 @@ extern "C" void handle_signal(int number) {
   _exit(128 + number);
 }
 
+}  // namespace
+
 // Without SA_RESTART: a program that waits for its standard input must wake up.
-void handle(int number) {
+void install_signal_handler(int number) {
   struct sigaction action = {};
   sigaction(number, nullptr, &action);
   if (action.sa_handler == SIG_IGN) return;
@@ -30,12 +32,10 @@ void handle(int number) {
   sigaction(number, &action, nullptr);
 }
 
-}  // namespace
-
 void install_signal_handlers() {
-  handle(SIGHUP);
-  handle(SIGINT);
-  handle(SIGTERM);
+  install_signal_handler(SIGHUP);
+  install_signal_handler(SIGINT);
+  install_signal_handler(SIGTERM);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

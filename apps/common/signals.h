@@ -10,6 +10,9 @@ namespace meshrepair {
 // ignored when the program started (nohup) stays ignored.
 void install_signal_handlers();
 
+// The same for this signal, too.
+void install_signal_handler(int number);
+
 // The number of the first signal received, or 0.
 [[nodiscard]] int received_signal() noexcept;
 

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include <base/error.h>
+
 #include "common/json_report.h"
 #include "serve/serve_page.h"
 
@@ -120,7 +122,7 @@ std::optional<RepairWish> wish_of(std::string_view text) {
     } else if (is_open_option(name) && value.is_string() && is_plain_value(value) &&
                !value.get<std::string>().empty()) {
       wish.options.emplace_back(name, value.get<std::string>());
-    } else if (is_open_option(name) && value.is_boolean()) {
+    } else if (is_open_flag(name) && value.is_boolean()) {
       if (value.get<bool>()) wish.options.emplace_back(name, "");
     } else {
       return std::nullopt;
@@ -163,10 +165,15 @@ Answers::Upload Answers::begin_upload(const Request& request) const {
   if (!name || !is_mesh_name(*name)) {
     return {{}, refused(400, "the name is not that of a mesh: STL, OBJ, OFF, PLY, glTF or 3MF")};
   }
-  Upload upload{workshop_.begin(*name), {}};
-  if (!upload.intake)
-    upload.refusal = refused(503, "there are too many meshes: close some of them");
-  return upload;
+  try {
+    Upload upload{workshop_.begin(*name), {}};
+    if (!upload.intake) {
+      upload.refusal = refused(503, "there are too many meshes: close some of them");
+    }
+    return upload;
+  } catch (const OutputError& error) {
+    return {{}, refused(507, error.what())};
+  }
 }
 
 Answer Answers::end_upload(const Workshop::Intake& intake) const {
@@ -234,10 +241,14 @@ Answer Answers::status_of(const std::string& id) const {
 Answer Answers::start_repair(const std::string& id, std::string_view options) const {
   auto wish = wish_of(options);
   if (!wish) return refused(400, "the options are not those of a repair");
-  if (!workshop_.repair(id, wish->extension, std::move(wish->options))) {
-    return refused(409, "there is no such mesh, or it is at work");
+  try {
+    if (!workshop_.repair(id, wish->extension, std::move(wish->options))) {
+      return refused(409, "there is no such mesh, or it is at work");
+    }
+    return of_json(Json::object(), 202);
+  } catch (const OutputError& error) {
+    return refused(507, error.what());
   }
-  return of_json(Json::object(), 202);
 }
 
 Answer Answers::page_of(const std::string& id, Task task) const {

@@ -42,6 +42,8 @@ class Answers {
   [[nodiscard]] static bool is_upload(const Request& request);
   [[nodiscard]] Upload begin_upload(const Request& request) const;
   [[nodiscard]] Answer end_upload(const Workshop::Intake& intake) const;
+  // The disk is full. True: there is more room now.
+  [[nodiscard]] bool free_room() const { return workshop_.free_room(); }
   void discard_upload(const Workshop::Intake& intake) const { workshop_.discard(intake); }
 
   // All others. Their bodies are not looked at.

@@ -23,16 +23,16 @@ constexpr int kWaitMilliseconds = 100;
 constexpr std::size_t kLongestLine = 1024;
 
 // In the child, between fork and exec: only what signal handlers may do, too.
-[[noreturn]] void become(char* const* words, int told, pid_t parent) {
+[[noreturn]] void become(char* const* words, int told, int folder, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);
+  if (::getppid() != parent || ::fchdir(folder) != 0) ::_exit(127);
   const int nothing = ::open("/dev/null", O_RDWR);  // NOLINT(bugprone-unused-return-value)
   for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);
   ::dup2(told, kProgressDescriptor);  // without FD_CLOEXEC, unless it is there already
   if (told == kProgressDescriptor) ::fcntl(told, F_SETFD, 0);
   struct sigaction action = {};
   action.sa_handler = SIG_DFL;
-  for (const int number : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) {
+  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ}) {
     ::sigaction(number, &action, nullptr);
   }
   ::execv(words[0], words);
@@ -41,7 +41,7 @@ constexpr std::size_t kLongestLine = 1024;
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command, int folder) {
   std::vector<std::string> all = command;
   all.insert(all.begin() + 1, "--progress-fd=" + std::to_string(kProgressDescriptor));
   std::vector<char*> words;
@@ -54,7 +54,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command) {
   }
   const pid_t parent = ::getpid();
   process_ = ::fork();
-  if (process_ == 0) become(words.data(), ends[1], parent);
+  if (process_ == 0) become(words.data(), ends[1], folder, parent);
   ::close(ends[1]);
   told_ = ends[0];
   if (process_ > 0) return;

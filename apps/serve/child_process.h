@@ -10,10 +10,10 @@ namespace meshrepair {
 
 class ChildProcess {
  public:
-  // `command`: the path of the program, and its arguments. "--progress-fd" is added to them. What
-  // it prints goes nowhere. It is killed when this process dies. Throws Error where it cannot be
-  // started.
-  explicit ChildProcess(const std::vector<std::string>& command);
+  // `command`: the path of the program, and its arguments. "--progress-fd" is added to them. It
+  // works in the folder of this descriptor. What it prints goes nowhere. It is killed when this
+  // process dies. Throws Error where it cannot be started.
+  ChildProcess(const std::vector<std::string>& command, int folder);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   // Kills it, if it has not ended.

@@ -40,10 +40,19 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void take_upload(Answers::Upload upload);
   void read_body();
   void take_body(Error error);
+  [[nodiscard]] bool keep_piece(std::size_t count);
+  void end_upload();
   void fail_upload(const Answer& refusal);
   void send(const Answer& answer, bool keeps);
-  template <class Message>
-  void write(std::shared_ptr<Message> message, bool keeps);
+  template <class Contents>
+  using Message = boost::beast::http::response<Contents>;
+  template <class Contents>
+  using Serializer = boost::beast::http::response_serializer<Contents>;
+  template <class Contents>
+  void write(const std::shared_ptr<Message<Contents>>& message, bool keeps);
+  template <class Contents>
+  void write_piece(const std::shared_ptr<Message<Contents>>& message,
+                   const std::shared_ptr<Serializer<Contents>>& serializer, bool keeps);
   void close();
   void drain();
 

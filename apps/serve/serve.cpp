@@ -1,5 +1,6 @@
 #include "serve/serve.h"
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -78,7 +79,7 @@ bool parse(CLI::App& app, int argc, const char* const* argv) {
     std::fputs(app.help().c_str(), stdout);
     return false;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(std::string(error.what()) + " (try 'meshrepair --serve --help')");
+    throw UsageError(error.what());
   }
   return true;
 }
@@ -105,17 +106,16 @@ std::vector<std::string> options_for_all(const ServeOptions& options) {
 }
 
 // By a file that only this user can read: all users see the arguments of processes, and the address
-// has the token.
-void open_browser(const std::string& address, const fs::path& folder) {
+// has the token. The browser makes files as it would without us.
+void open_browser(const std::string& address, const OwnFolder& folder, ::mode_t mask) {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): never changed
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  const std::string file = folder / "open.html";
-  const ::mode_t mask = ::umask(077);
-  std::ofstream(file) << R"(<!doctype html><meta http-equiv="refresh" content="0; url=)" << address
-                      << "\">\n";
-  ::umask(mask);
+  const std::string file = folder.name() + "/open.html";
+  std::ofstream(folder.path() / "open.html")
+      << R"(<!doctype html><meta http-equiv="refresh" content="0; url=)" << address << "\">\n";
   const pid_t child = ::fork();
   if (child == 0) {
+    ::umask(mask);
     if (::fork() == 0) {  // whose parent ends at once, so that nobody has to wait for it
       ::execlp("xdg-open", "xdg-open", file.c_str(), nullptr);
       ::_exit(127);
@@ -126,22 +126,26 @@ void open_browser(const std::string& address, const fs::path& folder) {
 }
 
 ExitCode serve_until_signal(const ServeOptions& options) {
+  // Else each mesh would fail.
+  if (!options.max_memory.empty()) (void)parse_memory_limit(options.max_memory);
+  const ::mode_t mask = ::umask(077);  // the programs that are started keep to it, too
   const std::string token = random_secret();
   Workshop::Options of_workshop;
   of_workshop.programs = folder_of_programs();
   of_workshop.for_all = options_for_all(options);
   HttpServer::Limits limits;
-  limits.body = parse_memory_limit(options.max_upload).bytes;
+  limits.body = parse_size(options.max_upload, "--max-upload");
   if (limits.body == 0) throw UsageError("--max-upload: is to be more than 0");
   HttpServer server(static_cast<unsigned short>(options.port));
-  Workshop workshop(std::move(of_workshop));
+  const OwnFolder folder("meshrepair-serve");
+  Workshop workshop(std::move(of_workshop), folder);
   const Guard guard(server.port(), token);
   const Answers answers(guard, workshop);
   const std::string address = fmt::format("http://127.0.0.1:{}/#{}", server.port(), token);
   fmt::print("{}\n", address);
   std::fflush(stdout);
   print_summary("meshrepair: open this address in a browser on this machine; Ctrl-C ends it\n");
-  if (options.opens_browser) open_browser(address, workshop.own_folder());
+  if (options.opens_browser) open_browser(address, folder, mask);
   server.serve(answers, limits, [] { return received_signal() != 0; });
   return ExitCode::done;
 }
@@ -153,6 +157,7 @@ bool asks_to_serve(int argc, const char* const* argv) { return argc > 1 && argv[
 int serve(int argc, const char* const* argv) {
   return run_guarded("meshrepair", [&] {
     install_signal_handlers();
+    install_signal_handler(SIGQUIT);  // its folder would stay
     set_up_logging("meshrepair", Verbosity::normal);
     CLI::App app(
         "Serves a page on this machine that checks and repairs meshes, of any size, with this "
@@ -160,8 +165,12 @@ int serve(int argc, const char* const* argv) {
         "meshrepair --serve");
     ServeOptions options;
     add_options(app, options);
-    if (!parse(app, argc, argv)) return ExitCode::done;
-    return serve_until_signal(options);
+    try {
+      if (!parse(app, argc, argv)) return ExitCode::done;
+      return serve_until_signal(options);
+    } catch (const UsageError& error) {  // the help of --serve says more, not that of the program
+      throw ValueError(std::string(error.what()) + " (try 'meshrepair --serve --help')");
+    }
   });
 }
 

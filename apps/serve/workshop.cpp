@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <mesh/soup_format.h>
 
 #include "common/exit_code.h"
 #include "common/side_file.h"
@@ -26,33 +27,27 @@ constexpr std::size_t kLongestName = 200;                     // bytes
 constexpr std::size_t kLongestReport = std::size_t{1} << 26;  // a longer one is none
 constexpr std::chrono::seconds kPatience(3);                  // from SIGTERM to SIGKILL
 
-constexpr std::array<std::string_view, 8> kExtensions = {".stl", ".obj",  ".off", ".ply",
-                                                         ".glb", ".gltf", ".3mf", ".om"};
+constexpr const char* kGone = "the folder of this server is gone: start it anew";
+
 constexpr std::array<std::string_view, 6> kResults = {".stl", ".obj", ".off",
                                                       ".ply", ".glb", ".3mf"};
-constexpr std::array<std::string_view, 2> kPackings = {".gz", ".zst"};
-constexpr std::array<std::string_view, 15> kOpenOptions = {
-    "for",      "inside",   "sew",    "seal",  "holes",  "max-hole",   "thicken", "min-part",
-    "touching", "simplify", "always", "units", "strict", "attributes", "keep"};
+constexpr std::array<std::string_view, 13> kOpenOptions = {
+    "for",      "inside",   "sew",      "seal",  "holes",      "max-hole", "thicken",
+    "min-part", "touching", "simplify", "units", "attributes", "keep"};
+constexpr std::array<std::string_view, 2> kOpenFlags = {"always", "strict"};
 
 template <class List>
 bool is_among(const List& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-fs::path new_folder() {
-  const char* given = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): never changed
-  std::string name =
-      std::string(given != nullptr && *given != '\0' ? given : "/tmp") + "/meshrepair-serve-XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw OutputError(name + ": the folder cannot be made");
-  }
-  return name;
-}
-
 void remove_folder(const fs::path& path) {
   std::error_code none;
   fs::remove_all(path, none);
+}
+
+bool is_full(const std::error_code& error) {
+  return error == std::errc::no_space_on_device || error.value() == EDQUOT;
 }
 
 std::string read_report(const fs::path& path) {
@@ -78,20 +73,18 @@ bool is_mesh_name(const std::string& name) {
     return c == '/' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
   });
   if (!is_plain) return false;
-  std::string extension = lower_extension(name);
-  if (extension == ".zip") return true;
-  if (is_among(kPackings, extension)) {
-    extension = lower_extension(fs::path(name).stem().string());
-  }
-  return is_among(kExtensions, extension);
+  // The name of what is in an archive is in there.
+  return format_of_extension(name).has_value() || lower_extension(name) == ".zip";
 }
 
 bool is_result_extension(const std::string& extension) { return is_among(kResults, extension); }
 
 bool is_open_option(const std::string& name) { return is_among(kOpenOptions, name); }
 
-Workshop::Workshop(Options options)
-    : options_(std::move(options)), folder_(new_folder()), worker_([this] { work(); }) {}
+bool is_open_flag(const std::string& name) { return is_among(kOpenFlags, name); }
+
+Workshop::Workshop(Options options, const OwnFolder& folder)
+    : options_(std::move(options)), folder_(folder), worker_([this] { work(); }) {}
 
 Workshop::~Workshop() {
   {
@@ -100,7 +93,6 @@ Workshop::~Workshop() {
     changed_.notify_all();
   }
   worker_.join();
-  remove_folder(folder_);
 }
 
 std::optional<Workshop::Intake> Workshop::begin(const std::string& name) {
@@ -110,9 +102,7 @@ std::optional<Workshop::Intake> Workshop::begin(const std::string& name) {
   if (jobs_.size() >= options_.most_jobs) return std::nullopt;
   Intake intake;
   intake.id = random_secret();
-  std::error_code failed;
-  fs::create_directories(folder(intake.id) / "in", failed);
-  if (failed) return std::nullopt;
+  make_folder(intake.id);
   Job job;
   job.state.name = name;
   job.state.phase = JobState::Phase::running;  // it is being handed in
@@ -121,6 +111,17 @@ std::optional<Workshop::Intake> Workshop::begin(const std::string& name) {
   jobs_.emplace(intake.id, std::move(job));
   intake.file = folder(intake.id) / "in" / name;
   return intake;
+}
+
+void Workshop::make_folder(const std::string& id) {
+  std::error_code failed;
+  do {
+    fs::create_directory(folder(id), failed);
+    if (!failed) fs::create_directory(folder(id) / "in", failed);
+    if (!failed) return;
+    remove_folder(folder(id));
+  } while (is_full(failed) && drop_oldest());
+  throw OutputError(is_full(failed) ? "there is no room for the mesh" : kGone);
 }
 
 void Workshop::discard(const Intake& intake) {
@@ -137,12 +138,18 @@ void Workshop::add(const Intake& intake) {
   changed_.notify_all();
 }
 
+bool Workshop::free_room() {
+  const std::scoped_lock lock(mutex_);
+  return drop_oldest();
+}
+
 bool Workshop::repair(const std::string& id, const std::string& extension, ProgramOptions options) {
   const std::scoped_lock lock(mutex_);
-  const auto found = jobs_.find(id);
-  if (found == jobs_.end() || found->second.state.phase != JobState::Phase::ended) return false;
-  Job& job = found->second;
+  Job* const found = find(id);
+  if (found == nullptr || found->state.phase != JobState::Phase::ended) return false;
+  Job& job = *found;
   std::error_code none;
+  if (!fs::exists(folder(id), none)) throw OutputError(kGone);
   fs::remove(folder(id) / "repair.html", none);
   remove_folder(folder(id) / "out");
   job.state = {job.state.name, Task::repair, JobState::Phase::waiting, {}, 0, 0, {}, false, false};
@@ -156,42 +163,44 @@ bool Workshop::repair(const std::string& id, const std::string& extension, Progr
 
 void Workshop::cancel(const std::string& id) {
   const std::scoped_lock lock(mutex_);
-  const auto found = jobs_.find(id);
-  if (found != jobs_.end()) found->second.cancelled = true;
+  if (Job* const job = find(id)) job->cancelled = true;
 }
 
 void Workshop::remove(const std::string& id) {
   const std::scoped_lock lock(mutex_);
-  if (id == running_) {
-    jobs_[id].cancelled = true;  // its turn comes when it has ended
-    jobs_[id].asked_for = {};
-  } else {
-    erase(id);
-  }
+  Job* const job = find(id);
+  if (job == nullptr) return;
+  if (id != running_) return erase(id);
+  job->cancelled = true;
+  job->removed = true;
 }
 
 std::optional<JobState> Workshop::state(const std::string& id) {
   const std::scoped_lock lock(mutex_);
-  const auto found = jobs_.find(id);
-  if (found == jobs_.end()) return std::nullopt;
-  found->second.asked_for = Clock::now();
-  return found->second.state;
+  Job* const job = find(id);
+  if (job == nullptr) return std::nullopt;
+  job->asked_for = Clock::now();
+  return job->state;
 }
 
 fs::path Workshop::page_of(const std::string& id, Task task) {
   const std::scoped_lock lock(mutex_);
-  if (jobs_.find(id) == jobs_.end()) return {};
+  if (find(id) == nullptr) return {};
   return folder(id) / (task == Task::check ? "check.html" : "repair.html");
 }
 
 std::optional<Workshop::Result> Workshop::result(const std::string& id) {
   const std::scoped_lock lock(mutex_);
+  const Job* const job = find(id);
+  if (job == nullptr || !job->state.has_result) return std::nullopt;
+  const std::string stem = job->file.substr(0, job->file.find('.'));
+  const std::string name = "mesh" + job->extension;
+  return Result{folder(id) / "out" / name, stem + "_repaired" + job->extension};
+}
+
+Workshop::Job* Workshop::find(const std::string& id) {
   const auto found = jobs_.find(id);
-  if (found == jobs_.end() || !found->second.state.has_result) return std::nullopt;
-  const Job& job = found->second;
-  const std::string stem = job.file.substr(0, job.file.find('.'));
-  const std::string name = "mesh" + job.extension;
-  return Result{folder(id) / "out" / name, stem + "_repaired" + job.extension};
+  return found == jobs_.end() || found->second.removed ? nullptr : &found->second;
 }
 
 void Workshop::work() {
@@ -211,6 +220,8 @@ void Workshop::work() {
     run(id);
     lock.lock();
     running_.clear();
+    const auto done = jobs_.find(id);
+    if (done != jobs_.end() && done->second.removed) erase(id);
   }
 }
 
@@ -224,36 +235,36 @@ void Workshop::run(const std::string& id) {
     words = command(id, found->second);
   }
   try {
-    fs::create_directories(folder(id) / "out");
+    fs::create_directory(folder(id) / "out");
     follow(id, words);
   } catch (const std::exception&) {
     finish(id, static_cast<int>(ExitCode::output));
   }
 }
 
+// It works in the folder of this, where no file needs to be named by more than this.
 std::vector<std::string> Workshop::command(const std::string& id, const Job& job) const {
-  const fs::path in = folder(id) / "in" / job.file;
   const bool is_check = job.state.task == Task::check;
   std::vector<std::string> words = {options_.programs / (is_check ? "meshcheck" : "meshrepair")};
   words.insert(words.end(), options_.for_all.begin(), options_.for_all.end());
   words.push_back("--quiet");
-  words.push_back("--report=" + (folder(id) / "report.json").string());
-  words.push_back("--html=" + (folder(id) / (is_check ? "check.html" : "repair.html")).string());
+  words.push_back("--report=" + id + "/report.json");
+  words.push_back("--html=" + id + (is_check ? "/check.html" : "/repair.html"));
   if (!is_check) {
     for (const auto& [name, value] : job.options) {
       words.push_back("--" + name + (value.empty() ? "" : "=" + value));
     }
   }
   words.emplace_back("--");
-  words.push_back(in);
-  if (!is_check) words.push_back(folder(id) / "out" / ("mesh" + job.extension));
+  words.push_back(id + "/in/" + job.file);
+  if (!is_check) words.push_back(id + "/out/mesh" + job.extension);
   return words;
 }
 
 void Workshop::follow(const std::string& id, const std::vector<std::string>& words) {
   std::error_code none;
   fs::remove(folder(id) / "report.json", none);
-  ChildProcess child(words);
+  ChildProcess child(words, folder_.descriptor());
   std::optional<Clock::time_point> told_to_end;
   while (child.wait()) {
     const std::scoped_lock lock(mutex_);
@@ -269,9 +280,9 @@ void Workshop::follow(const std::string& id, const std::vector<std::string>& wor
 }
 
 void Workshop::finish(const std::string& id, int code) {
-  // Where files lie here is nobody's business.
+  // Where files lie here is nobody's business. There is nothing in these names that JSON escapes.
   std::string report = read_report(folder(id) / "report.json");
-  for (const char* const part : {"in/", "out/", ""}) report = without(report, folder(id) / part);
+  report = without(without(without(report, id + "/in/"), id + "/out/"), id + "/");
   const std::scoped_lock lock(mutex_);
   Job& job = jobs_.at(id);
   JobState& state = job.state;
@@ -281,23 +292,34 @@ void Workshop::finish(const std::string& id, int code) {
   state.report = report;
   state.has_page = fs::exists(folder(id) / (is_check ? "check.html" : "repair.html"));
   state.has_result = !is_check && fs::exists(folder(id) / "out" / ("mesh" + job.extension));
-  if (job.asked_for == Clock::time_point()) erase(id);
+}
+
+// Those that have ended, first the one that nobody has asked for the longest.
+std::vector<Workshop::Asked> Workshop::idle_jobs() const {
+  std::vector<Asked> idle;
+  for (const auto& [id, job] : jobs_) {
+    if (job.state.phase == JobState::Phase::ended && id != running_) {
+      idle.emplace_back(job.asked_for, id);
+    }
+  }
+  std::sort(idle.begin(), idle.end());
+  return idle;
 }
 
 // The oldest that nobody has asked for, for long or at all, go.
 void Workshop::make_room() {
   const auto now = Clock::now();
-  std::vector<std::pair<Clock::time_point, std::string>> ended;
-  for (const auto& [id, job] : jobs_) {
-    if (job.state.phase == JobState::Phase::ended && id != running_) {
-      ended.emplace_back(job.asked_for, id);
-    }
-  }
-  std::sort(ended.begin(), ended.end());
-  for (const auto& [asked_for, id] : ended) {
+  for (const auto& [asked_for, id] : idle_jobs()) {
     if (jobs_.size() < options_.most_jobs && now < asked_for + options_.lifetime) return;
     erase(id);
   }
+}
+
+bool Workshop::drop_oldest() {
+  const std::vector<Asked> idle = idle_jobs();
+  if (idle.empty()) return false;
+  erase(idle.front().second);
+  return true;
 }
 
 void Workshop::erase(const std::string& id) {

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "serve/own_folder.h"
+
 namespace meshrepair {
 
 // What is done with a mesh: meshcheck, or meshrepair with these options.
@@ -45,33 +47,34 @@ class Workshop {
     std::chrono::minutes lifetime{240};  // of a job that nobody asks for
   };
 
-  // Makes a folder that only this user can read. Throws OutputError.
-  explicit Workshop(Options options);
+  // Works in this folder, which is not owned.
+  Workshop(Options options, const OwnFolder& folder);
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
-  // Ends what runs, and removes the folder.
+  // Ends what runs.
   ~Workshop();
 
   // Where a mesh of that name is to be written, in a folder of its own; nothing where it is no name
-  // of a mesh file, or there is no room for more jobs. Then either add() or discard() is to be
-  // called.
+  // of a mesh file, or there are too many jobs. Then either add() or discard() is to be called.
+  // Throws OutputError where the disk is full, or the folder of this is gone.
   struct Intake {
     std::string id;
     std::filesystem::path file;
   };
-  // For files that are gone when this is.
-  [[nodiscard]] const std::filesystem::path& own_folder() const { return folder_; }
-
   [[nodiscard]] std::optional<Intake> begin(const std::string& name);
   void discard(const Intake& intake);
+  // The disk is full: removes the job that has ended and that nobody has asked for the longest.
+  // False: there is none.
+  [[nodiscard]] bool free_room();
   // The first task is a check.
   void add(const Intake& intake);
 
-  // False: there is no such job, or it is at work.
+  // False: there is no such job, or it is at work. Throws OutputError where its folder is gone.
   [[nodiscard]] bool repair(const std::string& id, const std::string& extension,
                             ProgramOptions options);
   // Ends what is done with it, which may take a moment. The mesh stays.
   void cancel(const std::string& id);
+  // From now on there is no such job; what is done with it ends in a moment.
   void remove(const std::string& id);
 
   // Nothing: there is no such job.
@@ -91,9 +94,15 @@ class Workshop {
     std::string extension;  // of the result
     ProgramOptions options;
     bool cancelled = false;
+    bool removed = false;  // it is at work, and goes when that has ended
     std::chrono::steady_clock::time_point asked_for;
   };
 
+  [[nodiscard]] Job* find(const std::string& id);
+  void make_folder(const std::string& id);
+  using Asked = std::pair<std::chrono::steady_clock::time_point, std::string>;  // when, for which
+  [[nodiscard]] std::vector<Asked> idle_jobs() const;
+  [[nodiscard]] bool drop_oldest();
   void work();
   void run(const std::string& id);
   [[nodiscard]] std::vector<std::string> command(const std::string& id, const Job& job) const;
@@ -101,10 +110,12 @@ class Workshop {
   void finish(const std::string& id, int code);
   void make_room();
   void erase(const std::string& id);
-  [[nodiscard]] std::filesystem::path folder(const std::string& id) const { return folder_ / id; }
+  [[nodiscard]] std::filesystem::path folder(const std::string& id) const {
+    return folder_.path() / id;
+  }
 
   Options options_;
-  std::filesystem::path folder_;
+  const OwnFolder& folder_;
   std::mutex mutex_;  // for all that follows
   std::condition_variable changed_;
   std::map<std::string, Job> jobs_;
@@ -118,7 +129,9 @@ class Workshop {
 [[nodiscard]] bool is_mesh_name(const std::string& name);
 // ".stl" and so on, that results may have.
 [[nodiscard]] bool is_result_extension(const std::string& extension);
-// Which options of meshrepair may be asked for: none of them names a file.
+// Which options of meshrepair may be asked for: none of them names a file. Those with a value, and
+// those without: one that lacks its value would take the next word of the command for it.
 [[nodiscard]] bool is_open_option(const std::string& name);
+[[nodiscard]] bool is_open_flag(const std::string& name);
 
 }  // namespace meshrepair

@@ -42,6 +42,15 @@ def text(name):
     return name.decode("utf-8", "backslashreplace")
 
 
+def key_of(name):
+    """A name in the journal: bytes that are no UTF-8 as lone surrogates, which JSON can hold."""
+    return name.decode("utf-8", "surrogateescape")
+
+
+def bytes_of(key):
+    return key.encode("utf-8", "surrogateescape")
+
+
 def one_line(string):
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in string)
 

@@ -14,11 +14,11 @@ import sys
 import time
 
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NO_SOLID, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
-                     names_of, print_to, say, text, value_of)
+                     key_of, names_of, print_to, say, text, value_of)
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
 from .inputs import Job, find_meshes, listed_meshes, name_outputs
-from .journal import Journal, key_of
+from .journal import Journal
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
 from .summary import Progress, as_csv, as_json, table, totals_of
 from .worker import Worker

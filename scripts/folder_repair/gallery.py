@@ -11,7 +11,7 @@ import math
 import os
 import urllib.parse
 
-from .basics import DONE, MEANINGS, text, value_of
+from .basics import DONE, MEANINGS, key_of, text, value_of
 
 INDEX = b"index.html"
 FOLDER = b"index.files"
@@ -66,8 +66,8 @@ def row_of(job, row, entry):
     output_url = urllib.parse.quote(job.output)
     more = {"url": None if url == row["path"] else url,
             "output_url": None if row["output"] is None or output_url == row["output"] else output_url,
-            "page": int(place_of(job, PAGE).decode("utf-8", "surrogateescape") in shown),
-            "picture": int(place_of(job, PICTURE).decode("utf-8", "surrogateescape") in shown)}
+            "page": int(key_of(place_of(job, PAGE)) in shown),
+            "picture": int(key_of(place_of(job, PICTURE)) in shown)}
     values = {**row, **facts, **more}
     return [values[name] for name in COLUMNS]
 

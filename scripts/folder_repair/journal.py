@@ -6,18 +6,9 @@ import os
 import stat
 import time
 
-from .basics import MEASURED, SAME_IN_EACH_RUN
+from .basics import MEASURED, SAME_IN_EACH_RUN, bytes_of, key_of
 from .gallery import is_place
 from .pictures import may_be_written
-
-
-def key_of(name):
-    """A name in the journal: bytes that are no UTF-8 as lone surrogates, which JSON can hold."""
-    return name.decode("utf-8", "surrogateescape")
-
-
-def bytes_of(key):
-    return key.encode("utf-8", "surrogateescape")
 
 
 def lines_of(path):

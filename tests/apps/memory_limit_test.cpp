@@ -1,5 +1,7 @@
 #include "common/memory_limit.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <base/error.h>
@@ -35,6 +37,18 @@ TEST(MemoryLimit, AnythingElseIsRefused) {
   for (const char* text : {"", "M", "-1", "-5M", "nan", "inf", "1e30", "200Q", "200 M", "200Mx",
                            "101%", "-1%", "0%", "50%%", "0.5", "1e-4K", "0x10", "%"}) {
     EXPECT_THROW((void)parse_memory_limit(text), UsageError) << text;
+  }
+}
+
+TEST(MemoryLimit, ASizeIsNoShareAndNamesItsOption) {
+  EXPECT_EQ(parse_size("200M", "--max-upload"), 200u << 20);
+  for (const char* text : {"", "50%", "-1", "200Q"}) {
+    try {
+      (void)parse_size(text, "--max-upload");
+      ADD_FAILURE() << text;
+    } catch (const UsageError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("--max-upload: ", 0), 0u) << error.what();
+    }
   }
 }
 

@@ -5,100 +5,24 @@ Usage: serve_test.py PROGRAMS [OPTIONS OF UNITTEST]
 """
 
 import concurrent.futures
-import http.client
 import json
 import os
 import pathlib
+import shutil
 import signal
 import socket
 import stat
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-MESHES = pathlib.Path(__file__).resolve().parents[2] / "samples/meshes"
-PROGRAMS = pathlib.Path()  # set at the end
-CUBE = (MESHES / "cube.stl").read_bytes()
-BROKEN = (MESHES / "broken_torus_box.stl").read_bytes()
-SECONDS = 120
-LIMIT = 1 << 20  # bytes of an upload
+from serving import BROKEN, CUBE, LIMIT, SECONDS, Serving, balls, ring
+
 GLTF = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]}
-
-
-class Serving(unittest.TestCase):
-    options = ("--max-upload", str(LIMIT))
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="serve_")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.server = subprocess.Popen([PROGRAMS / "meshrepair", "--serve", "--no-browser", *self.options], stdout=subprocess.PIPE,
-                                       stderr=subprocess.DEVNULL, env={**os.environ, "TMPDIR": folder.name})
-        self.addCleanup(self.end)
-        address = self.server.stdout.readline().decode().strip()
-        self.base, self.token = address.split("/#")
-        self.host = self.base.removeprefix("http://")
-        self.port = int(self.host.split(":")[1])
-
-    def end(self):
-        if self.server.poll() is None:
-            self.server.terminate()
-            self.assertEqual(self.server.wait(SECONDS), 0)
-        self.server.stdout.close()
-
-    def ask(self, method, target, body=None, headers=None, token=True):
-        """Status, headers and body."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=SECONDS)
-        sent = {"X-Meshrepair-Token": self.token} if token else {}
-        try:
-            connection.request(method, target, body, {**sent, **(headers or {})})
-            answer = connection.getresponse()
-            return answer.status, answer.headers, answer.read()
-        finally:
-            connection.close()
-
-    def raw(self, data, wait=True):
-        """What comes back for these bytes."""
-        with socket.create_connection(("127.0.0.1", self.port), timeout=SECONDS) as line:
-            line.sendall(data)
-            if not wait:
-                return b""
-            said = b""
-            while some := line.recv(65536):
-                said += some
-            return said
-
-    def hand_in(self, name="mesh.stl", data=BROKEN):
-        status, _, body = self.ask("POST", f"/jobs?name={name}", data)
-        self.assertEqual(status, 201, body)
-        return json.loads(body)["job"]
-
-    def finished(self, job):
-        deadline = time.monotonic() + SECONDS
-        while time.monotonic() < deadline:
-            status, _, body = self.ask("GET", f"/jobs/{job}")
-            self.assertEqual(status, 200, body)
-            state = json.loads(body)
-            if state["phase"] == "ended":
-                return state
-            time.sleep(0.02)
-        self.fail("it does not end")
-
-    def repaired(self, job, **options):
-        status, _, body = self.ask("POST", f"/jobs/{job}/repair", headers={"X-Meshrepair-Options": json.dumps(options)})
-        self.assertEqual(status, 202, body)
-        return self.finished(job)
-
-    def is_alive(self):
-        self.assertEqual(self.ask("GET", "/")[0], 200)
-
-    def jobs(self):
-        return sum(1 for _ in self.folder.glob("meshrepair-serve-*/*/in"))
 
 
 class Work(Serving):
@@ -113,7 +37,7 @@ class Work(Serving):
         self.assertEqual(headers["Content-Disposition"], "attachment; filename*=UTF-8''mesh_repaired.obj")
         alone = self.folder / "alone.obj"
         (self.folder / "mesh.stl").write_bytes(BROKEN)
-        subprocess.run([PROGRAMS / "meshrepair", "-q", self.folder / "mesh.stl", alone], check=True)
+        subprocess.run([self.programs / "meshrepair", "-q", self.folder / "mesh.stl", alone], check=True)
         self.assertEqual(body, alone.read_bytes())
         for page in ("check", "repair"):
             self.assertIn(b'id="facts"', self.ask("GET", f"/jobs/{job}/{page}.html", token=False)[2])
@@ -125,21 +49,27 @@ class Work(Serving):
         self.assertEqual(self.repaired(job, format="ply", seal="nonsense")["exit_code"], 2)
         for wrong in ({}, {"format": "txt"}, {"format": "../stl"}, {"format": "stl", "report": "x.json"}, {"format": "stl", "html": "x"},
                       {"format": "stl", "root": "/"}, {"format": "stl", "for": ["print"]}, {"format": "stl", "for": "a\nb"},
-                      {"format": "stl", "seal": "1" * 101}, {"format": "stl", "staging": "/tmp"}, []):
+                      {"format": "stl", "seal": "1" * 101}, {"format": "stl", "staging": "/tmp"}, {"format": "stl", "for": True}, {"format": "stl", "for": False},
+                      {"format": "stl", "always": "yes"}, {"format": "stl", "seal": ""}, []):
             status, _, _ = self.ask("POST", f"/jobs/{job}/repair", headers={"X-Meshrepair-Options": json.dumps(wrong)})
             self.assertEqual(status, 400, wrong)
         for text in ("", "{", '{"format":"stl"}}', "\u00ff"):
             status, _, _ = self.ask("POST", f"/jobs/{job}/repair", headers={"X-Meshrepair-Options": text.encode("latin-1").decode("latin-1")})
             self.assertEqual(status, 400, text)
 
+    def test_a_mesh_without_a_byte(self):
+        """It is answered at once, however it is sent."""
+        for headers in ("Content-Length: 0\r\n", "Transfer-Encoding: chunked\r\n"):
+            body = b"0\r\n\r\n" if "chunked" in headers else b""
+            start = time.monotonic()
+            answer = self.raw(self.upload_head(headers + "Connection: close\r\n") + body)
+            self.assertLess(time.monotonic() - start, 5)
+            self.assertRegex(answer, rb"^HTTP/1.1 201 ", headers)
+            state = self.finished(json.loads(answer.split(b"\r\n\r\n")[1])["job"])
+            self.assertIn("empty", state["report"]["error"])
+
     def test_cancel_and_remove(self):
-        # Much to cut: many overlapping balls.
-        ball = (MESHES / "broken_spheres.obj").read_text().splitlines()
-        points = [tuple(map(float, line.split()[1:4])) for line in ball if line.startswith("v ")]
-        faces = [[int(word.split("/")[0]) for word in line.split()[1:4]] for line in ball if line.startswith("f ")]
-        lines = [f"v {x + 0.37 * i} {y + 0.11 * i} {z}" for i in range(12) for x, y, z in points]
-        lines += [f"f {a + i * len(points)} {b + i * len(points)} {c + i * len(points)}" for i in range(12) for a, b, c in faces]
-        job = self.hand_in("balls.obj", "\n".join(lines).encode())
+        job = self.hand_in("balls.obj", balls())
         self.assertEqual(self.ask("POST", f"/jobs/{job}/cancel")[0], 200)
         self.assertIn(self.finished(job)["exit_code"], (1, 143))
         self.assertEqual(self.repaired(job, format="stl")["exit_code"], 0)
@@ -147,33 +77,82 @@ class Work(Serving):
         self.assertEqual(self.ask("GET", f"/jobs/{job}")[0], 404)
         self.assertEqual(self.jobs(), 0)
 
+    def test_a_mesh_that_is_removed_at_work(self):
+        """It is gone at once, however often it is asked for."""
+        job = self.hand_in("balls.obj", balls())
+        self.finished(job)
+        self.ask("POST", f"/jobs/{job}/repair", headers={"X-Meshrepair-Options": '{"format": "stl"}'})
+        while json.loads(self.ask("GET", f"/jobs/{job}")[2])["stage"] == "":
+            time.sleep(0.01)
+        self.assertEqual(self.ask("DELETE", f"/jobs/{job}")[0], 200)
+        for target in ("", "/check.html", "/result"):
+            self.assertEqual(self.ask("GET", f"/jobs/{job}{target}")[0], 404, target)
+        deadline = time.monotonic() + 10
+        while self.jobs() > 0 and time.monotonic() < deadline:
+            time.sleep(0.02)
+        self.assertEqual(self.jobs(), 0)
+
+    def test_removed_at_any_time(self):
+        for i in range(40):
+            job = self.hand_in("a.stl", CUBE)
+            time.sleep(0.002 * i)
+            self.ask("DELETE", f"/jobs/{job}")
+            self.ask("DELETE", f"/jobs/{job}")
+            self.assertEqual(self.ask("GET", f"/jobs/{job}")[0], 404)
+        self.finished(self.hand_in("a.stl", CUBE))
+        self.assertEqual(self.jobs(), 1)
+
     def test_no_path_of_the_machine_is_told(self):
+        self.no_path_is_told(self.folder)
+
+    def test_no_path_of_a_machine_with_odd_names_is_told(self):
+        for name in ('q"x', "b\\y", "\u00e9"):
+            self.end()
+            (self.folder / name).mkdir()
+            self.start(self.folder / name)
+            self.no_path_is_told("meshrepair-serve-")
+
+    def no_path_is_told(self, folder):
         for name, data in (("empty.stl", b"solid x\n"), ("cut.ply", b"ply\nformat ascii 1.0\n"), ("mesh.stl", BROKEN)):
             job = self.hand_in(name, data)
             texts = [json.dumps(self.finished(job)), json.dumps(self.repaired(job, format="obj"))]
             texts += [self.ask("GET", f"/jobs/{job}/{page}.html")[2].decode() for page in ("check", "repair")]
             for text in texts:
-                self.assertNotIn(str(self.folder), text)
+                self.assertNotIn(str(folder), text)
+                self.assertNotIn(job, text)
 
     def test_the_end(self):
-        folder = next(self.folder.glob("meshrepair-serve-*"))
-        self.assertEqual(stat.S_IMODE(folder.stat().st_mode), 0o700)
-        self.hand_in()
-        self.server.send_signal(signal.SIGINT)
-        self.assertEqual(self.server.wait(SECONDS), 0)
-        self.assertFalse(folder.exists())
+        for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP):
+            folder = next(self.folder.glob("meshrepair-serve-*"))
+            self.assertEqual(stat.S_IMODE(folder.stat().st_mode), 0o700)
+            self.hand_in()
+            self.server.send_signal(number)
+            self.assertEqual(self.server.wait(SECONDS), 0)
+            self.assertFalse(folder.exists())
+            self.end()
+            self.start(self.folder)
 
     def test_a_port_that_is_taken(self):
-        result = subprocess.run([PROGRAMS / "meshrepair", "--serve", "--port", str(self.port)], capture_output=True, check=False)
+        result = subprocess.run([self.programs / "meshrepair", "--serve", "--port", str(self.port)], capture_output=True, check=False)
         self.assertEqual(result.returncode, 2)
         self.assertIn(b"meshrepair: --port: ", result.stderr)
 
     def test_the_command_line(self):
         for words, what in ((["--serve", "--help"], b"--max-upload"), (["--serve", "--port", "x"], b"--port"),
                             (["--serve", "a.stl"], b"not expected"), (["a.stl", "b.stl", "--serve"], b"stands alone")):
-            result = subprocess.run([PROGRAMS / "meshrepair", *words], capture_output=True, check=False)
+            result = subprocess.run([self.programs / "meshrepair", *words], capture_output=True, check=False)
             self.assertEqual(result.returncode, 0 if "--help" in words else 2)
             self.assertIn(what, result.stdout if "--help" in words else result.stderr)
+
+    def test_wrong_limits(self):
+        for option, value in (("--max-memory", "foo"), ("--max-memory", "500%"), ("--max-memory", "0%"), ("--max-upload", "-1"),
+                              ("--max-upload", "50%"), ("--max-upload", "0"), ("--max-upload", "1X"), ("--threads", "-1")):
+            result = subprocess.run([self.programs / "meshrepair", "--serve", "--no-browser", f"{option}={value}"], capture_output=True,
+                                    check=False, timeout=SECONDS)
+            self.assertEqual(result.returncode, 2, value)
+            self.assertTrue(result.stderr.startswith(f"meshrepair: {option}: ".encode()), result.stderr)
+            self.assertEqual(result.stderr.count(b"(try "), 1, result.stderr)
+            self.assertIn(b"(try 'meshrepair --serve --help')", result.stderr)
 
 
 class Attacks(Serving):
@@ -254,6 +233,26 @@ class Attacks(Serving):
         self.assertEqual(self.jobs(), 0)
         self.assertIn(self.finished(self.hand_in("a.stl", bytes(LIMIT)))["exit_code"], (1, 3))
 
+    def test_uploads_without_an_end(self):
+        """What cannot be told from the next request is refused, and nothing after it is a request."""
+        after = f"GET /favicon.ico HTTP/1.1\r\nHost: {self.host}\r\n\r\n".encode()
+        for headers, version, code in (("", "1.0", 411), ("", "1.1", 411), ("Transfer-Encoding: xchunked\r\n", "1.1", 501),
+                                       ("Transfer-Encoding: gzip\r\n", "1.1", 501), ("Transfer-Encoding: gzip, chunked\r\n", "1.1", 501)):
+            answer = self.raw(self.upload_head(headers, version) + after)
+            self.assertRegex(answer, rb"^HTTP/1.1 %d " % code, headers)
+            self.assertEqual(answer.count(b"HTTP/1.1 "), 1, headers)
+        answer = self.raw(f"GET / HTTP/1.1\r\nHost: {self.host}\r\nTransfer-Encoding: gzip\r\n\r\n".encode() + after)
+        self.assertRegex(answer, rb"^HTTP/1.1 501 ")
+        self.assertEqual(answer.count(b"HTTP/1.1 "), 1)
+        self.assertEqual(self.jobs(), 0)
+
+    def test_headers_that_stand_twice(self):
+        for first, second in ((f"Host: {self.host}", "Host: evil.example"), (f"Host: {self.host}", f"host: {self.host}"),
+                              (f"Host: {self.host}\r\nOrigin: http://{self.host}", "Origin: https://evil.example"),
+                              (f"Host: {self.host}\r\nOrigin: ", "Origin: https://evil.example")):
+            answer = self.raw(f"GET / HTTP/1.1\r\n{first}\r\n{second}\r\nConnection: close\r\n\r\n".encode())
+            self.assertRegex(answer, rb"^HTTP/1.1 400 ", (first, second))
+
     def test_uploads_that_end_early(self):
         head = f"POST /jobs?name=a.stl HTTP/1.1\r\nHost: {self.host}\r\nX-Meshrepair-Token: {self.token}\r\nContent-Length: 1000\r\n\r\n"
         for _ in range(20):
@@ -312,7 +311,68 @@ class Attacks(Serving):
         self.assertEqual(headers["Cross-Origin-Resource-Policy"], "same-origin")
 
 
+    def test_others_cannot_read_meshes(self):
+        job = self.hand_in()
+        self.assertTrue(self.repaired_at_last(job, format="obj")["has_result"])
+        paths = list(self.folder.glob("meshrepair-serve-*/**/*"))
+        self.assertGreater(len(paths), 5)
+        for path in paths:
+            self.assertEqual(stat.S_IMODE(path.stat().st_mode), 0o700 if path.is_dir() else 0o600, path)
+
+    def test_a_folder_that_is_gone(self):
+        """Another one in its place is not used, and none is made."""
+        job = self.hand_in()
+        self.finished(job)
+        folder = next(self.folder.glob("meshrepair-serve-*"))
+        shutil.rmtree(folder)
+        for makes_another in (False, True):
+            if makes_another:
+                folder.mkdir()
+                (folder / job).mkdir()
+                (folder / job / "check.html").write_text("a page of others")
+            status, _, body = self.ask("POST", "/jobs?name=a.stl", CUBE)
+            self.assertEqual((status, b"is gone" in body), (507, True), body)
+            options = {"X-Meshrepair-Options": '{"format": "stl"}'}
+            self.assertEqual(self.ask("POST", f"/jobs/{job}/repair", headers=options)[0], 507)
+            self.assertEqual(self.ask("GET", f"/jobs/{job}/check.html")[0], 404)
+            self.assertEqual(self.jobs(), 0)
+        self.end()
+        self.assertEqual([path.name for path in folder.glob("*/*")], ["check.html"])
+
+    def test_links_are_not_followed(self):
+        job = self.hand_in()
+        self.assertTrue(self.repaired_at_last(job, format="obj")["has_result"])
+        inside = next(self.folder.glob("meshrepair-serve-*")) / job
+        for path, target in ((inside / "check.html", "check.html"), (inside / "out" / "mesh.obj", "result")):
+            path.unlink()
+            path.symlink_to("/etc/passwd")
+            self.assertEqual(self.ask("GET", f"/jobs/{job}/{target}")[0], 404)
+            path.unlink()
+            os.mkfifo(path)
+            self.assertEqual(self.ask("GET", f"/jobs/{job}/{target}")[0], 404)
+
+
 class MoreThanItHolds(Serving):
+    options = ("--max-upload", "20M")
+
+    def test_a_slow_download(self):
+        """It may take longer than the time that is allowed without a byte."""
+        job = self.hand_in("ring.stl", ring(300, 200))
+        self.assertTrue(self.repaired_at_last(job, format="stl")["has_result"])
+        with socket.socket() as line:
+            line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
+            line.settimeout(SECONDS)
+            line.connect(("127.0.0.1", self.port))
+            line.sendall(f"GET /jobs/{job}/result HTTP/1.1\r\nHost: {self.host}\r\nConnection: close\r\n\r\n".encode())
+            start = time.monotonic()
+            said = b""
+            while some := line.recv(16384):
+                said += some
+                if time.monotonic() - start < 36:
+                    time.sleep(0.25)
+        head, _, body = said.partition(b"\r\n\r\n")
+        self.assertIn(b"Content-Length: %d\r\n" % len(body), head + b"\r\n")
+
     def test_the_oldest_go(self):
         first = self.hand_in("a.stl", CUBE)
         self.finished(first)
@@ -324,8 +384,27 @@ class MoreThanItHolds(Serving):
         self.assertLessEqual(self.jobs(), 50)
 
 
+    def test_a_disk_that_is_full(self):
+        """Meshes that nobody works on make room, the oldest first."""
+        mounted = ("unshare", "--user", "--map-root-user", "--mount", "sh", "-c", 'mount -t tmpfs -o size=8m tmpfs "$TMPDIR" && exec "$0" "$@"')
+        if subprocess.run([*mounted, "true"], env={**os.environ, "TMPDIR": str(self.folder)}, capture_output=True, check=False).returncode != 0:
+            self.skipTest("no small disk can be made")
+        self.end()
+        self.start(self.folder, *mounted)
+        data = CUBE + bytes(2 << 20)
+        jobs = []
+        for _ in range(6):
+            jobs.append(self.hand_in("a.stl", data))
+            self.finished(jobs[-1])
+        codes = [self.ask("GET", f"/jobs/{job}")[0] for job in jobs]
+        self.assertEqual(codes, sorted(codes, reverse=True))
+        self.assertEqual(set(codes), {404, 200})
+        self.assertEqual(self.ask("POST", "/jobs?name=a.stl", bytes(9 << 20))[0], 507)
+        self.is_alive()
+
+
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
         sys.exit(__doc__)
-    PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
+    Serving.programs = pathlib.Path(sys.argv.pop(1)).resolve()
     unittest.main()

@@ -6,27 +6,19 @@
 // (scripts/setup.sh all installs it) or no Chromium.
 
 import {spawnSync} from 'node:child_process';
-import {existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync, copyFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {copyFileSync, mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import path from 'node:path';
 import {fileURLToPath} from 'node:url';
 
-const CHROMIUM = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-const DRAWING = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+import {about, expect, withBrowser} from './pages.mjs';
+
 const SCRIPT = fileURLToPath(new URL('../../scripts/repair_folder.py', import.meta.url));
 const MESHES = ['cube.stl', 'open_bowl.ply', 'broken_torus_box.stl', 'overlapping_spheres.off', 'hollow_sphere.obj'];
 const MANY = 10000;
 
 const [meshrepair, meshes] = process.argv.slice(2).map((name) => path.resolve(name));
-const folder = mkdtempSync(path.join(tmpdir(), 'view_gallery_'));
-const out = path.join(folder, 'out');
-let faults = 0;
-
-function expect(holds, what) {
-  if (holds) return;
-  console.log(what);
-  ++faults;
-}
+let folder = ''; // empty at first
+let out = '';
 
 function repair() {
   const source = path.join(folder, 'in');
@@ -159,20 +151,11 @@ async function showMany(browser) {
   await page.close();
 }
 
-async function main() {
-  let playwright;
-  try {
-    playwright = await import('playwright-core');
-  } catch (error) {
-    console.log(`playwright is not installed: ${error.code}`);
-    return 77;
-  }
-  if (!CHROMIUM) {
-    console.log('there is no Chromium');
-    return 77;
-  }
+await withBrowser(async ({browser, folder: empty}) => {
+  folder = empty;
+  out = path.join(folder, 'out');
+  about('the gallery');
   const files = repair();
-  const browser = await playwright.chromium.launch({executablePath: CHROMIUM, args: DRAWING});
   const page = await opened(browser, 'index.html');
   await compareRows(page, files);
   await sortAndFilter(page, files);
@@ -181,9 +164,4 @@ async function main() {
   await useKeys(browser);
   await onAPhone(browser);
   await showMany(browser);
-  await browser.close();
-  return faults === 0 ? 0 : 1;
-}
-
-const code = await main().finally(() => rmSync(folder, {recursive: true}));
-process.exit(code);
+});

@@ -6,23 +6,15 @@
 // no Chromium.
 
 import {spawn, spawnSync} from 'node:child_process';
-import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import path from 'node:path';
 
-const CHROMIUM = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-const DRAWING = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+import {about, expect, withBrowser} from './pages.mjs';
+
 const MESHES = ['broken_torus_box.stl', 'broken_spheres.obj', 'open_bowl.ply', 'overlapping_spheres.off', 'cube.stl'];
 
 const [programs, meshes, screenshot] = process.argv.slice(2).map((name) => path.resolve(name));
-const folder = mkdtempSync(path.join(tmpdir(), 'view_serve_'));
-let faults = 0;
-
-function expect(holds, what) {
-  if (holds) return;
-  console.log(what);
-  ++faults;
-}
+let folder = ''; // empty at first
 
 // The address that it prints, and how to end it.
 function served() {
@@ -126,6 +118,27 @@ async function failClearly(browser, address) {
   await page.close();
 }
 
+const kept = () => readdirSync(folder, {recursive: true}).filter((name) => /\bin$/.test(name)).length;
+
+async function nothingIsKept(what) {
+  for (let i = 0; i < 100 && kept() > 0; ++i) await new Promise((done) => setTimeout(done, 100));
+  expect(kept() === 0, `${what} leaves ${kept()} meshes`);
+}
+
+// Nobody could end the work on a mesh of a page that is gone.
+async function leave(browser, address) {
+  await nothingIsKept('a page that was closed');
+  const page = await opened(browser, address);
+  await checked(page, path.join(meshes, MESHES[1]));
+  expect(kept() === 1, 'the mesh of a page is not kept');
+  await page.click('#repair');
+  await page.reload();
+  await nothingIsKept('a page that is loaded again');
+  await checked(page, path.join(meshes, MESHES[0]));
+  await page.close();
+  await nothingIsKept('a page that is closed');
+}
+
 // They make the browser itself print errors.
 async function failOnPurpose(browser, address) {
   const page = await browser.newPage();
@@ -157,29 +170,15 @@ async function useKeysAndAPhone(browser, address) {
   await page.close();
 }
 
-async function main() {
-  let playwright;
-  try {
-    playwright = await import('playwright-core');
-  } catch (error) {
-    console.log(`playwright is not installed: ${error.code}`);
-    return 77;
-  }
-  if (!CHROMIUM) {
-    console.log('there is no Chromium');
-    return 77;
-  }
+await withBrowser(async ({browser, folder: empty}) => {
+  folder = empty;
+  about('the page of --serve');
   const {server, address} = await served();
-  const browser = await playwright.chromium.launch({executablePath: CHROMIUM, args: DRAWING});
   await repairAll(browser, address);
   await forwarded(browser, address);
   await failClearly(browser, address);
   await failOnPurpose(browser, address);
   await useKeysAndAPhone(browser, address);
-  await browser.close();
+  await leave(browser, address);
   await ended(server);
-  return faults === 0 ? 0 : 1;
-}
-
-const code = await main().finally(() => rmSync(folder, {recursive: true}));
-process.exit(code);
+});

@@ -47,10 +47,13 @@
     at('verdict').className = kind ?? '';
   }
 
+  // Another frame for each page: browsers may leave one blank that was hidden when its address changed.
   function show(path) {
-    at('page').hidden = path === null;
-    if (path === null) at('page').removeAttribute('src');
-    else at('page').src = path;
+    const frame = at('page').cloneNode();
+    frame.hidden = path === null;
+    if (path === null) frame.removeAttribute('src');
+    else frame.src = path;
+    at('page').replaceWith(frame);
   }
 
   function verdict(state) {
@@ -155,6 +158,14 @@
     event.preventDefault();
     at('drop').classList.remove('over');
     if (event.dataTransfer.files.length > 0) open(event.dataTransfer.files[0]);
+  });
+  // Nobody could end the work, or ask for the result, once the page is gone. It starts anew where a browser brings it back.
+  addEventListener('pagehide', () => {
+    sending?.abort();
+    if (job !== null) fetch(`/jobs/${job}`, {method: 'DELETE', headers: {'X-Meshrepair-Token': token}, keepalive: true}).catch(() => {});
+  });
+  addEventListener('pageshow', (event) => {
+    if (event.persisted) location.reload();
   });
   if (token === '') say('The address lacks its token: use the whole one that the program prints.', 'bad');
   at('work').hidden = token !== '';

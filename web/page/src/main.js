@@ -68,6 +68,18 @@ function progressed({stage, share}) {
   }
 }
 
+// Another frame for each page: browsers may leave one blank that was hidden when its address changed.
+function showPage(page) {
+  const frame = by('viewer').cloneNode();
+  frame.hidden = !page;
+  if (page) {
+    frame.src = urlOf(page, 'text/html');
+  } else {
+    frame.removeAttribute('src');
+  }
+  by('viewer').replaceWith(frame);
+}
+
 // Shows what came of `work`, and while it lasts how far it is.
 async function during(work) {
   forget();
@@ -80,8 +92,7 @@ async function during(work) {
     say(made.message, made.isGood ? 'good' : 'bad');
     list('warnings', made.warnings);
     list('downloads', (made.files ?? []).map(downloadOf));
-    if (made.page) by('viewer').src = urlOf(made.page, 'text/html');
-    show('viewer', Boolean(made.page));
+    showPage(made.page);
   } catch (error) {
     say(error.name === 'AbortError' ? 'Cancelled.' : `${error.message}.`.replace(/\.\.$/, '.'), 'bad');
   }
@@ -98,7 +109,7 @@ function choose(files) {
   if (!file) return;
   engine?.cancel();
   const mine = engine = new PackageEngine(file, all.filter((other) => other !== file));
-  show('viewer', false);
+  showPage(null);
   const format = /\.([^.]+)(\.(gz|zst|zip))?$/.exec(file.name)?.[1].toLowerCase();
   by('options').elements.to.value = formats.includes(format) ? format : 'stl';
   say(file.name, '');
