@@ -85,10 +85,10 @@ Pixels pixels_of(const std::vector<Drawn>& meshes, const Camera& camera, Texture
   return std::move(*all);
 }
 
-Shown shown_for(const PictureRequest& request, const Run& run) {
+Shown shown_for(const PictureRequest& request, Run& run) {
   if (run.options.quiet) return Shown::nothing;
   if (request.shown != Shown::automatic) return request.shown;
-  switch (ask_terminal_for_pictures()) {
+  switch (ask_terminal_for_pictures(run.progress)) {
     case TerminalPictures::sixel:
       return Shown::sixel;
     case TerminalPictures::kitty:
