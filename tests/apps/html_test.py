@@ -344,6 +344,23 @@ class Pages(unittest.TestCase):
             (line,) = self.facts()["left_out"]
             self.assertIn(why, line)
 
+    def test_pictures_that_are_no_files_are_named(self):
+        (self.folder / "secret.png").write_bytes((ROOT / "docs/pictures/pawn.png").read_bytes())
+        mesh = self.folder / "mesh"
+        mesh.mkdir()
+        (mesh / "link.png").symlink_to("../secret.png")
+        (mesh / "folder.png").mkdir()
+        os.mkfifo(mesh / "fifo.png")
+        (mesh / "device.png").symlink_to("/dev/zero")
+        for name in ("link.png", "folder.png", "fifo.png", "device.png"):
+            self.write_pictured(b"", name, "mesh/in.obj")
+            (self.folder / "in.mtl").rename(mesh / "in.mtl")
+            result = subprocess.run([self.programs / "meshcheck", "mesh/in.obj", "--picture", "p.png", "--html", "p.html"], cwd=self.folder,
+                                    check=False, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertIn(f"warning: mesh/in.obj: the picture '{name}' is not there, or not in the mesh's folder", result.stderr)
+            (line,) = self.facts()["left_out"]
+            self.assertIn(f"'{name}' is not there", line)
+
     def test_colours_of_corners(self):
         points = ["0 0 0 1 0 0", "1 0 0 0 1 0", "0 1 0 0 0 1", "0 0 1 1 1 1"]
         self.write_obj(points, ["1 3 2", "1 2 4", "1 4 3", "2 3 4"])
