@@ -112,7 +112,7 @@ void write_picture(const PictureRequest& request, const Pixels& pixels,
 
 void add_picture_options(CLI::App& app, PictureRequest& request, const std::string& what) {
   app.add_option("--picture", request.path, "Draw " + what + ", as PNG")
-      ->check(names_file(".png"))
+      ->check(names_side_file(".png"))
       ->type_name("FILE")
       ->group("Picture");
   app.add_option_function<std::string>(
