@@ -123,7 +123,7 @@ void add_check_command(CLI::App& app, CheckCommand& command) {
   add_check_options(app, command.request);
   add_scene_option(app, command.assets, "Check");
   app.add_option("--mark", command.marked, mark_help())
-      ->check(names_file(".ply"))
+      ->check(names_side_file(".ply"))
       ->type_name("FILE")
       ->group("Output");
   add_picture_options(app, command.picture, "IN");

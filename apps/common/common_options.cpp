@@ -178,7 +178,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->type_name("N")
       ->group(telling);
   app.add_option("--report", options.report, "Write a report as JSON; - is standard output")
-      ->check(names_file(".json"))
+      ->check(names_side_file(".json"))
       ->type_name("FILE")
       ->group(telling);
   CLI::Option* quiet =

@@ -1,5 +1,7 @@
 #include "common/distance_report.h"
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -11,11 +13,22 @@
 namespace meshrepair {
 namespace {
 
-double share_of(double distance, double diagonal) { return diagonal > 0 ? distance / diagonal : 0; }
+// No number where either is beyond doubles.
+double share_of(double distance, double diagonal) {
+  if (!std::isfinite(distance) || !std::isfinite(diagonal)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return diagonal > 0 ? distance / diagonal : 0;
+}
+
+std::string percent(double distance, double diagonal) {
+  const double share = share_of(distance, diagonal);
+  return std::isfinite(share) ? fmt::format("{:.4g} %", 100 * share) : "-";
+}
 
 std::string row(std::string_view name, double forth, double back, double diagonal) {
-  return fmt::format("{:<12}{:>13.6g}{:>12.4g} %{:>15.6g}{:>12.4g} %\n", name, forth,
-                     100 * share_of(forth, diagonal), back, 100 * share_of(back, diagonal));
+  return fmt::format("{:<12}{:>13.6g}{:>14}{:>15.6g}{:>14}\n", name, forth,
+                     percent(forth, diagonal), back, percent(back, diagonal));
 }
 
 Json value_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }

@@ -242,7 +242,7 @@ void add_explain_option(CLI::App& app, std::string& path) {
                  "Write IN and OUT beside each other as PLY or GLB, each triangle coloured by\n"
                  "what became of it:" +
                      help_of(kFates) + "\nor, in OUT, by what it is:" + help_of(kOrigins))
-      ->check(names_file(".ply, .glb"))
+      ->check(names_side_file(".ply, .glb"))
       ->type_name("FILE")
       ->group("Output");
 }

@@ -17,6 +17,13 @@ CLI::Validator names_file(std::string_view extensions) {
   return {[](std::string&) { return std::string(); }, std::string(extensions)};
 }
 
+CLI::Validator names_side_file(std::string_view extensions) {
+  const auto why_not = [](const std::string& word) {
+    return std::string(word.empty() ? "the name of the file is empty" : "");
+  };
+  return {why_not, std::string(extensions)};
+}
+
 std::string mesh_extensions() { return both(known_extensions(), kPackedExtensions); }
 
 std::string point_extensions() { return both(known_point_extensions(), mesh_extensions()); }

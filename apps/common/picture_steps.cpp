@@ -85,10 +85,10 @@ Pixels pixels_of(const std::vector<Drawn>& meshes, const Camera& camera, Texture
   return std::move(*all);
 }
 
-Shown shown_for(const PictureRequest& request, const Run& run) {
+Shown shown_for(const PictureRequest& request, Run& run) {
   if (run.options.quiet) return Shown::nothing;
   if (request.shown != Shown::automatic) return request.shown;
-  switch (ask_terminal_for_pictures()) {
+  switch (ask_terminal_for_pictures(run.progress)) {
     case TerminalPictures::sixel:
       return Shown::sixel;
     case TerminalPictures::kitty:
@@ -112,7 +112,7 @@ void write_picture(const PictureRequest& request, const Pixels& pixels,
 
 void add_picture_options(CLI::App& app, PictureRequest& request, const std::string& what) {
   app.add_option("--picture", request.path, "Draw " + what + ", as PNG")
-      ->check(names_file(".png"))
+      ->check(names_side_file(".png"))
       ->type_name("FILE")
       ->group("Picture");
   app.add_option_function<std::string>(

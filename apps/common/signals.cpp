@@ -6,6 +6,8 @@
 
 #include <base/atomic_file.h>
 
+#include "common/raw_terminal.h"
+
 namespace meshrepair {
 namespace {
 
@@ -16,6 +18,7 @@ extern "C" void handle_signal(int number) {
   int none = 0;
   if (first_signal.compare_exchange_strong(none, number)) return;
   remove_unfinished_file();
+  restore_terminal();
   _exit(128 + number);
 }
 

@@ -10,6 +10,8 @@
 
 #include <base/atomic_file.h>
 
+#include "common/raw_terminal.h"
+
 namespace meshrepair {
 namespace {
 
@@ -73,6 +75,7 @@ void Watchdog::end_process(const Failure& reason) const {
     static_cast<void>(written);
   }
   remove_unfinished_file();
+  restore_terminal();
   _exit(static_cast<int>(reason.code));
 }
 

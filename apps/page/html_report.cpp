@@ -143,7 +143,7 @@ void write_page(const HtmlRequest& request, PageContent content, Run& run) {
 void add_html_options(CLI::App& app, HtmlRequest& request, const std::string& what) {
   app.add_option("--html", request.path,
                  "Write a page for browsers that shows " + what + ", to be\nturned and cut open")
-      ->check(names_file(".html, .htm"))
+      ->check(names_side_file(".html, .htm"))
       ->type_name("FILE")
       ->group("Page");
   app.add_option("--html-triangles", request.most_triangles,

@@ -38,8 +38,8 @@ class Stop(Exception):
 
 
 def text(name):
-    """A name as text. What is no UTF-8 becomes \\xNN."""
-    return name.decode("utf-8", "backslashreplace")
+    """A name as text. What is no UTF-8 becomes \\xNN, and a backslash before an x \\x5c: no two names have one text."""
+    return name.replace(b"\\x", b"\\x5cx").decode("utf-8", "backslashreplace")
 
 
 def key_of(name):

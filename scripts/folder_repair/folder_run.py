@@ -238,10 +238,10 @@ class FolderRun:
             job.beside[name] = os.path.getsize(target)
 
     def take_pictures(self, job, report):
-        """Those that lie in IN_DIR; names of others are said."""
+        """Those that lie in IN_DIR; names of others are said, as the result may look otherwise."""
         if job.format not in NAME_PICTURES + HOLD_PICTURES:
             return
-        pictures, outside = pictures_of(job, self.options.in_dir, report)
+        pictures, outside, displaced = pictures_of(job, self.options.in_dir, report)
         for place, path in pictures.items():
             target = os.path.join(self.out.path, place)
             if not self.out.holds_same(path, target):
@@ -250,6 +250,7 @@ class FolderRun:
                 self.out.take_copy(path, target)
             job.pictures[place] = os.path.getsize(target)
         self.warn(job, outside, "outside of IN_DIR: does not come along")
+        self.warn(job, displaced, "whose place in OUT_DIR is kept for what is made there: does not come along")
         self.warn(job, job.missing(), "which is not there")
 
     def take_pages(self, worker, report):

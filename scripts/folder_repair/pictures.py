@@ -35,8 +35,8 @@ def may_be_written(place):
 
 def pictures_of(job, in_dir, report):
     """Of the mesh that a report is of: place -> path of those that are to lie in OUT_DIR, at their place in IN_DIR;
-    and names, sorted, of all files that it names outside of IN_DIR."""
-    pictures, outside = {}, set(names_of(report, "outside"))
+    and names, sorted, of all files that it names outside of IN_DIR, and of pictures whose place is taken."""
+    pictures, outside, displaced = {}, set(names_of(report, "outside")), set()
     for name in names_of(report, "files"):
         path = job.path_of(name)
         if os.path.isfile(path) and place_of(path, in_dir) is None:
@@ -46,6 +46,9 @@ def pictures_of(job, in_dir, report):
         place = place_of(path, in_dir)
         if place is None:
             outside.add(name)
-        elif job.format in NAME_PICTURES and os.path.isfile(path) and may_be_written(place):
-            pictures[place] = path
-    return pictures, sorted(outside)
+        elif job.format in NAME_PICTURES and os.path.isfile(path):
+            if may_be_written(place):
+                pictures[place] = path
+            else:
+                displaced.add(name)
+    return pictures, sorted(outside), sorted(displaced)

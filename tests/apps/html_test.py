@@ -241,12 +241,23 @@ class Pages(unittest.TestCase):
                 self.assertEqual(one["at"], other["at"])
 
     def test_distances_beyond_doubles_are_not_known(self):
-        self.write_obj(["1e308 0 0", "-1e308 0 0", "0 1e308 1"], ["1 2 3"])
+        self.write_obj(["1.5e308 1.5e308 1.5e308", "-1.5e308 0 0", "0 1e308 1"], ["1 2 3"])
         self.assertEqual(self.run_program("meshdist", "in.obj", MESHES / "cube.stl", "--html", "p.html"), 0)
         facts = self.facts()
         self.assertIsNone(facts["scale"]["most"])
         *_, values = unpack(Elements(self.page()).scripts["mesh-0"], facts["meshes"][0]["shown"], True)
         self.assertEqual(set(values), {0})
+
+    def test_distances_of_any_size(self):
+        for unit in (1e-170, 1e100, 1e300):
+            self.write_obj([f"0 0 {unit}", f"{unit} 0 {unit}", f"0 {unit} {unit}"], ["1 2 3"])
+            (self.folder / "in.obj").rename(self.folder / "other.obj")
+            self.write_obj(["0 0 0", f"{unit} 0 0", f"0 {unit} 0"], ["1 2 3"])
+            self.assertEqual(self.run_program("meshdist", "in.obj", "other.obj", "--html", "p.html"), 0)
+            facts = self.facts()
+            self.assertAlmostEqual(facts["scale"]["most"] / unit, 1)
+            *_, values = unpack(Elements(self.page()).scripts["mesh-0"], facts["meshes"][0]["shown"], True)
+            self.assertEqual(set(values), {facts["scale"]["steps"]})
 
     def test_each_place_has_its_distance(self):
         report = self.folder / "r.json"
@@ -332,6 +343,23 @@ class Pages(unittest.TestCase):
             self.assertNotIn("picture-0", Elements(self.page()).scripts)
             (line,) = self.facts()["left_out"]
             self.assertIn(why, line)
+
+    def test_pictures_that_are_no_files_are_named(self):
+        (self.folder / "secret.png").write_bytes((ROOT / "docs/pictures/pawn.png").read_bytes())
+        mesh = self.folder / "mesh"
+        mesh.mkdir()
+        (mesh / "link.png").symlink_to("../secret.png")
+        (mesh / "folder.png").mkdir()
+        os.mkfifo(mesh / "fifo.png")
+        (mesh / "device.png").symlink_to("/dev/zero")
+        for name in ("link.png", "folder.png", "fifo.png", "device.png"):
+            self.write_pictured(b"", name, "mesh/in.obj")
+            (self.folder / "in.mtl").rename(mesh / "in.mtl")
+            result = subprocess.run([self.programs / "meshcheck", "mesh/in.obj", "--picture", "p.png", "--html", "p.html"], cwd=self.folder,
+                                    check=False, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertIn(f"warning: mesh/in.obj: the picture '{name}' is not there, or not in the mesh's folder", result.stderr)
+            (line,) = self.facts()["left_out"]
+            self.assertIn(f"'{name}' is not there", line)
 
     def test_colours_of_corners(self):
         points = ["0 0 0 1 0 0", "1 0 0 0 1 0", "0 1 0 0 0 1", "0 0 1 1 1 1"]

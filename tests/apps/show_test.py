@@ -8,7 +8,9 @@ import fcntl
 import os
 import pathlib
 import pty
+import resource
 import select
+import signal
 import subprocess
 import sys
 import tempfile
@@ -24,14 +26,15 @@ SECONDS = 120
 
 
 class Terminal:
-    """Runs a program in a terminal that answers the question so; None: it says nothing."""
+    """Runs a program in a terminal that answers the question so; None: it says nothing. The program gets the signals
+    when it has asked."""
 
-    def __init__(self, answer, *command, after=0.0):
+    def __init__(self, answer, *command, after=0.0, signals=()):
         self.master, self.slave = pty.openpty()
         before = termios.tcgetattr(self.slave)
         process = subprocess.Popen(command, stdin=self.slave, stdout=self.slave, stderr=self.slave, close_fds=True,
                                    env={**os.environ, "TERM": "xterm-256color"}, start_new_session=True,
-                                   preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+                                   preexec_fn=self.prepare)
         self.said, self.asked = b"", False
         deadline = time.monotonic() + SECONDS
         while process.poll() is None and time.monotonic() < deadline:
@@ -41,12 +44,19 @@ class Terminal:
                 time.sleep(after)
                 if answer is not None:
                     os.write(self.master, answer)
+                for number in signals:
+                    process.send_signal(number)
         self.code = process.wait(SECONDS)
         while self.listen(0.05):
             pass
         self.is_as_before = termios.tcgetattr(self.slave) == before
         os.close(self.slave)
         os.close(self.master)
+
+    @staticmethod
+    def prepare():
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     def listen(self, seconds):
         if not select.select([self.master], [], [], seconds)[0]:
@@ -93,6 +103,18 @@ class Show(unittest.TestCase):
 
     def test_a_slow_terminal(self):
         self.assertIn(SIXEL, self.shown(b"\x1b[?62;4c", "--show", after=0.4).said)
+
+    def test_what_ends_the_program_meanwhile_leaves_the_terminal_as_it_was(self):
+        # Twice: the second signal ends a program at once. The keys are those of the terminal, for SIGINT and SIGQUIT.
+        for signals in ([signal.SIGTERM], [signal.SIGHUP], 2 * [signal.SIGINT], 2 * [signal.SIGTERM], [signal.SIGQUIT]):
+            for command in (self.command("--show"), [PROGRAMS / "meshcheck", MESHES / "cube.stl", "--show"]):
+                terminal = Terminal(None, *command, signals=signals)
+                self.assertTrue(terminal.is_as_before, (signals, command, terminal.said))
+                self.assertIn(terminal.code, (128 + signals[0], -signals[0]), terminal.said)
+        for key, code in ((b"\x03", 130), (b"\x1c", -signal.SIGQUIT)):
+            terminal = Terminal(key, *self.command("--show"))
+            self.assertTrue(terminal.is_as_before, key)
+            self.assertEqual(terminal.code, code, terminal.said)
 
     def test_nobody_is_asked_unasked(self):
         self.assertFalse(self.shown(b"\x1b[?62;4c").asked)

@@ -119,9 +119,10 @@ class FilesBeside(FolderTest):
         write_files(self.source, {
             "a.obj": painted(b"a.mtl"), "a.mtl": library, "b.obj": TETRAHEDRON, "b.mtl": b"x",
             "summary.json": b"x", ".repair_folder/journal.jsonl": b"x", "folder/x": b"x"})
-        self.run_script(program=self.meshrepair)
+        result = self.run_script(program=self.meshrepair)
         self.assertEqual(names_in(self.out), {"a.obj", "a.mtl", "b.obj"})
         self.assertEqual(self.codes(), {"a.obj": 0, "b.obj": 0})
+        self.assertIn("a.obj: warning: names .repair_folder/journal.jsonl and 3 more, whose place in OUT_DIR is kept", result.stderr)
 
     def test_pictures_that_are_not_from_here_stay(self):
         write_files(self.source, {"a.obj": painted(b"a.mtl"), "a.mtl": b"newmtl wood\nmap_Kd a.png\n", "a.png": b"x"})

@@ -112,6 +112,16 @@ class Gallery(FolderTest):
                 self.assertRegex(url, r"^[\w.~%-]+$")
                 self.assertTrue(os.path.isfile(os.path.join(os.fsencode(self.pages), urllib.parse.unquote_to_bytes(url))), url)
 
+    def test_pictures_at_its_place_do_not_come_along_which_is_said(self):
+        lines = b"vt 0 0\nvt 1 0\nvt 0 1\nusemtl wood\nf 1/1 3/3 2/2\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\nf 1/1 4/2 3/3\n"
+        write_files(self.source, {
+            "m.stl": CUBE, "index.files/t.obj": b"mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + lines,
+            "index.files/t.mtl": b"newmtl wood\nmap_Kd m.stl.png\n", "index.files/m.stl.png": b"another picture"})
+        warning = "index.files/t.obj: warning: names m.stl.png, whose place in OUT_DIR is kept for what is made there"
+        self.assertIn(warning, self.repair().stderr)
+        self.assertNotEqual((self.out / "index.files/m.stl.png").read_bytes(), b"another picture")
+        self.assertIn(warning, self.run_script("--restart", program=self.meshrepair).stderr)
+
     def test_the_second_run_does_nothing(self):
         write_files(self.source, {"a.stl": CUBE, "b.obj": TETRAHEDRON})
         self.repair()

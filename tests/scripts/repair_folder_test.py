@@ -90,6 +90,12 @@ class Names(FolderTest):
         self.run_script(program=self.meshrepair)
         self.assertEqual(self.rows(), before)  # with the same times: nothing was done again
 
+    def test_no_two_names_are_one_text(self):
+        names = [b"a\xff.stl", b"a\\xff.stl", b"a\\x5cxff.stl"]
+        write_files(self.source, {name: TETRAHEDRON for name in names})
+        self.run_script(program=self.meshrepair)
+        self.assertEqual(set(self.rows()), {"a\\xff.stl", "a\\x5cxff.stl", "a\\x5cx5cxff.stl"})
+
     def test_what_is_no_file_is_left_out_and_never_waited_for(self):
         write_files(self.source, {"good.stl": b"x", "sub/good.stl": b"x"})
         os.mkfifo(self.source / "fifo.stl")

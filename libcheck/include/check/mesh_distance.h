@@ -45,9 +45,10 @@ struct MeshDistance {
   [[nodiscard]] std::optional<double> bound() const;
 };
 
-// In the unit of the coordinates, whose magnitudes are to be below 1e150. The same for any number
-// of threads. Throws InputError where a mesh has no triangle that is finite, UsageError where the
-// options make no sense, Cancelled.
+// In the unit of the coordinates: all of them times a power of two gives the same results times
+// that. What is beyond doubles is infinite. The same for any number of threads. Throws InputError
+// where a mesh has no triangle that is finite, UsageError where the options make no sense,
+// Cancelled.
 [[nodiscard]] MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second,
                                          const DistanceOptions& options = {});
 

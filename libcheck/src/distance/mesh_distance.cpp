@@ -3,6 +3,9 @@
 // random about a point depends on its number alone, and sums are taken in a fixed order, so that
 // threads do not matter. What lies on a triangle that both meshes have is not looked up: it is at
 // no distance, and around the tip of a cone all boxes are near, so that a look-up takes long.
+//
+// All of this is done with both meshes scaled by one power of two to about unit size, as squares of
+// large and small lengths are beyond doubles. That is exact, and so is the way back.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,6 +24,7 @@
 #include <base/shared_progress.h>
 #include <check/mesh_distance.h>
 #include <check/nearest_triangle.h>
+#include <mesh/mesh_parts.h>
 
 #include "distance_bound.h"
 
@@ -33,6 +37,7 @@ using internal::NearestTriangle;
 
 constexpr std::size_t kPointsPerTask = 2048;
 constexpr std::size_t kMeasuredPerTask = 8192;
+constexpr const char* kNothingFinite = ": no triangle has finite coordinates";
 
 // A number in [0, 1) for each seed and position: the mixing function splitmix64 of both.
 double random_share(std::uint64_t seed, std::uint64_t position) {
@@ -47,7 +52,7 @@ struct FiniteMesh {
   RawVector<Corners> triangles;
   std::vector<std::array<std::uint32_t, 3>> corner_of;  // of each triangle, in `corners`
   std::vector<Vec3d> corners;                           // each point of a triangle once
-  std::vector<double> area_up_to;                       // of the triangles before and this one
+  std::vector<double> area_up_to;  // of the triangles before and this one, in a unit of its own
   Box box;
   std::size_t not_finite = 0;
 
@@ -60,18 +65,18 @@ struct FiniteMesh {
   }
 };
 
+// By itself: it may be far smaller than another mesh.
 double diagonal_of(const Box& box) {
   const Vec3d low(box.low[0], box.low[1], box.low[2]);
   const Vec3d high(box.high[0], box.high[1], box.high[2]);
-  return (high - low).norm();
+  const UnitScale scale(std::array{low, high});
+  return scale.back((scale(high) - scale(low)).norm());
 }
 
-void require_finite(const Box& box, const std::string& name) {
-  if (box.low[0] > box.high[0]) throw InputError(name + ": no triangle has finite coordinates");
-}
-
-// The triangles' own data, in a mesh without any that are not finite.
+// The triangles' own data, in a mesh without any that are not finite. Areas need a scale of their
+// own, as those of a mesh that is far smaller than the other one would be lost.
 void measure_triangles(FiniteMesh& mesh) {
+  const UnitScale scale(mesh.corners);
   const std::size_t count = mesh.corner_of.size();
   mesh.triangles.resize(count);
   mesh.area_up_to.resize(count);
@@ -81,7 +86,9 @@ void measure_triangles(FiniteMesh& mesh) {
       Corners& corners = mesh.triangles[t];
       for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.corners[mesh.corner_of[t][k]];
       for (const Vec3d& p : corners) box.add(p);
-      mesh.area_up_to[t] = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+      const Vec3d to_b = scale(Vec3d(corners[1] - corners[0]));
+      const Vec3d to_c = scale(Vec3d(corners[2] - corners[0]));
+      mesh.area_up_to[t] = 0.5 * to_b.cross(to_c).norm();
     }
     return box;
   };
@@ -109,9 +116,33 @@ FiniteMesh finite_mesh(const TriangleSoup& soup, const std::string& name) {
     }
     mesh.corner_of.push_back({place[t[0]], place[t[1]], place[t[2]]});
   }
-  measure_triangles(mesh);
-  require_finite(mesh.box, name);
+  if (mesh.corner_of.empty()) throw InputError(name + kNothingFinite);
   return mesh;
+}
+
+Vec3d largest_coordinates(const FiniteMesh& mesh) {
+  Vec3d largest = Vec3d::Zero();
+  for (const Vec3d& p : mesh.corners) largest = largest.cwiseMax(p.cwiseAbs());
+  return largest;
+}
+
+// Scales both alike, and measures them.
+UnitScale bring_to_unit(FiniteMesh& a, FiniteMesh& b) {
+  const UnitScale scale(std::array{largest_coordinates(a), largest_coordinates(b)});
+  for (FiniteMesh* mesh : {&a, &b}) {
+    for (Vec3d& p : mesh->corners) p = scale(p);
+    measure_triangles(*mesh);
+  }
+  return scale;
+}
+
+OneSidedDistance scaled_back(OneSidedDistance distance, const UnitScale& scale) {
+  for (double* length : {&distance.mean, &distance.rms, &distance.largest}) {
+    *length = scale.back(*length);
+  }
+  distance.at = scale.back(distance.at);
+  if (distance.bound) distance.bound = scale.back(*distance.bound);
+  return distance;
 }
 
 // The same whatever the order of the corners.
@@ -318,12 +349,13 @@ std::optional<double> MeshDistance::bound() const {
 MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second,
                            const DistanceOptions& options) {
   require_sense(options);
-  const FiniteMesh a = finite_mesh(first, "A");
-  const FiniteMesh b = finite_mesh(second, "B");
+  FiniteMesh a = finite_mesh(first, "A");
+  FiniteMesh b = finite_mesh(second, "B");
+  const UnitScale scale = bring_to_unit(a, b);
   MeshDistance distance;
-  distance.forth = distance_between(a, b, options);
-  distance.back = distance_between(b, a, options);
-  distance.diagonal = diagonal_of(a.box);
+  distance.forth = scaled_back(distance_between(a, b, options), scale);
+  distance.back = scaled_back(distance_between(b, a, options), scale);
+  distance.diagonal = scale.back(diagonal_of(a.box));
   distance.not_finite = a.not_finite + b.not_finite;
   return distance;
 }
@@ -331,7 +363,10 @@ MeshDistance mesh_distance(const TriangleSoup& first, const TriangleSoup& second
 OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup& to,
                                     const DistanceOptions& options) {
   require_sense(options);
-  return distance_between(finite_mesh(from, "A"), finite_mesh(to, "B"), options);
+  FiniteMesh a = finite_mesh(from, "A");
+  FiniteMesh b = finite_mesh(to, "B");
+  const UnitScale scale = bring_to_unit(a, b);
+  return scaled_back(distance_between(a, b, options), scale);
 }
 
 double bounding_diagonal(const TriangleSoup& soup) {
@@ -343,7 +378,7 @@ double bounding_diagonal(const TriangleSoup& soup) {
                                        [&](std::uint32_t p) { return soup.points[p].allFinite(); });
     if (is_finite) all.add(box);
   }
-  require_finite(all, "A");
+  if (all.low[0] > all.high[0]) throw InputError(std::string("A") + kNothingFinite);
   return diagonal_of(all);
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -142,6 +143,56 @@ TEST(MeshDistance, SeedAndThreadsDecideEverything) {
   }
   options.seed = 2;
   EXPECT_NE(mesh_distance(a, b, options).forth.mean, parallel.forth.mean);
+}
+
+TriangleSoup times_two_to(TriangleSoup soup, int exponent) {
+  for (Vec3d& p : soup.points) p = p.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+  return soup;
+}
+
+void expect_scaled(const OneSidedDistance& way, const OneSidedDistance& plain, int exponent) {
+  const auto scaled = [&](double x) { return std::ldexp(x, exponent); };
+  EXPECT_EQ(way.samples, plain.samples);
+  EXPECT_EQ(way.mean, scaled(plain.mean));
+  EXPECT_EQ(way.rms, scaled(plain.rms));
+  EXPECT_EQ(way.largest, scaled(plain.largest));
+  EXPECT_EQ(way.at, plain.at.unaryExpr(scaled));
+  EXPECT_EQ(way.bound, plain.bound ? std::optional(scaled(*plain.bound)) : std::nullopt);
+}
+
+// Whatever the unit: squares and products of such lengths are beyond doubles.
+TEST(MeshDistance, TimesAPowerOfTwoIsExactlyThat) {
+  const TriangleSoup a = testing::noisy_sphere(500, 0.05, 1);
+  const TriangleSoup b = testing::moved(testing::sphere(300), {0.5, 0, 0});
+  const MeshDistance plain = mesh_distance(a, b, with_bound(2000));
+  EXPECT_GT(plain.largest(), 0.4);
+  for (const int exponent : {-900, -600, -300, -30, 30, 300, 500, 900}) {
+    SCOPED_TRACE(exponent);
+    const TriangleSoup large = times_two_to(a, exponent), other = times_two_to(b, exponent);
+    const MeshDistance d = mesh_distance(large, other, with_bound(2000));
+    expect_scaled(d.forth, plain.forth, exponent);
+    expect_scaled(d.back, plain.back, exponent);
+    EXPECT_EQ(d.diagonal, std::ldexp(plain.diagonal, exponent));
+    EXPECT_EQ(bounding_diagonal(large), d.diagonal);
+    expect_scaled(one_sided_distance(large, other), one_sided_distance(a, b), exponent);
+  }
+}
+
+TEST(MeshDistance, OfAMeshThatIsFarSmallerThanTheOther) {
+  const MeshDistance d =
+      mesh_distance(times_two_to(square(0), -600), square(0.25), with_bound(100));
+  EXPECT_EQ(d.forth.samples, 100u);
+  EXPECT_EQ(d.forth.mean, 0.25);
+  EXPECT_EQ(d.diagonal, std::ldexp(bounding_diagonal(square(0)), -600));
+}
+
+TEST(MeshDistance, ThatIsBeyondDoublesIsInfinite) {
+  const TriangleSoup low = {{{-1e308, 0, 0}, {-1e308, 1e308, 0}, {-1e308, 0, 1e308}},
+                            {{{0, 1, 2}}}};
+  const TriangleSoup high = testing::moved(low, {1e308, 0, 0});
+  EXPECT_DOUBLE_EQ(mesh_distance(low, high).largest(), 1e308);
+  EXPECT_EQ(mesh_distance(low, testing::moved(high, {1e308, 0, 0})).largest(),
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(MeshDistance, LeavesOutWhatIsNotFiniteAndTakesWhatHasNoArea) {

@@ -32,6 +32,14 @@ TEST(PointDistances, OfCornersAreNotBeyondTheHausdorffDistance) {
   EXPECT_DOUBLE_EQ(*std::max_element(distances.begin(), distances.end()), largest);
 }
 
+TEST(PointDistances, AreThoseInAnyUnit) {
+  for (const double unit : {0x1p-600, 0x1p-300, 0x1p300, 0x1p500}) {
+    const TriangleSoup box = testing::box(Vec3d::Zero(), Vec3d::Constant(unit));
+    const std::vector<Vec3d> points = {{0.5 * unit, 0.5 * unit, 3 * unit}};
+    EXPECT_EQ(point_distances(points, box), std::vector<double>{2 * unit});
+  }
+}
+
 TEST(PointDistances, PassOverWhatIsNotFinite) {
   TriangleSoup box = testing::box({0, 0, 0}, {1, 1, 1});
   const std::vector<Vec3d> points = {{0.5, 0.5, 3}};

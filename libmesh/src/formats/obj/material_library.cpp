@@ -99,13 +99,12 @@ class LibraryReader {
     look_->transform.offset = {map.offset[0], 1 - map.scale[1] - map.offset[1]};
   }
 
-  // None where a link leads out of the folder.
+  // Whether there is such a file or not: who wants to draw says so where it cannot be opened.
   std::uint32_t image_of(const std::string& name) {
     if (name.empty()) return kNone;
     const std::string beside = name_beside(library_, name);
     Image image = picture_named(source_, beside);
     if (image.path.empty() && !image.bytes) image.name = name;
-    if (image.is_elsewhere) return kNone;
     const auto same =
         std::find_if(attributes_.images.begin(), attributes_.images.end(), [&](const Image& known) {
           return known.path == image.path && known.bytes == image.bytes && known.name == image.name;

@@ -116,6 +116,22 @@ TEST_F(ObjLibraries, OutsideTheFolderAreNotOpened) {
   }
 }
 
+// So that whoever draws it can say what is missing.
+TEST_F(ObjLibraries, PicturesOutsideTheFolderKeepTheirNames) {
+  write("secret.png", "picture");
+  std::filesystem::create_symlink(folder_.path() / "secret.png", folder_.path() / "in/link.png");
+  std::filesystem::create_directory(folder_.path() / "in/folder.png");
+  for (const std::string name : {"link.png", "folder.png"}) {
+    write("in/a.mtl", "newmtl wood\nmap_Kd " + name + "\n");
+    write("in/mesh.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
+    const ReadResult result = read_with_attributes(folder_.path() / "in/mesh.obj");
+    ASSERT_EQ(result.attributes.images.size(), 1u) << name;
+    EXPECT_EQ(result.attributes.images[0].name, name);
+    EXPECT_TRUE(result.attributes.images[0].is_elsewhere);
+    EXPECT_EQ(result.attributes.images[0].bytes, nullptr);
+  }
+}
+
 // Two meshes whose materials have one name: the second gets another, with all that is said of it.
 TEST_F(ObjLibraries, OfTwoMeshesWithOneNameMakeTwoMaterials) {
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl one\nf 1 2 3\n";
