@@ -33,8 +33,8 @@ class WarningSink : public spdlog::sinks::base_sink<spdlog::details::null_mutex>
 };
 
 // Those of the programs that are about their process, or about what they print.
-constexpr std::string_view kOfPrograms[] = {"report", "quiet", "verbose",  "version",
-                                            "help",   "json",  "describe", "progress-fd"};
+constexpr std::string_view kOfPrograms[] = {"report", "quiet",    "verbose",     "version", "help",
+                                            "json",   "describe", "progress-fd", "temp"};
 
 template <class Names>
 bool is_among(const Names& names, std::string_view name) {

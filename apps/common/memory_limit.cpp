@@ -138,11 +138,9 @@ struct Pages {
 
 // Asked often, by several threads: the file of plain numbers is read with the least effort.
 Pages pages_now() {
-  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-  if (file < 0) return {};
+  static const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   std::array<char, 128> text = {};
-  const ssize_t size = ::read(file, text.data(), text.size() - 1);
-  ::close(file);
+  const ssize_t size = ::pread(file, text.data(), text.size() - 1, 0);
   Pages pages;
   unsigned long total = 0, code = 0, libraries = 0;
   if (size <= 0 || std::sscanf(text.data(), "%lu %lu %lu %lu %lu %lu", &total, &pages.resident,

@@ -13,7 +13,7 @@ namespace meshrepair {
 namespace {
 
 constexpr std::chrono::microseconds kWhenFar(1000), kWhenNear(200);  // between looks
-constexpr std::size_t kAtOnce = std::size_t{4} << 20;                // addresses; a look follows
+constexpr std::size_t kAtOnce = std::size_t{32} << 20;               // addresses; a look follows
 // Pages that are in the file's cache come back fast: what threads may take between two looks.
 constexpr double kSparedShare = 0.25;
 constexpr double kLeastSpared = 96 << 20;  // bytes; not more than half of the limit

@@ -75,22 +75,21 @@ SpillFile::SpillFile(const std::filesystem::path& folder, std::uint64_t most_res
   room_ = room_for(descriptor_);
   ::madvise(at, bytes, MADV_DONTDUMP);
   base_ = static_cast<char*>(at);
-  begin_ = base_;
-  end_ = base_ + bytes;
+  addresses_ = bytes;
+  set_range(base_, base_ + bytes);
 }
 
 SpillFile::~SpillFile() {
-  ::munmap(base_, static_cast<std::size_t>(end_ - begin_));
+  ::munmap(base_, addresses_);
   ::close(descriptor_);
 }
 
 void* SpillFile::take(std::size_t bytes) noexcept try {
-  const std::uint64_t addresses = static_cast<std::uint64_t>(end_ - begin_);
-  if (bytes > addresses || reserved_memory() + bytes <= most_reserved_) return nullptr;
+  if (bytes > addresses_ || reserved_memory() + bytes <= most_reserved_) return nullptr;
   const std::uint64_t size = grains(bytes);
   const std::scoped_lock lock(mutex_);
   const Offset at = place_for(size);
-  if (bytes_ + size > room_ || at + size > addresses || !reserve(at, size)) {
+  if (bytes_ + size > room_ || at + size > addresses_ || !reserve(at, size)) {
     add_hole(at, size);
     was_full_ = true;
     return nullptr;

@@ -47,6 +47,7 @@ class SpillFile : public BlockSource {
 
   int descriptor_ = -1;
   char* base_ = nullptr;
+  std::uint64_t addresses_ = 0;  // from there on
   std::uint64_t most_reserved_;
   std::uint64_t room_ = 0;                  // on the disk, for all blocks
   mutable std::mutex mutex_;                // for the three that follow

@@ -17,6 +17,10 @@ namespace {
 
 constexpr const char* kDefaultFolder = "/var/tmp";  // for large files, which /tmp may not be
 
+// Of the limit: what is allocated before is the system's. Who names a size has less than is needed,
+// and pages of the file take turns in what is left; the whole machine is seldom too small.
+constexpr std::uint64_t kInMemory = 4, kInMemoryOfShare = 2;
+
 std::string default_folder() {
   const char* const named = std::getenv("TMPDIR");
   return named != nullptr && *named != '\0' ? named : kDefaultFolder;
@@ -36,7 +40,7 @@ Spilling::Spilling(const std::string& folder, const MemoryLimit& limit)
   if (limit.bytes == 0 || folder == "none") return;
   if (folder.empty() && is_in_memory(folder_)) return;
   try {
-    file_ = new SpillFile(folder_, limit.bytes / 2);
+    file_ = new SpillFile(folder_, limit.bytes / (limit.is_share ? kInMemoryOfShare : kInMemory));
   } catch (const OutputError& error) {
     if (!folder.empty()) throw;
     logger().debug("{}", error.what());

@@ -11,8 +11,9 @@
 
 namespace meshrepair {
 
-// As long as it is there, memory that is allocated from half of the limit on comes from a file, and
-// what of it is in memory is kept within the limit.
+// As long as it is there, memory that is allocated from a quarter of the limit on comes from a
+// file, and what of it is in memory is kept within the limit. Of a share of the machine it is a
+// half.
 class Spilling {
  public:
   // `folder` is that of the file. Empty: the one that $TMPDIR names, or else /var/tmp; if no file

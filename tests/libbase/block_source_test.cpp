@@ -17,8 +17,7 @@ constexpr std::size_t kRoom = 8 * kLeastBlock;
 class OneShelf : public BlockSource {
  public:
   OneShelf() : room_(new char[kRoom]) {
-    begin_ = room_.get();
-    end_ = begin_ + kRoom;
+    set_range(room_.get(), room_.get() + kRoom);
     set_block_source(this);
   }
   ~OneShelf() override { set_block_source(nullptr); }

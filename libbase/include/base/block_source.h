@@ -31,6 +31,13 @@ class BlockSource {
   }
 
  protected:
+  // Once, before the first block.
+  void set_range(const char* begin, const char* end) noexcept {
+    begin_ = begin;
+    end_ = end;
+  }
+
+ private:
   const char* begin_ = nullptr;
   const char* end_ = nullptr;
 };
