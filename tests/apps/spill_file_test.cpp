@@ -1,5 +1,6 @@
 #include "spill/spill_file.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <random>
 #include <span>
 #include <sys/resource.h>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -146,20 +148,20 @@ TEST_F(SpillFileTest, AFolderThatIsNotThereIsAnError) {
   EXPECT_THROW(SpillFile(folder_ / "none", 0), OutputError);
 }
 
-TEST_F(SpillFileTest, MemoryStaysWithinTheLimit) {
+// How soon depends on what else the machine does.
+TEST_F(SpillFileTest, MemoryComesDownToTheLimit) {
   constexpr std::size_t kBytes = 256 * kMega;
   const std::uint64_t before = resident_memory();
   if (before == 0) GTEST_SKIP() << "the system does not tell how much memory is used";
   SpillFile file(folder_, 0);
-  const ResidentLimit limit(file, before + 160 * kMega);
   void* const block = file.take(kBytes);
-  std::uint64_t most = 0;
-  const auto numbers = numbers_of(block, kBytes);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = i;
-    if (i % (kMega / 8) == 0) most = std::max(most, resident_memory());
+  fill(block, kBytes, 0);
+  EXPECT_GT(resident_memory(), before + kBytes / 2);
+  const ResidentLimit limit(file, before + 160 * kMega);
+  for (int wait = 0; wait < 1000 && resident_memory() > before + 160 * kMega; ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  EXPECT_LT(most, before + kBytes - 32 * kMega);
+  EXPECT_LE(resident_memory(), before + 160 * kMega);
   EXPECT_TRUE(holds(block, kBytes, 0));
   file.give_back(block);
 }
