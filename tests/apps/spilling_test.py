@@ -85,7 +85,7 @@ class Spilling(unittest.TestCase):
         self.compare("meshcheck", ["a.stl"], code=1)
 
     def test_boolean(self):
-        self.compare("bspbool", ["union", "a.stl", "b.stl", "-o", "both.off"], "both.off")
+        self.compare("bspbool", ["a.stl", "b.stl", "--op", "union", "-o", "both.off"], "both.off")
 
     def test_distance(self):
         self.compare("meshdist", ["a.stl", "b.stl"])
