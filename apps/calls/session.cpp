@@ -6,6 +6,7 @@
 #include <new>
 #include <optional>
 
+#include <CLI/Config.hpp>
 #include <spdlog/logger.h>
 #include <spdlog/sinks/base_sink.h>
 
