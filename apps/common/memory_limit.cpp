@@ -136,11 +136,14 @@ struct Pages {
   unsigned long data = 0;    // private, resident or not
 };
 
-// Asked often, by several threads: the file of plain numbers is read with the least effort.
+// Asked often, by several threads: the file of plain numbers is read with the least effort. It is
+// opened each time: in a process that was forked, one that stays open tells of its parent.
 Pages pages_now() {
-  static const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return {};
   std::array<char, 128> text = {};
-  const ssize_t size = ::pread(file, text.data(), text.size() - 1, 0);
+  const ssize_t size = ::read(file, text.data(), text.size() - 1);
+  ::close(file);
   Pages pages;
   unsigned long total = 0, code = 0, libraries = 0;
   if (size <= 0 || std::sscanf(text.data(), "%lu %lu %lu %lu %lu %lu", &total, &pages.resident,
