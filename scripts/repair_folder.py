@@ -27,6 +27,7 @@ import sys
 sys.dont_write_bytecode = True
 sys.pycache_prefix = os.devnull
 
+from folder_repair.archive import open_archive
 from folder_repair.basics import EXTENSION_OF_FORMAT, NAME, OUTPUT, USAGE, Stop, say, text
 from folder_repair.folder_run import FolderRun
 from folder_repair.out_folder import OutFolder
@@ -179,8 +180,9 @@ def check_folders(options):
     """Makes them absolute. Refuses what would let outputs replace inputs."""
     options.in_dir = os.path.abspath(os.fsencode(options.in_dir))
     options.out_dir = os.path.abspath(os.fsencode(options.out_dir))
-    if not os.path.isdir(options.in_dir):
-        raise Stop(USAGE, f"{text(options.in_dir)} is no folder")
+    if not os.path.exists(options.in_dir):
+        raise Stop(USAGE, f"{text(options.in_dir)} is not there")
+    options.archive = None if os.path.isdir(options.in_dir) else open_archive(options.in_dir)
     if os.path.lexists(options.out_dir) and not os.path.isdir(options.out_dir):
         raise Stop(USAGE, f"{text(options.out_dir)} is no folder")
     source, target = os.path.realpath(options.in_dir), os.path.realpath(options.out_dir)

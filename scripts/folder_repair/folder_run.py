@@ -13,11 +13,13 @@ import subprocess
 import sys
 import time
 
+from .archive import Lost
+from .archive_inputs import ArchiveInputs, MemberJob, NotUnpacked
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NO_SOLID, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
                      key_of, names_of, print_to, say, text, value_of)
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
-from .inputs import Job, find_meshes, listed_meshes, name_outputs
+from .inputs import Job, find_meshes, listed_meshes, name_outputs, names_listed
 from .journal import Journal
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
 from .summary import Progress, as_csv, as_json, table, totals_of
@@ -38,12 +40,14 @@ class FolderRun:
         self.selector = selectors.DefaultSelector()
         self.catch_signals()
         self.command = self.worker_command(program)
+        self.knows_roots = program.knows_roots
         self.memory_allowed = options.max_memory
         if options.max_memory and program.limits_memory:
             self.memory_allowed = int(MEMORY_SLACK * options.max_memory)
         self.settings = [program.version, program.digest, options.format or "", *(["--html"] if options.html else []),
                          *(os.fsencode(a).decode("utf-8", "surrogateescape") for a in options.passed)]
         self.workers, self.rows, self.serial = {}, {}, 0
+        self.inputs = None  # of an archive
 
     def worker_command(self, program):
         """Without what differs from file to file."""
@@ -53,8 +57,6 @@ class FolderRun:
                    "--time-limit", f"{options.timeout:.10g}", *options.passed]
         if options.html:
             command += options_for(options.passed)
-        if program.knows_roots:
-            command += ["--root", options.in_dir]
         if program.limits_memory:
             command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M" if options.max_memory else "0"]
         return command
@@ -90,7 +92,8 @@ class FolderRun:
         if others and not shard:
             self.journal.take_over(others)
             self.out.drop_shards()
-        self.queue = collections.deque(self.without_finished(jobs))
+        left = list(self.without_finished(jobs))
+        self.queue = collections.deque(self.inputs.in_order(left) if self.inputs else left)
         self.tell_start(jobs, left_out)
         if not options.merge:
             self.work_through(jobs)
@@ -98,7 +101,12 @@ class FolderRun:
 
     def find_jobs(self):
         options = self.options
-        if options.list is None:
+        if options.archive:
+            self.inputs = ArchiveInputs(options.archive, self.out.work, options.timeout)
+            meshes, left_out = self.inputs.read(lambda: self.stop_signal)
+            if options.list is not None:
+                meshes, left_out = self.inputs.listed(names_listed(options.list, options.in_dir))
+        elif options.list is None:
             meshes, left_out = find_meshes(options.in_dir, self.out.path, lambda: self.stop_signal)
         else:
             meshes, left_out = listed_meshes(options.list, options.in_dir, self.out.path)
@@ -106,6 +114,8 @@ class FolderRun:
         outputs = name_outputs(meshes, options.format)
         if options.shard:
             meshes = {name: mesh for name, mesh in meshes.items() if options.shard.holds(name)}
+        if options.archive:
+            return [MemberJob(name, mesh, outputs[name], options, self.inputs) for name, mesh in meshes.items()], left_out
         return [Job(name, mesh, outputs[name], options) for name, mesh in meshes.items()], left_out
 
     def work_through(self, jobs):
@@ -132,7 +142,7 @@ class FolderRun:
 
     def tell_start(self, jobs, left_out):
         for name, why in sorted(left_out.items()):
-            if not self.options.quiet or name.endswith(b"/"):
+            if not self.options.quiet or name.endswith(b"/") or isinstance(why, Lost):
                 say(f"{text(name)}: left out: {why}")
         if self.options.quiet:
             return
@@ -149,15 +159,19 @@ class FolderRun:
         while (self.queue or self.workers) and not self.stop_signal:
             while self.queue and len(self.workers) < self.options.jobs:
                 self.start(self.queue.popleft())
-            self.wait()
-            for serial, worker in list(self.workers.items()):
-                if worker.has_ended():
-                    self.forget(serial)
-                    self.finish(worker)
-                elif not worker.enforce(self.options, self.memory_allowed):
-                    self.forget(serial)
-                    self.settle(worker.job, worker.job.row(LIMIT, "cannot be killed"), final=False)
-            self.progress.draw()
+            self.attend(TICK_SECONDS if self.workers else 0)
+
+    def attend(self, seconds):
+        """To the workers, for so long if nothing happens."""
+        self.wait(seconds)
+        for serial, worker in list(self.workers.items()):
+            if worker.has_ended():
+                self.forget(serial)
+                self.finish(worker)
+            elif not worker.enforce(self.options, self.memory_allowed):
+                self.forget(serial)
+                self.settle(worker.job, worker.job.row(LIMIT, "cannot be killed"), final=False)
+        self.progress.draw()
 
     def start(self, job):
         try:
@@ -169,17 +183,35 @@ class FolderRun:
         job.trials += 1
         folder = os.path.join(self.out.work, b"%d" % self.serial)
         os.mkdir(folder)
+        if not self.unpack(job, folder + b".in"):
+            return None
+        command = [*self.command, *(["--root", job.root] if self.knows_roots else [])]
         try:
-            worker = Worker(job, self.command, folder, self.out.locks, self.options.html)
+            worker = Worker(job, command, folder, self.out.locks, self.options.html)
         except (OSError, subprocess.SubprocessError) as error:
+            job.clear()
             row = job.row(INTERNAL, f"meshrepair cannot be started: {error}")
             return self.settle(job, row, final=False)
         self.workers[self.serial] = worker
         self.selector.register(worker.stderr, selectors.EVENT_READ, worker)
+        return None
 
-    def wait(self):
+    def unpack(self, job, folder):
+        """Whether it is ready, and is to be begun. Meanwhile the other workers are attended to."""
+        try:
+            for _ in job.unpack(folder):
+                self.attend(0)
+                if self.stop_signal:
+                    return False
+            return True
+        except NotUnpacked as error:
+            job.clear()
+            self.settle(job, job.row(error.code, str(error)), final=False)
+            return False
+
+    def wait(self, seconds):
         """Until something happens, but not for long."""
-        for key, _ in self.selector.select(TICK_SECONDS if self.workers else 0):
+        for key, _ in self.selector.select(seconds):
             if key.data is None:
                 os.read(key.fd, 4096)
             elif not key.data.listen():
@@ -196,19 +228,29 @@ class FolderRun:
         # Somebody, or the system for want of memory, has killed it: once more, after all others.
         if code == KILLED and job.trials == 1:
             self.queue.append(job)
-            return worker.clear()
+            return self.clear(worker)
+        names = names_of(report, "files") + names_of(report, "pictures")
+        if job.lacks(names):
+            job.trials -= 1
+            self.queue.append(job)
+            return self.clear(worker)
         row = job.row(code, error, report)
-        job.note_needs(names_of(report, "files") + names_of(report, "pictures"))
+        job.note_needs(names)
         if code in WRITTEN and os.path.isfile(worker.mesh):
             row = self.take_output(worker, row, report)
         elif row["exit_code"] == NO_SOLID:
             self.take_pages(worker, report)
         row["seconds"] = round(time.monotonic() - worker.started, 3)
         row["peak_memory_bytes"] = value_of(report, "peak_memory_bytes") or worker.peak_memory
-        worker.clear()
+        self.clear(worker)
         # What cannot be read may lack a buffer; which one, no report says.
         lacks_others = row["exit_code"] == INPUT and job.reads_others
         self.settle(job, row, final=row["exit_code"] in FINAL and not lacks_others)
+
+    @staticmethod
+    def clear(worker):
+        worker.clear()
+        worker.job.clear()
 
     def take_output(self, worker, row, report):
         """The row with what is known of the output."""
@@ -241,7 +283,7 @@ class FolderRun:
         """Those that lie in IN_DIR; names of others are said, as the result may look otherwise."""
         if job.format not in NAME_PICTURES + HOLD_PICTURES:
             return
-        pictures, outside, displaced = pictures_of(job, self.options.in_dir, report)
+        pictures, outside, displaced = pictures_of(job, job.root, report)
         for place, path in pictures.items():
             target = os.path.join(self.out.path, place)
             if not self.out.holds_same(path, target):
@@ -327,8 +369,8 @@ class FolderRun:
         if not self.options.quiet:
             print_to(sys.stdout, table(totals, elapsed))
         self.stop_if_told()
-        has_unread_folder = any(name.endswith(b"/") for name in left_out)
-        all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_unread_folder and not totals["not_done"]
+        has_lost = any(name.endswith(b"/") or isinstance(why, Lost) for name, why in left_out.items())
+        all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_lost and not totals["not_done"]
         return DONE if all_passed else NOT_CERTIFIED
 
     def write_gallery(self, jobs, totals):

@@ -102,21 +102,28 @@ def find_meshes(folder, out_folder, stopped):
     return dict(sorted(meshes.items())), left_out
 
 
-def listed_meshes(path, folder, out_folder):
-    """The same of the files that a list names, one in each line, or each with a zero behind it. Names are relative to
-    the folder, or absolute and in it. Stop if one leads out of it."""
+def names_listed(path, folder):
+    """Names of the files that a list names, one in each line, or each with a zero behind it. They are relative to the
+    folder, or absolute and in it. Stop if one leads out of it."""
     try:
         with open(0 if path == b"-" else path, "rb", closefd=path != b"-") as file:
             data = file.read()
     except OSError as error:
         raise Stop(USAGE, f"--list: {text(path)}: {error.strerror}") from None
-    meshes, left_out, out_identity = {}, {}, identity(out_folder)
+    names = []
     for line in data.split(b"\0" if b"\0" in data else b"\n"):
         if not line:
             continue
-        name = os.path.relpath(os.path.normpath(os.path.join(folder, line)), folder)
-        if name.split(b"/")[0] == b"..":
+        names.append(os.path.relpath(os.path.normpath(os.path.join(folder, line)), folder))
+        if names[-1].split(b"/")[0] == b"..":
             raise Stop(USAGE, f"--list: {text(line)} is not in {text(folder)}")
+    return names
+
+
+def listed_meshes(path, folder, out_folder):
+    """As find_meshes(), of the files that a list names."""
+    meshes, left_out, out_identity = {}, {}, identity(out_folder)
+    for name in names_listed(path, folder):
         kind = kind_of(NamedEntry(os.path.join(folder, name)), out_identity)
         if kind == "mesh":
             meshes[name] = split_name(name)[1]
@@ -186,6 +193,7 @@ class Job:
     def __init__(self, name, mesh, output, options):
         """`mesh` is the extension of the mesh that it is or holds."""
         self.name = name
+        self.root = options.in_dir  # names lead nowhere else
         self.source = os.path.join(options.in_dir, name)
         self.output = output
         self.target = os.path.join(options.out_dir, output)
@@ -211,6 +219,17 @@ class Job:
             raise OSError(errno.EINVAL, "is no regular file")
         self.size, self.mtime_ns = status.st_size, status.st_mtime_ns
         self.looked_at = time.time_ns()
+
+    def unpack(self, folder):
+        """Gets it ready in this folder, if it is not yet; in steps. NotUnpacked if it cannot be."""
+        return ()
+
+    def clear(self):
+        """Removes what was got ready."""
+
+    def lacks(self, names):
+        """Some of these, which the mesh names, are to be had, but were not there when it was read."""
+        return False
 
     def path_of(self, name):
         """Of a file that it names. Reports have U+FFFD for what is no UTF-8: then it is the file that is meant."""

@@ -193,4 +193,6 @@ class Worker:
             line = line.removeprefix(path.decode("utf-8", "replace") + ": ")
         for path in (self.mesh, self.job.target):
             line = line.replace(path.decode("utf-8", "replace"), text(self.job.output))
+        if self.job.root.startswith(self.folder):  # unpacked, to a place that is another in each run
+            line = line.replace(os.path.join(self.job.root, b"").decode("utf-8", "replace"), "")
         return line or f"ended with exit code {self.code} and said nothing"
