@@ -16,16 +16,17 @@ import time
 from .archive import Lost
 from .archive_inputs import ArchiveInputs, MemberJob, NotUnpacked
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NO_SOLID, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
-                     key_of, names_of, print_to, say, text, value_of)
+                     key_of, names_of, bytes_of, print_to, say, text, unpacked, value_of)
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
 from .inputs import Job, find_meshes, listed_meshes, name_outputs, names_listed
 from .journal import Journal
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
-from .summary import Progress, as_csv, as_json, table, totals_of
+from .summary import PackedRows, Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
 TICK_SECONDS = 0.25  # how often limits are looked at
+FLUSH_SECONDS = 0.25  # how long what is finished may be in no line of the journal
 LONGEST_NAME = 200  # that is said of a file that a mesh names
 SECONDS_TO_END = 0.3  # from a signal to this script until its workers are killed
 MEMORY_SLACK = 1.25  # a worker that keeps to its limit itself is killed only beyond this
@@ -35,7 +36,7 @@ class FolderRun:
     def __init__(self, options, program, out):
         self.options = options
         self.out = out
-        self.started = time.monotonic()
+        self.started = self.flushed = time.monotonic()
         self.stop_signal = None
         self.selector = selectors.DefaultSelector()
         self.catch_signals()
@@ -85,7 +86,7 @@ class FolderRun:
         jobs, left_out = self.find_jobs()
         if not options.restart:
             self.out.refuse_foreign_files(jobs, [INDEX, GALLERY] if options.html and not shard else [])
-        self.keys_of_jobs = {key_of(job.name) for job in jobs}
+        self.names_of_jobs = {job.name for job in jobs}
         others = [self.out.main_journal] if shard else self.out.journals_of_shards()
         self.journal = Journal(self.out.path, self.out.journal_path, self.settings, options.restart, others,
                                shard.holds if shard else None)
@@ -119,7 +120,7 @@ class FolderRun:
         return [Job(name, mesh, outputs[name], options) for name, mesh in meshes.items()], left_out
 
     def work_through(self, jobs):
-        failed = sum(row["exit_code"] != DONE for row in self.rows.values())
+        failed = sum(unpacked(row)["exit_code"] != DONE for row in self.rows.values())
         self.progress = Progress(len(jobs), len(self.rows), failed, self.options.quiet)
         try:
             self.work()
@@ -160,6 +161,18 @@ class FolderRun:
             while self.queue and len(self.workers) < self.options.jobs:
                 self.start(self.queue.popleft())
             self.attend(TICK_SECONDS if self.workers else 0)
+            if time.monotonic() > self.flushed + FLUSH_SECONDS:
+                self.flush()
+        self.flush()
+
+    def flush(self):
+        """Outputs, then the lines that tell of them. For many at a time: to wait for the disk may take longer than a repair."""
+        self.out.sync()
+        try:
+            self.journal.flush()
+        except OSError as error:
+            raise Stop(OUTPUT, f"{text(self.out.journal_path)}: cannot be written: {error.strerror}") from None
+        self.flushed = time.monotonic()
 
     def attend(self, seconds):
         """To the workers, for so long if nothing happens."""
@@ -314,7 +327,7 @@ class FolderRun:
 
     def is_of_another(self, name, target, job, of_pictures=True):
         """Of an output of this run, or not from this script. A picture may be of several outputs."""
-        if self.journal.others_with(name, job, of_pictures) & self.keys_of_jobs:
+        if any(bytes_of(key) in self.names_of_jobs for key in self.journal.others_with(name, job, of_pictures)):
             return True
         is_known = key_of(name) in self.journal.owners
         return self.out.is_new and not self.options.restart and not is_known and os.path.lexists(target)
@@ -325,12 +338,7 @@ class FolderRun:
             self.remove_old(job, is_written=row["output"] is not None)
         except OSError as error:
             row["error"] = f"{row['error'] or ''}; its old output cannot be removed: {error.strerror}".lstrip("; ")
-        try:
-            self.journal.add(job, row, final)
-        except OSError as error:
-            name = text(self.out.journal_path)
-            raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None
-        self.rows[job.name] = row
+        self.rows[job.name] = self.journal.add(job, row, final)
         self.progress.finished(row)
 
     def remove_old(self, job, is_written):
@@ -357,7 +365,7 @@ class FolderRun:
         self.out.clear_work()
 
     def sum_up(self, jobs, left_out):
-        rows = [self.rows[job.name] for job in jobs if job.name in self.rows]
+        rows = PackedRows([self.rows[job.name] for job in jobs if job.name in self.rows])
         totals = totals_of(rows, len(jobs) - len(rows))
         elapsed = time.monotonic() - self.started
         # That of a shard is no summary of OUT_DIR.
@@ -376,7 +384,7 @@ class FolderRun:
     def write_gallery(self, jobs, totals):
         """One of an earlier run, whose pages are gone, does not stay."""
         if self.options.html:
-            rows = [row_of(job, self.rows[job.name], self.journal.entry_of(job)) for job in jobs if job.name in self.rows]
-            self.out.write(INDEX, as_html(rows, self.settings, totals))
+            rows = [row_of(job, unpacked(self.rows[job.name]), self.journal.entry_of(job)) for job in jobs if job.name in self.rows]
+            self.out.write(INDEX, [as_html(rows, self.settings, totals)])
         elif is_gallery(index := os.path.join(self.out.path, INDEX)):
             self.out.remove(index)
