@@ -19,7 +19,6 @@ CHUNK = 1 << 20
 LONGEST_HEADER = 1 << 20  # of a tar: a longer one is hostile
 MOST_LINKS = 10  # from one to the next
 UNPACKERS = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open, b"\xfd7zXZ\0": lzma.open, b"\x28\xb5\x2f\xfd": opened_zstd}
-TAR_ENDINGS = (b".tar", b".tgz", b".tbz2", b".txz", b".tzst", b".tar.gz", b".tar.bz2", b".tar.xz", b".tar.zst")
 
 
 class Lost(str):
@@ -180,11 +179,38 @@ def entries_of(infos):
 
 def read_chunks(file, size):
     while size > 0:
-        data = file.read(min(CHUNK, size))
+        try:
+            data = file.read(min(CHUNK, size))
+        except Exception as error:  # pylint: disable=broad-exception-caught
+            raise Broken(str(error) or type(error).__name__) from None
         if not data:
             raise Broken("it is cut off")
         size -= len(data)
         yield data
+
+
+class UpToDamage:
+    """A file that is unpacked, of which all is read that comes before a damage; then the error."""
+
+    def __init__(self, file):
+        self.file, self.error = file, None
+
+    def read(self, size):
+        if self.error:
+            raise self.error
+        pieces, length = [], 0
+        try:
+            while length < size and (data := self.file.read1(size - length)):
+                pieces.append(data)
+                length += len(data)
+        except Exception as error:  # pylint: disable=broad-exception-caught
+            self.error = error
+            if not pieces:
+                raise
+        return b"".join(pieces)
+
+    def close(self):
+        self.file.close()
 
 
 class TarArchive(Archive):
@@ -222,9 +248,10 @@ class StreamedTar(Archive):
             self.unpacked.close()
         self.file.seek(0)
         path = f"/proc/self/fd/{self.file.fileno()}"  # the one that was opened first
-        self.unpacked = self.unpacker(path)
-        if self.unpacked is None:
+        unpacked = self.unpacker(path)
+        if unpacked is None:
             raise Stop(USAGE, f"{text(self.path)} is packed with Zstandard, and there is neither Python 3.14 nor the program zstd")
+        self.unpacked = UpToDamage(unpacked)
         self.tar = open_tar(self.unpacked, "r|")
         self.infos = walk(self.tar)
         self.current = None

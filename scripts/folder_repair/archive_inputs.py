@@ -206,7 +206,7 @@ class KeptMembers:
         self.sizes = {}  # of meshes among them
         self.mesh_bytes = 0
         self.place = 0  # of what comes next, or before
-        self.is_at_start = False
+        self.is_reading = False
 
     def in_order(self, jobs):
         jobs = [job for job in jobs if self.note(job)]
@@ -245,13 +245,12 @@ class KeptMembers:
 
     def go_to(self, place, seconds):
         """Keeps what is there, and on the way there what others need."""
-        if place < self.place or not self.is_at_start:
+        if place < self.place or not self.is_reading:
             self.archive.rewind()
-            self.is_at_start = True
+        self.is_reading = False  # should this end early
         while True:
             here = self.archive.next_place()
             if here is None or here > place:
-                self.is_at_start = False
                 raise Broken("it is not where it was")
             self.place = here + 1
             info = self.archive.current
@@ -261,6 +260,7 @@ class KeptMembers:
             else:
                 yield from self.archive.skip()
             if here == place:
+                self.is_reading = True
                 return
 
     @staticmethod

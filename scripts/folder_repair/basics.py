@@ -12,6 +12,8 @@ EXTENSION_OF_FORMAT = {"obj": b".obj", "stl": b".stl", "stl-ascii": b".stl", "of
 READS_OTHERS = (b".obj", b".gltf", b".glb")  # their libraries and buffers are read, too
 PACKINGS = (b".gz", b".zst")  # that may stand behind these
 ARCHIVE = b".zip"
+TAR_ENDINGS = (b".tar", b".tgz", b".tbz2", b".txz", b".tzst", b".tar.gz", b".tar.bz2", b".tar.xz", b".tar.zst")
+BY_ITSELF = "repair it by itself, as IN_DIR"
 
 GUARANTEES = ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles")
 SAME_IN_EACH_RUN = ("path", "output", "exit_code", *GUARANTEES, "triangles_in", "triangles_out",

@@ -7,8 +7,8 @@ import stat
 import time
 import zipfile
 
-from .basics import (ARCHIVE, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, MEASURED, PACKINGS,
-                     READS_OTHERS, SAME_IN_EACH_RUN, USAGE, Stop, text, value_of)
+from .basics import (ARCHIVE, BY_ITSELF, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, PACKINGS,
+                     READS_OTHERS, ROW, TAR_ENDINGS, USAGE, Stop, text, value_of)
 
 STATE = b".repair_folder"  # of a run, in its OUT_DIR; folders of this name are no input
 UNKNOWN = "unknown"  # how a file was when it was read; it is like no other
@@ -50,7 +50,7 @@ def kind_of_archive(path):
     if found is None:
         return "is no ZIP archive that can be read"
     if len(found) > 1:
-        return "holds several meshes"
+        return f"holds several meshes: {BY_ITSELF}"
     return found[0] if found else None
 
 
@@ -65,6 +65,8 @@ def kind_of(entry, out_identity):
             return "is a link to a folder"
     except OSError:
         pass  # a loop of links, or gone: said when it is opened, if the name is that of a mesh
+    if entry.name.lower().endswith(TAR_ENDINGS):
+        return f"is an archive: {BY_ITSELF}"
     extension = split_name(entry.name)[1]
     is_archive = os.path.splitext(entry.name)[1].lower() == ARCHIVE
     if extension not in FORMAT_OF_EXTENSION and not is_archive:
@@ -268,7 +270,7 @@ class Job:
 
     def row(self, code, error, report=None):
         """For the summary, as if nothing was written; what is not known is None."""
-        row = dict.fromkeys(SAME_IN_EACH_RUN + MEASURED)
+        row = dict.fromkeys(ROW)
         row.update({name: value_of(report, "certificate", name) for name in GUARANTEES})
         row.update(path=text(self.name), exit_code=code, error=error, bytes_in=self.size,
                    triangles_in=value_of(report, "clean", "triangles_in"))

@@ -73,8 +73,9 @@ class Journal:
 
     Keys: `path` and `output`, names relative to IN_DIR and OUT_DIR; `beside`: names of the files that the output
     needs beside it, and their sizes, if there are any; `pictures`: the same of copies of pictures; `size` and
-    `mtime_ns` of the input, of a member of an archive what tells it from others; `needs`: names of other files that it names, from its folder, with [size, mtime_ns] of
-    each, null where there is none, or "unknown"; `shown`: its page and picture in the gallery, and their sizes, and
+    `mtime_ns` of the input, or what stands for it of a member of an archive; `needs`: names of other files that it
+    names, from its folder, with [size, mtime_ns] of each, null where there is none, or "unknown"; `shown`: its page and
+    picture in the gallery, and their sizes, and
     `facts`, what the gallery says of it; `settings`: version of the program, first digits of its SHA-256, --format,
     --html, options after --; `final`: not to be tried again; `row`: as in the summary; `time_ns`: when it was
     written. The latest line of a path counts, the last one of those. A line that is not whole counts for nothing;

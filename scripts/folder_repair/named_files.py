@@ -60,9 +60,14 @@ class PipeOfProgram:
             self.process = subprocess.Popen(command, stdin=file, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
 
     def read(self, size):
-        data = self.process.stdout.read(size)
-        if len(data) < size and self.process.wait() != 0:
-            raise EOFError("is broken or cut off")
+        return self.checked(self.process.stdout.read(size))
+
+    def read1(self, size):
+        return self.checked(self.process.stdout.read1(size))
+
+    def checked(self, data):
+        if not data and self.process.wait() != 0:
+            raise EOFError("it is broken or cut off")
         return data
 
     def close(self):
