@@ -17,6 +17,7 @@ of files are bytes throughout, for not every name is text.
 """
 
 import argparse
+import gc
 import os
 import re
 import sys
@@ -33,6 +34,10 @@ from folder_repair.folder_run import FolderRun
 from folder_repair.out_folder import OutFolder
 from folder_repair.program import Program
 from folder_repair.shards import Shard
+
+# Nearly all that is made stays, for there is something of each file: it is looked through seldom. Saves a tenth of the
+# time of a run with nothing to do.
+COLLECT_AFTER = (50_000, 20, 100)
 
 # Options of meshrepair that are set here, for each file.
 OWN_OPTIONS = ("--report", "--threads", "--time-limit", "--max-memory", "--format", "-q", "--quiet",
@@ -218,6 +223,7 @@ def open_standard_streams():
 
 
 def main():
+    gc.set_threshold(*COLLECT_AFTER)
     open_standard_streams()
     try:
         return run()

@@ -20,7 +20,9 @@ SAME_IN_EACH_RUN = ("path", "output", "exit_code", *GUARANTEES, "triangles_in", 
                     "bytes_in", "bytes_out", "error")
 MEASURED = ("seconds", "peak_memory_bytes")
 ROW = SAME_IN_EACH_RUN + MEASURED
-LONGEST_OF_MANY = 8  # a text that many rows have is short, as PASS is
+FIRST_VERDICT = ROW.index(GUARANTEES[0])
+LAST_VERDICT = FIRST_VERDICT + len(GUARANTEES)
+VERDICTS = {verdict: verdict for verdict in ("PASS", "FAIL")}  # one text for all rows
 
 # The exit codes of meshrepair; those of repair_folder.py are the first three, OUTPUT and 128 + signal.
 DONE, NOT_CERTIFIED, USAGE, INPUT, LIMIT, NO_SOLID, OUTPUT, INTERNAL = 0, 1, 2, 3, 4, 5, 6, 70
@@ -57,9 +59,11 @@ def bytes_of(key):
 
 def packed(row):
     """A row of the summary in a fifth of the memory: there is one for each file. unpacked() gives it back."""
-    path = row["path"]
-    values = (path if row[key] == path else row[key] for key in ROW)
-    return tuple(sys.intern(value) if isinstance(value, str) and len(value) <= LONGEST_OF_MANY else value for value in values)
+    values = [row[key] for key in ROW]
+    if values[1] == values[0]:  # path and output
+        values[1] = values[0]
+    values[FIRST_VERDICT:LAST_VERDICT] = [VERDICTS.get(value, value) for value in values[FIRST_VERDICT:LAST_VERDICT]]
+    return tuple(values)
 
 
 def unpacked(values):

@@ -25,11 +25,12 @@ def outputs_in(journals):
     for path in journals:
         for line in lines_of(path):
             entry = Journal.entry_in(line)
-            if entry and isinstance(entry.output, str):
+            if entry:
                 found.add(bytes_of(entry.output))
     return found
 
 
+KEYS_OF_ALL = {"path", "output", "size", "mtime_ns", "settings", "final", "row", "time_ns"}
 BYTES_OUT = ROW.index("bytes_out")
 NOTHING = {}  # what most entries have of most kinds; nobody changes it
 
@@ -45,27 +46,35 @@ class Entry:
     @staticmethod
     def of(read):
         """Of the object in a line; any error if it is none."""
-        if set(read["row"]) != set(ROW) or not isinstance(read["path"], str):
+        if set(read["row"]) != set(ROW) or not isinstance(read["path"], str) or not isinstance(read["output"], str):
             raise ValueError
         entry = Entry()
         entry.path = read["path"]
         entry.output = entry.path if read["output"] == entry.path else read["output"]
-        folder = os.path.dirname(entry.output)
         entry.size, entry.mtime_ns = read.get("size"), read.get("mtime_ns")
         entry.settings, entry.final, entry.time_ns = read.get("settings"), read.get("final"), read.get("time_ns", 0)
-        read["row"]["path"] = entry.path if read["row"]["path"] == entry.path else read["row"]["path"]
+        if read["row"]["path"] == entry.path:
+            read["row"]["path"] = entry.path
         entry.row = packed(read["row"])
-        beside, pictures, shown = (read.get(kind, NOTHING).items() for kind in ("beside", "pictures", "shown"))
-        entry.beside = {name: size for name, size in beside if os.path.dirname(name) == folder} or NOTHING
-        entry.pictures = {name: size for name, size in pictures if may_be_written(bytes_of(name))} or NOTHING
-        entry.shown = {name: size for name, size in shown if is_place(bytes_of(name))} or NOTHING
-        entry.facts = dict(read.get("facts", NOTHING)) or NOTHING
-        entry.needs = dict(read.get("needs", NOTHING)) or NOTHING
+        entry.beside = entry.pictures = entry.shown = entry.facts = entry.needs = NOTHING
+        if read.keys() - KEYS_OF_ALL:
+            entry.take_others(read, os.path.dirname(entry.output))
         return entry
+
+    def take_others(self, read, folder):
+        """What few have."""
+        beside, pictures, shown = (read.get(kind, NOTHING).items() for kind in ("beside", "pictures", "shown"))
+        self.beside = {name: size for name, size in beside if os.path.dirname(name) == folder} or NOTHING
+        self.pictures = {name: size for name, size in pictures if may_be_written(bytes_of(name))} or NOTHING
+        self.shown = {name: size for name, size in shown if is_place(bytes_of(name))} or NOTHING
+        self.facts = dict(read.get("facts", NOTHING)) or NOTHING
+        self.needs = dict(read.get("needs", NOTHING)) or NOTHING
 
     def files(self):
         """Names -> sizes of what is in OUT_DIR besides the output."""
-        return {**self.beside, **self.pictures, **self.shown}
+        if self.beside or self.pictures or self.shown:
+            return {**self.beside, **self.pictures, **self.shown}
+        return NOTHING
 
 
 class Journal:
