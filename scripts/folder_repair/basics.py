@@ -12,11 +12,17 @@ EXTENSION_OF_FORMAT = {"obj": b".obj", "stl": b".stl", "stl-ascii": b".stl", "of
 READS_OTHERS = (b".obj", b".gltf", b".glb")  # their libraries and buffers are read, too
 PACKINGS = (b".gz", b".zst")  # that may stand behind these
 ARCHIVE = b".zip"
+TAR_ENDINGS = (b".tar", b".tgz", b".tbz2", b".txz", b".tzst", b".tar.gz", b".tar.bz2", b".tar.xz", b".tar.zst")
+BY_ITSELF = "repair it by itself, as IN_DIR"
 
 GUARANTEES = ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles")
 SAME_IN_EACH_RUN = ("path", "output", "exit_code", *GUARANTEES, "triangles_in", "triangles_out",
                     "bytes_in", "bytes_out", "error")
 MEASURED = ("seconds", "peak_memory_bytes")
+ROW = SAME_IN_EACH_RUN + MEASURED
+FIRST_VERDICT = ROW.index(GUARANTEES[0])
+LAST_VERDICT = FIRST_VERDICT + len(GUARANTEES)
+VERDICTS = {verdict: verdict for verdict in ("PASS", "FAIL")}  # one text for all rows
 
 # The exit codes of meshrepair; those of repair_folder.py are the first three, OUTPUT and 128 + signal.
 DONE, NOT_CERTIFIED, USAGE, INPUT, LIMIT, NO_SOLID, OUTPUT, INTERNAL = 0, 1, 2, 3, 4, 5, 6, 70
@@ -49,6 +55,19 @@ def key_of(name):
 
 def bytes_of(key):
     return key.encode("utf-8", "surrogateescape")
+
+
+def packed(row):
+    """A row of the summary in a fifth of the memory: there is one for each file. unpacked() gives it back."""
+    values = [row[key] for key in ROW]
+    if values[1] == values[0]:  # path and output
+        values[1] = values[0]
+    values[FIRST_VERDICT:LAST_VERDICT] = [VERDICTS.get(value, value) for value in values[FIRST_VERDICT:LAST_VERDICT]]
+    return tuple(values)
+
+
+def unpacked(values):
+    return dict(zip(ROW, values))
 
 
 def one_line(string):

@@ -13,17 +13,20 @@ import subprocess
 import sys
 import time
 
+from .archive import Lost
+from .archive_inputs import ArchiveInputs, MemberJob, NotUnpacked
 from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NO_SOLID, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
-                     key_of, names_of, print_to, say, text, value_of)
+                     key_of, names_of, bytes_of, print_to, say, text, unpacked, value_of)
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
-from .inputs import Job, find_meshes, listed_meshes, name_outputs
+from .inputs import Job, find_meshes, listed_meshes, name_outputs, names_listed
 from .journal import Journal
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
-from .summary import Progress, as_csv, as_json, table, totals_of
+from .summary import PackedRows, Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
 
 TICK_SECONDS = 0.25  # how often limits are looked at
+FLUSH_SECONDS = 0.25  # how long what is finished may be in no line of the journal
 LONGEST_NAME = 200  # that is said of a file that a mesh names
 SECONDS_TO_END = 0.3  # from a signal to this script until its workers are killed
 MEMORY_SLACK = 1.25  # a worker that keeps to its limit itself is killed only beyond this
@@ -33,17 +36,19 @@ class FolderRun:
     def __init__(self, options, program, out):
         self.options = options
         self.out = out
-        self.started = time.monotonic()
+        self.started = self.flushed = time.monotonic()
         self.stop_signal = None
         self.selector = selectors.DefaultSelector()
         self.catch_signals()
         self.command = self.worker_command(program)
+        self.knows_roots = program.knows_roots
         self.memory_allowed = options.max_memory
         if options.max_memory and program.limits_memory:
             self.memory_allowed = int(MEMORY_SLACK * options.max_memory)
         self.settings = [program.version, program.digest, options.format or "", *(["--html"] if options.html else []),
                          *(os.fsencode(a).decode("utf-8", "surrogateescape") for a in options.passed)]
         self.workers, self.rows, self.serial = {}, {}, 0
+        self.inputs = None  # of an archive
 
     def worker_command(self, program):
         """Without what differs from file to file."""
@@ -53,8 +58,6 @@ class FolderRun:
                    "--time-limit", f"{options.timeout:.10g}", *options.passed]
         if options.html:
             command += options_for(options.passed)
-        if program.knows_roots:
-            command += ["--root", options.in_dir]
         if program.limits_memory:
             command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M" if options.max_memory else "0"]
         return command
@@ -83,14 +86,15 @@ class FolderRun:
         jobs, left_out = self.find_jobs()
         if not options.restart:
             self.out.refuse_foreign_files(jobs, [INDEX, GALLERY] if options.html and not shard else [])
-        self.keys_of_jobs = {key_of(job.name) for job in jobs}
+        self.names_of_jobs = {job.name for job in jobs}
         others = [self.out.main_journal] if shard else self.out.journals_of_shards()
         self.journal = Journal(self.out.path, self.out.journal_path, self.settings, options.restart, others,
                                shard.holds if shard else None)
         if others and not shard:
             self.journal.take_over(others)
             self.out.drop_shards()
-        self.queue = collections.deque(self.without_finished(jobs))
+        left = list(self.without_finished(jobs))
+        self.queue = collections.deque(self.inputs.in_order(left) if self.inputs else left)
         self.tell_start(jobs, left_out)
         if not options.merge:
             self.work_through(jobs)
@@ -98,7 +102,12 @@ class FolderRun:
 
     def find_jobs(self):
         options = self.options
-        if options.list is None:
+        if options.archive:
+            self.inputs = ArchiveInputs(options.archive, self.out.work, options.timeout)
+            meshes, left_out = self.inputs.read(lambda: self.stop_signal)
+            if options.list is not None:
+                meshes, left_out = self.inputs.listed(names_listed(options.list, options.in_dir))
+        elif options.list is None:
             meshes, left_out = find_meshes(options.in_dir, self.out.path, lambda: self.stop_signal)
         else:
             meshes, left_out = listed_meshes(options.list, options.in_dir, self.out.path)
@@ -106,10 +115,12 @@ class FolderRun:
         outputs = name_outputs(meshes, options.format)
         if options.shard:
             meshes = {name: mesh for name, mesh in meshes.items() if options.shard.holds(name)}
+        if options.archive:
+            return [MemberJob(name, mesh, outputs[name], options, self.inputs) for name, mesh in meshes.items()], left_out
         return [Job(name, mesh, outputs[name], options) for name, mesh in meshes.items()], left_out
 
     def work_through(self, jobs):
-        failed = sum(row["exit_code"] != DONE for row in self.rows.values())
+        failed = sum(unpacked(row)["exit_code"] != DONE for row in self.rows.values())
         self.progress = Progress(len(jobs), len(self.rows), failed, self.options.quiet)
         try:
             self.work()
@@ -132,7 +143,7 @@ class FolderRun:
 
     def tell_start(self, jobs, left_out):
         for name, why in sorted(left_out.items()):
-            if not self.options.quiet or name.endswith(b"/"):
+            if not self.options.quiet or name.endswith(b"/") or isinstance(why, Lost):
                 say(f"{text(name)}: left out: {why}")
         if self.options.quiet:
             return
@@ -149,15 +160,31 @@ class FolderRun:
         while (self.queue or self.workers) and not self.stop_signal:
             while self.queue and len(self.workers) < self.options.jobs:
                 self.start(self.queue.popleft())
-            self.wait()
-            for serial, worker in list(self.workers.items()):
-                if worker.has_ended():
-                    self.forget(serial)
-                    self.finish(worker)
-                elif not worker.enforce(self.options, self.memory_allowed):
-                    self.forget(serial)
-                    self.settle(worker.job, worker.job.row(LIMIT, "cannot be killed"), final=False)
-            self.progress.draw()
+            self.attend(TICK_SECONDS if self.workers else 0)
+            if time.monotonic() > self.flushed + FLUSH_SECONDS:
+                self.flush()
+        self.flush()
+
+    def flush(self):
+        """Outputs, then the lines that tell of them. For many at a time: to wait for the disk may take longer than a repair."""
+        self.out.sync()
+        try:
+            self.journal.flush()
+        except OSError as error:
+            raise Stop(OUTPUT, f"{text(self.out.journal_path)}: cannot be written: {error.strerror}") from None
+        self.flushed = time.monotonic()
+
+    def attend(self, seconds):
+        """To the workers, for so long if nothing happens."""
+        self.wait(seconds)
+        for serial, worker in list(self.workers.items()):
+            if worker.has_ended():
+                self.forget(serial)
+                self.finish(worker)
+            elif not worker.enforce(self.options, self.memory_allowed):
+                self.forget(serial)
+                self.settle(worker.job, worker.job.row(LIMIT, "cannot be killed"), final=False)
+        self.progress.draw()
 
     def start(self, job):
         try:
@@ -169,17 +196,35 @@ class FolderRun:
         job.trials += 1
         folder = os.path.join(self.out.work, b"%d" % self.serial)
         os.mkdir(folder)
+        if not self.unpack(job, folder + b".in"):
+            return None
+        command = [*self.command, *(["--root", job.root] if self.knows_roots else [])]
         try:
-            worker = Worker(job, self.command, folder, self.out.locks, self.options.html)
+            worker = Worker(job, command, folder, self.out.locks, self.options.html)
         except (OSError, subprocess.SubprocessError) as error:
+            job.clear()
             row = job.row(INTERNAL, f"meshrepair cannot be started: {error}")
             return self.settle(job, row, final=False)
         self.workers[self.serial] = worker
         self.selector.register(worker.stderr, selectors.EVENT_READ, worker)
+        return None
 
-    def wait(self):
+    def unpack(self, job, folder):
+        """Whether it is ready, and is to be begun. Meanwhile the other workers are attended to."""
+        try:
+            for _ in job.unpack(folder):
+                self.attend(0)
+                if self.stop_signal:
+                    return False
+            return True
+        except NotUnpacked as error:
+            job.clear()
+            self.settle(job, job.row(error.code, str(error)), final=False)
+            return False
+
+    def wait(self, seconds):
         """Until something happens, but not for long."""
-        for key, _ in self.selector.select(TICK_SECONDS if self.workers else 0):
+        for key, _ in self.selector.select(seconds):
             if key.data is None:
                 os.read(key.fd, 4096)
             elif not key.data.listen():
@@ -196,19 +241,29 @@ class FolderRun:
         # Somebody, or the system for want of memory, has killed it: once more, after all others.
         if code == KILLED and job.trials == 1:
             self.queue.append(job)
-            return worker.clear()
+            return self.clear(worker)
+        names = names_of(report, "files") + names_of(report, "pictures")
+        if job.lacks(names):
+            job.trials -= 1
+            self.queue.append(job)
+            return self.clear(worker)
         row = job.row(code, error, report)
-        job.note_needs(names_of(report, "files") + names_of(report, "pictures"))
+        job.note_needs(names)
         if code in WRITTEN and os.path.isfile(worker.mesh):
             row = self.take_output(worker, row, report)
         elif row["exit_code"] == NO_SOLID:
             self.take_pages(worker, report)
         row["seconds"] = round(time.monotonic() - worker.started, 3)
         row["peak_memory_bytes"] = value_of(report, "peak_memory_bytes") or worker.peak_memory
-        worker.clear()
+        self.clear(worker)
         # What cannot be read may lack a buffer; which one, no report says.
         lacks_others = row["exit_code"] == INPUT and job.reads_others
         self.settle(job, row, final=row["exit_code"] in FINAL and not lacks_others)
+
+    @staticmethod
+    def clear(worker):
+        worker.clear()
+        worker.job.clear()
 
     def take_output(self, worker, row, report):
         """The row with what is known of the output."""
@@ -241,7 +296,7 @@ class FolderRun:
         """Those that lie in IN_DIR; names of others are said, as the result may look otherwise."""
         if job.format not in NAME_PICTURES + HOLD_PICTURES:
             return
-        pictures, outside, displaced = pictures_of(job, self.options.in_dir, report)
+        pictures, outside, displaced = pictures_of(job, job.root, report)
         for place, path in pictures.items():
             target = os.path.join(self.out.path, place)
             if not self.out.holds_same(path, target):
@@ -272,7 +327,7 @@ class FolderRun:
 
     def is_of_another(self, name, target, job, of_pictures=True):
         """Of an output of this run, or not from this script. A picture may be of several outputs."""
-        if self.journal.others_with(name, job, of_pictures) & self.keys_of_jobs:
+        if any(bytes_of(key) in self.names_of_jobs for key in self.journal.others_with(name, job, of_pictures)):
             return True
         is_known = key_of(name) in self.journal.owners
         return self.out.is_new and not self.options.restart and not is_known and os.path.lexists(target)
@@ -283,12 +338,7 @@ class FolderRun:
             self.remove_old(job, is_written=row["output"] is not None)
         except OSError as error:
             row["error"] = f"{row['error'] or ''}; its old output cannot be removed: {error.strerror}".lstrip("; ")
-        try:
-            self.journal.add(job, row, final)
-        except OSError as error:
-            name = text(self.out.journal_path)
-            raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None
-        self.rows[job.name] = row
+        self.rows[job.name] = self.journal.add(job, row, final)
         self.progress.finished(row)
 
     def remove_old(self, job, is_written):
@@ -315,7 +365,7 @@ class FolderRun:
         self.out.clear_work()
 
     def sum_up(self, jobs, left_out):
-        rows = [self.rows[job.name] for job in jobs if job.name in self.rows]
+        rows = PackedRows([self.rows[job.name] for job in jobs if job.name in self.rows])
         totals = totals_of(rows, len(jobs) - len(rows))
         elapsed = time.monotonic() - self.started
         # That of a shard is no summary of OUT_DIR.
@@ -327,14 +377,14 @@ class FolderRun:
         if not self.options.quiet:
             print_to(sys.stdout, table(totals, elapsed))
         self.stop_if_told()
-        has_unread_folder = any(name.endswith(b"/") for name in left_out)
-        all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_unread_folder and not totals["not_done"]
+        has_lost = any(name.endswith(b"/") or isinstance(why, Lost) for name, why in left_out.items())
+        all_passed = set(totals["by_exit_code"]) <= {str(DONE)} and not has_lost and not totals["not_done"]
         return DONE if all_passed else NOT_CERTIFIED
 
     def write_gallery(self, jobs, totals):
         """One of an earlier run, whose pages are gone, does not stay."""
         if self.options.html:
-            rows = [row_of(job, self.rows[job.name], self.journal.entry_of(job)) for job in jobs if job.name in self.rows]
-            self.out.write(INDEX, as_html(rows, self.settings, totals))
+            rows = [row_of(job, unpacked(self.rows[job.name]), self.journal.entry_of(job)) for job in jobs if job.name in self.rows]
+            self.out.write(INDEX, [as_html(rows, self.settings, totals)])
         elif is_gallery(index := os.path.join(self.out.path, INDEX)):
             self.out.remove(index)

@@ -60,8 +60,8 @@ def volume_of(report, mesh):
 
 
 def row_of(job, row, entry):
-    shown = entry.get("shown", {})
-    facts = {"volume_in": None, "volume_out": None, **entry.get("facts", {})}
+    shown = entry.shown if entry else {}
+    facts = {"volume_in": None, "volume_out": None, **(entry.facts if entry else {})}
     url = urllib.parse.quote(stem_of(job))
     output_url = urllib.parse.quote(job.output)
     more = {"url": None if url == row["path"] else url,

@@ -7,8 +7,8 @@ import stat
 import time
 import zipfile
 
-from .basics import (ARCHIVE, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, MEASURED, PACKINGS,
-                     READS_OTHERS, SAME_IN_EACH_RUN, USAGE, Stop, text, value_of)
+from .basics import (ARCHIVE, BY_ITSELF, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, PACKINGS,
+                     READS_OTHERS, ROW, TAR_ENDINGS, USAGE, Stop, text, value_of)
 
 STATE = b".repair_folder"  # of a run, in its OUT_DIR; folders of this name are no input
 UNKNOWN = "unknown"  # how a file was when it was read; it is like no other
@@ -50,7 +50,7 @@ def kind_of_archive(path):
     if found is None:
         return "is no ZIP archive that can be read"
     if len(found) > 1:
-        return "holds several meshes"
+        return f"holds several meshes: {BY_ITSELF}"
     return found[0] if found else None
 
 
@@ -65,6 +65,8 @@ def kind_of(entry, out_identity):
             return "is a link to a folder"
     except OSError:
         pass  # a loop of links, or gone: said when it is opened, if the name is that of a mesh
+    if entry.name.lower().endswith(TAR_ENDINGS):
+        return f"is an archive: {BY_ITSELF}"
     extension = split_name(entry.name)[1]
     is_archive = os.path.splitext(entry.name)[1].lower() == ARCHIVE
     if extension not in FORMAT_OF_EXTENSION and not is_archive:
@@ -102,21 +104,28 @@ def find_meshes(folder, out_folder, stopped):
     return dict(sorted(meshes.items())), left_out
 
 
-def listed_meshes(path, folder, out_folder):
-    """The same of the files that a list names, one in each line, or each with a zero behind it. Names are relative to
-    the folder, or absolute and in it. Stop if one leads out of it."""
+def names_listed(path, folder):
+    """Names of the files that a list names, one in each line, or each with a zero behind it. They are relative to the
+    folder, or absolute and in it. Stop if one leads out of it."""
     try:
         with open(0 if path == b"-" else path, "rb", closefd=path != b"-") as file:
             data = file.read()
     except OSError as error:
         raise Stop(USAGE, f"--list: {text(path)}: {error.strerror}") from None
-    meshes, left_out, out_identity = {}, {}, identity(out_folder)
+    names = []
     for line in data.split(b"\0" if b"\0" in data else b"\n"):
         if not line:
             continue
-        name = os.path.relpath(os.path.normpath(os.path.join(folder, line)), folder)
-        if name.split(b"/")[0] == b"..":
+        names.append(os.path.relpath(os.path.normpath(os.path.join(folder, line)), folder))
+        if names[-1].split(b"/")[0] == b"..":
             raise Stop(USAGE, f"--list: {text(line)} is not in {text(folder)}")
+    return names
+
+
+def listed_meshes(path, folder, out_folder):
+    """As find_meshes(), of the files that a list names."""
+    meshes, left_out, out_identity = {}, {}, identity(out_folder)
+    for name in names_listed(path, folder):
         kind = kind_of(NamedEntry(os.path.join(folder, name)), out_identity)
         if kind == "mesh":
             meshes[name] = split_name(name)[1]
@@ -186,6 +195,7 @@ class Job:
     def __init__(self, name, mesh, output, options):
         """`mesh` is the extension of the mesh that it is or holds."""
         self.name = name
+        self.root = options.in_dir  # names lead nowhere else
         self.source = os.path.join(options.in_dir, name)
         self.output = output
         self.target = os.path.join(options.out_dir, output)
@@ -211,6 +221,17 @@ class Job:
             raise OSError(errno.EINVAL, "is no regular file")
         self.size, self.mtime_ns = status.st_size, status.st_mtime_ns
         self.looked_at = time.time_ns()
+
+    def unpack(self, folder):
+        """Gets it ready in this folder, if it is not yet; in steps. NotUnpacked if it cannot be."""
+        return ()
+
+    def clear(self):
+        """Removes what was got ready."""
+
+    def lacks(self, names):
+        """Some of these, which the mesh names, are to be had, but were not there when it was read."""
+        return False
 
     def path_of(self, name):
         """Of a file that it names. Reports have U+FFFD for what is no UTF-8: then it is the file that is meant."""
@@ -249,7 +270,7 @@ class Job:
 
     def row(self, code, error, report=None):
         """For the summary, as if nothing was written; what is not known is None."""
-        row = dict.fromkeys(SAME_IN_EACH_RUN + MEASURED)
+        row = dict.fromkeys(ROW)
         row.update({name: value_of(report, "certificate", name) for name in GUARANTEES})
         row.update(path=text(self.name), exit_code=code, error=error, bytes_in=self.size,
                    triangles_in=value_of(report, "clean", "triangles_in"))

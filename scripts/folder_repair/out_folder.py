@@ -46,6 +46,7 @@ class OutFolder:
         if shard:
             self.locks.append(self.take_lock(self.state, fcntl.LOCK_EX))
         self.is_new = not any(map(os.path.exists, (self.journal_path, self.main_journal)))
+        self.unsynced = set()  # folders with files whose names are not yet sure to be on the disk
         self.clear_work()
 
     def drop_shards(self):
@@ -98,12 +99,16 @@ class OutFolder:
             os.path.normpath(os.path.join(os.path.realpath(self.path), way))
 
     def take(self, made, target):
-        """Puts a finished file into its place."""
+        """Puts a finished file into its place. On the disk after sync()."""
         if not self.holds(target):
             raise OSError(errno.ELOOP, "a link leads out of OUT_DIR")
         os.makedirs(os.path.dirname(target), exist_ok=True)
         os.rename(made, target)
-        sync_folder(os.path.dirname(target))
+        self.unsynced.add(os.path.dirname(target))
+
+    def sync(self):
+        while self.unsynced:
+            sync_folder(self.unsynced.pop())
 
     def take_copy(self, path, target):
         made = os.path.join(self.work, b"copy")
@@ -123,10 +128,11 @@ class OutFolder:
             os.unlink(target)
 
     def write(self, name, data, folder=None):
-        """Atomically; to OUT_DIR, or to another folder in it."""
+        """Atomically; to OUT_DIR, or to another folder in it. `data` comes in pieces."""
         temporary = os.path.join(self.work, name)
         with open(temporary, "wb") as file:
-            file.write(data)
+            file.writelines(data)
             file.flush()
             os.fsync(file.fileno())
         self.take(temporary, os.path.join(folder or self.path, name))
+        self.sync()

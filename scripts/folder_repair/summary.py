@@ -7,9 +7,10 @@ import json
 import sys
 import time
 
-from .basics import DONE, MEANINGS, MEASURED, SAME_IN_EACH_RUN, print_to, say, text
+from .basics import DONE, MEANINGS, MEASURED, ROW, SAME_IN_EACH_RUN, print_to, say, text, unpacked
 
 DRAW_SECONDS = 0.2  # between drawings of the line of progress on a terminal
+PIECE = 1 << 16  # of a summary
 LINE_SECONDS = 30  # between lines of progress elsewhere
 
 
@@ -56,31 +57,56 @@ class Progress:
             say(f"{row['path']}: {row['error']} (exit code {row['exit_code']})")
 
 
+class PackedRows:
+    """Rows, each unpacked when its turn comes."""
+
+    def __init__(self, rows):
+        self.rows = rows
+
+    def __len__(self):
+        return len(self.rows)
+
+    def __iter__(self):
+        return map(unpacked, self.rows)
+
+
 def totals_of(rows, not_done):
-    codes = collections.Counter(row["exit_code"] for row in rows)
-    sums = {key: sum(row[key] or 0 for row in rows)
-            for key in ("triangles_in", "triangles_out", "bytes_in", "bytes_out")}
+    codes = collections.Counter()
+    sums = dict.fromkeys(("triangles_in", "triangles_out", "bytes_in", "bytes_out"), 0)
+    for row in rows:
+        codes[row["exit_code"]] += 1
+        for key in sums:
+            sums[key] += row[key] or 0
     return {"files": len(rows) + not_done, "not_done": not_done,
             "by_exit_code": {str(code): codes[code] for code in sorted(codes)}, **sums}
 
 
 def as_csv(rows):
+    """In pieces, for there may be very many rows."""
     file = io.StringIO(newline="")
-    writer = csv.DictWriter(file, SAME_IN_EACH_RUN + MEASURED)
-    writer.writeheader()
-    writer.writerows(rows)
-    return file.getvalue().encode("utf-8", "backslashreplace")
+    writer = csv.writer(file)
+    writer.writerow(ROW)
+    for row in rows:
+        writer.writerow(row.values())
+        if file.tell() > PIECE:
+            yield file.getvalue().encode("utf-8", "backslashreplace")
+            file.seek(0)
+            file.truncate()
+    yield file.getvalue().encode("utf-8", "backslashreplace")
 
 
 def as_json(rows, totals, left_out, settings, elapsed):
-    """A line for each file. What differs from run to run stands in "measured"."""
+    """A line for each file, in pieces. What differs from run to run stands in "measured"."""
     head = {"program": settings[0], "format": settings[2] or None, "options": settings[3:],
             "totals": totals, "measured": {"seconds": round(elapsed, 3)},
             "left_out": [{"path": text(name), "why": why} for name, why in sorted(left_out.items())]}
     files = (json.dumps({**{key: row[key] for key in SAME_IN_EACH_RUN},
                          "measured": {key: row[key] for key in MEASURED}}) for row in rows)
     opened = json.dumps(head, indent=2).removesuffix("\n}")
-    return (opened + ',\n  "files": [\n    ' + ",\n    ".join(files) + "\n  ]\n}\n").encode()
+    yield (opened + ',\n  "files": [\n    ').encode()
+    for number, file in enumerate(files):
+        yield (",\n    " if number else "").encode() + file.encode()
+    yield b"\n  ]\n}\n"
 
 
 def table(totals, elapsed):

@@ -1,6 +1,5 @@
 """One meshrepair process: how it is started, kept within its limits, and judged."""
 
-import ctypes
 import json
 import os
 import shutil
@@ -11,27 +10,11 @@ import time
 from .basics import DONE, GUARANTEES, INTERNAL, LIMIT, NO_SOLID, WRITTEN, text, value_of
 from .gallery import SIZE
 from .program import last_line
+from .starter import started_process
 
 UNKILLABLE_SECONDS = 10  # from SIGKILL until a worker that a dead disk holds is given up
 STDERR_BYTES = 1 << 16  # kept of what it says, the end of it
 REPORT_BYTES = 1 << 26  # a longer report is none
-
-LIBC = ctypes.CDLL(None)
-PR_SET_PDEATHSIG = 1
-
-
-def bind_to_parent(parent):
-    """Called in the worker, before it becomes meshrepair: it is killed when its parent dies, and before its
-    parent when memory runs out."""
-    if hasattr(LIBC, "prctl"):
-        LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    if os.getppid() != parent:
-        os._exit(INTERNAL)
-    try:
-        with open("/proc/self/oom_score_adj", "w", encoding="ascii") as file:
-            file.write("1000")
-    except OSError:
-        pass
 
 
 class Worker:
@@ -52,16 +35,12 @@ class Worker:
         self.looks = has_page  # if nothing becomes of the mesh
         self.is_looking = False
         shown = ["--html", self.pages[b".html"], "--picture", self.pages[b".png"]] if has_page else []
-        self.process = self.started_process([*command, "--format", job.format, "--report", self.report_path, *shown, "--staging",
-                                             folder, job.source, job.target], subprocess.PIPE)
+        self.program = command[0]
+        self.process = started_process([*command, "--format", job.format, "--report", self.report_path, *shown, "--staging",
+                                        folder, job.source, job.target], subprocess.PIPE, locks)
         self.pipe = self.process.stderr
         self.stderr = self.pipe.fileno()
         os.set_blocking(self.stderr, False)
-
-    def started_process(self, command, stderr):
-        parent = os.getpid()
-        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=stderr, start_new_session=True,
-                                pass_fds=self.locks, preexec_fn=lambda: bind_to_parent(parent))
 
     def listen(self):
         """Reads some of what it says. False at the end of it."""
@@ -100,11 +79,11 @@ class Worker:
 
     def look(self):
         """Has meshcheck draw the mesh, of which nothing has become. False if there is none."""
-        meshcheck = os.path.join(os.path.dirname(os.fsencode(self.process.args[0])), b"meshcheck")
+        meshcheck = os.path.join(os.path.dirname(os.fsencode(self.program)), b"meshcheck")
         try:
-            self.process = self.started_process(
+            self.process = started_process(
                 [meshcheck, "--quiet", "--threads", "1", "--html", self.pages[b".html"], "--picture", self.pages[b".png"],
-                 "--picture-size", f"{SIZE[0]}x{SIZE[1]}", "--", self.job.source], subprocess.DEVNULL)
+                 "--picture-size", f"{SIZE[0]}x{SIZE[1]}", "--", self.job.source], subprocess.DEVNULL, self.locks)
         except (OSError, subprocess.SubprocessError):
             return False
         self.is_looking = True
@@ -193,4 +172,6 @@ class Worker:
             line = line.removeprefix(path.decode("utf-8", "replace") + ": ")
         for path in (self.mesh, self.job.target):
             line = line.replace(path.decode("utf-8", "replace"), text(self.job.output))
+        if self.job.root.startswith(self.folder):  # unpacked, to a place that is another in each run
+            line = line.replace(os.path.join(self.job.root, b"").decode("utf-8", "replace"), "")
         return line or f"ended with exit code {self.code} and said nothing"

@@ -57,6 +57,8 @@ def make_folder(folder: pathlib.Path, programs: pathlib.Path) -> None:
     make_task_pictures.make_meshes(folder)
     (folder / "scan.stl.gz").write_bytes(gzip.compress((folder / "broken.stl").read_bytes()))
     (folder / "part.zip").write_bytes(make_cli_inputs.zip_of({"a/part.stl": (folder / "part.stl").read_bytes(), "read.me": b""}))
+    for kind in ("zip", "gztar"):
+        shutil.make_archive(str(folder / "scans"), kind, folder / "scans")
     os.symlink(ROOT / "samples", folder / "samples")
     os.symlink(ROOT / "scripts", folder / "scripts")
     (folder / "build" / "release").mkdir(parents=True)

@@ -70,6 +70,7 @@ class FailingPrograms(FolderTest):
     def test_a_full_disk_is_one_line(self):
         write_files(self.source, {f"good{i}.stl": b"x" for i in range(30)})
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+        self.environment["FAKE_LOG"] = os.devnull  # else it is full first
         result = self.run_script("--quiet", before=limit, code=6)
         self.assertRegex(result.stderr, r"^repair_folder.py: [^\n]*journal.jsonl: cannot be written: [^\n]*\n$")
         self.run_script()
