@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -136,21 +136,24 @@ struct Pages {
   unsigned long data = 0;    // private, resident or not
 };
 
-// Asked often, by several threads: the file of plain numbers is read with the least effort. It is
-// opened each time: in a process that was forked, one that stays open tells of its parent.
+// Asked often, by several threads, and by a handler of signals, so with no more than the system's
+// own calls. The file is opened each time: in a process that was forked, one that stays open tells
+// of its parent.
 Pages pages_now() {
   const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (file < 0) return {};
   std::array<char, 128> text = {};
-  const ssize_t size = ::read(file, text.data(), text.size() - 1);
+  const ssize_t size = ::read(file, text.data(), text.size());
   ::close(file);
-  Pages pages;
-  unsigned long total = 0, code = 0, libraries = 0;
-  if (size <= 0 || std::sscanf(text.data(), "%lu %lu %lu %lu %lu %lu", &total, &pages.resident,
-                               &pages.shared, &code, &libraries, &pages.data) != 6) {
-    return {};
+  std::array<unsigned long, 6> numbers = {};  // all, resident, shared, code, libraries, data
+  const char* at = text.data();
+  const char* const end = at + std::max<ssize_t>(size, 0);
+  for (unsigned long& number : numbers) {
+    const auto [after, error] = std::from_chars(at, end, number);
+    if (error != std::errc()) return {};
+    at = std::min(after + 1, end);
   }
-  return pages;
+  return {numbers[1], numbers[2], numbers[5]};
 }
 
 std::uint64_t page_bytes() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }

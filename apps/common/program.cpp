@@ -65,10 +65,10 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
     if (!parse(argc, argv)) return ExitCode::done;
     set_up_logging(command_line_.get_name(), options_.verbosity());
     const MemoryLimit memory = parse_memory_limit(options_.max_memory);
+    const ThreadLimit thread_limit(options_.threads);
     spilling.emplace(options_.temp, memory);
     progress.emplace(bar_options(options_, memory, *spilling));
     watchdog.emplace(command_line_.get_name(), *progress);
-    const ThreadLimit thread_limit(options_.threads);
     limit_memory(memory, most_threads());
     logger().debug("threads: {}", most_threads());
     Run run{report, *progress, options_};

@@ -77,9 +77,14 @@ bool RawTerminal::write(std::string_view text) const {
 }
 
 std::optional<std::string> RawTerminal::read_until(Clock::time_point end) const {
-  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
   pollfd wait = {descriptor_, POLLIN, 0};
-  if (left.count() <= 0 || ::poll(&wait, 1, static_cast<int>(left.count())) <= 0) return "";
+  int ready = 0;
+  do {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0) return "";
+    ready = ::poll(&wait, 1, static_cast<int>(left.count()));
+  } while (ready < 0 && errno == EINTR);
+  if (ready <= 0) return "";
   if (raw_descriptor.load() < 0) return std::nullopt;  // this process was stopped meanwhile
   std::array<char, 256> some{};
   const ssize_t count = ::read(descriptor_, some.data(), some.size());

@@ -1,92 +1,86 @@
 #include "spill/resident_limit.h"
 
 #include <algorithm>
-#include <chrono>
+#include <atomic>
+#include <cerrno>
 #include <csignal>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
+
+#include <base/parallel.h>
 
 #include "common/memory_limit.h"
 
 namespace meshrepair {
 namespace {
 
-constexpr std::chrono::microseconds kWhenFar(1000), kWhenNear(200);  // between looks
-constexpr std::size_t kAtOnce = std::size_t{32} << 20;               // addresses; a look follows
+constexpr long kBetweenLooks = 500'000;                 // nanoseconds; the system may take longer
+constexpr std::size_t kAtOnce = std::size_t{32} << 20;  // addresses; a look follows
 // Pages that are in the file's cache come back fast: what threads may take between two looks.
-constexpr double kSparedShare = 0.25;
-constexpr double kLeastSpared = 96 << 20;  // bytes; not more than half of the limit
-constexpr double kEnd = 0.9;               // of where letting go begins: where it ends
+constexpr double kSparedShare = 0.2;
+constexpr double kSparedAlways = 64 << 20, kSparedForThread = 64 << 20;  // bytes
+constexpr double kMostSpared = 0.5;                                      // of the limit
+constexpr double kEnd = 0.9;  // of where letting go begins: where it ends
 
-// As of linux/sched/types.h, which not all systems install.
-struct Scheduling {
-  std::uint32_t size = sizeof(Scheduling);
-  std::uint32_t policy = 0;  // the one of all threads
-  std::uint64_t flags = 0;
-  std::int32_t nice = 0;
-  std::uint32_t priority = 0;
-  std::uint64_t runtime = 0;  // nanoseconds; a thread that asks for little is soon served
-  std::uint64_t deadline = 0;
-  std::uint64_t period = 0;
-};
-
-// On a busy machine this thread would come too late. Where the system knows no such wish, it waits
-// as all do.
-void ask_for_short_waits() {
-  Scheduling wish;
-  wish.runtime = 100'000;
-  wish.nice = ::getpriority(PRIO_PROCESS, 0);
-  static_cast<void>(::syscall(SYS_sched_setattr, 0, &wish, 0));
-}
+// What the handler works with; it starts with a file.
+std::atomic<SpillFile*> file_at_work = nullptr;
+std::atomic<std::uint64_t> most_resident = 0;
+static_assert(std::atomic<SpillFile*>::is_always_lock_free &&
+                  std::atomic<std::uint64_t>::is_always_lock_free,
+              "a handler may touch lock-free atomics only");
 
 // Letting go begins here.
 std::uint64_t most_of(std::uint64_t limit) {
   const auto bytes = static_cast<double>(limit);
-  const double spared = std::min(std::max(kSparedShare * bytes, kLeastSpared), bytes / 2);
+  const double taken = kSparedAlways + kSparedForThread * static_cast<double>(most_threads());
+  const double spared = std::min(std::max(kSparedShare * bytes, taken), kMostSpared * bytes);
   return static_cast<std::uint64_t>(bytes - spared);
+}
+
+// Once round at most: what is not in the file cannot be let go of.
+void keep(SpillFile& file) noexcept {
+  const std::uint64_t most = most_resident.load();
+  const auto end = static_cast<std::uint64_t>(kEnd * static_cast<double>(most));
+  if (resident_memory() <= most) return;
+  for (std::size_t passed = 0; passed < file.extent(); passed += kAtOnce) {
+    file.let_go(kAtOnce);
+    if (resident_memory() <= end) return;
+  }
+}
+
+extern "C" void handle_tick(int /*number*/) {
+  const int error = errno;
+  SpillFile* const file = file_at_work.load();
+  if (file != nullptr) keep(*file);
+  errno = error;
 }
 
 }  // namespace
 
-ResidentLimit::ResidentLimit(SpillFile& file, std::uint64_t bytes)
-    : file_(file), most_(most_of(bytes)) {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { watch(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+ResidentLimit::ResidentLimit(SpillFile& file, std::uint64_t bytes) : file_(file) {
+  most_resident = most_of(bytes);
+  file_at_work = &file;
+  file.at_first_block([this] { start(); });
 }
 
+// Small runs, which need no file, are not interrupted.
+void ResidentLimit::start() {
+  struct sigaction action = {};
+  action.sa_handler = handle_tick;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGRTMIN, &action, nullptr);
+  sigevent event = {};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = SIGRTMIN;
+  has_timer_ = ::timer_create(CLOCK_MONOTONIC, &event, &timer_) == 0;
+  const itimerspec times = {{0, kBetweenLooks}, {0, kBetweenLooks}};
+  if (has_timer_) ::timer_settime(timer_, 0, &times, nullptr);
+}
+
+// A signal that is under way finds nothing to do.
 ResidentLimit::~ResidentLimit() {
-  {
-    const std::scoped_lock lock(mutex_);
-    done_ = true;
-  }
-  ended_.notify_one();
-  thread_.join();
-}
-
-void ResidentLimit::watch() {
-  ask_for_short_waits();
-  std::unique_lock lock(mutex_);
-  std::chrono::microseconds pause = kWhenFar;
-  while (!ended_.wait_for(lock, pause, [this] { return done_; })) {
-    pause = file_.extent() > 0 && keep() ? kWhenNear : kWhenFar;
-  }
-}
-
-// Lets go of what is too much; says whether more may come soon. Once round at most: what is not in
-// the file cannot be let go of.
-bool ResidentLimit::keep() {
-  const auto end = static_cast<std::uint64_t>(kEnd * static_cast<double>(most_));
-  std::uint64_t resident = resident_memory();
-  if (resident <= most_) return resident > end;
-  for (std::size_t passed = 0; passed < file_.extent() && resident > end; passed += kAtOnce) {
-    file_.let_go(kAtOnce);
-    resident = resident_memory();
-  }
-  return true;
+  file_.at_first_block({});
+  if (has_timer_) ::timer_delete(timer_);
+  file_at_work = nullptr;
 }
 
 }  // namespace meshrepair

@@ -1,35 +1,32 @@
 // Keeps a process that uses a SpillFile within its memory.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
-#include <mutex>
-#include <thread>
+#include <ctime>
 
 #include "spill/spill_file.h"
 
 namespace meshrepair {
 
-// A thread that looks some thousand times a second how much memory the process has, and lets go of
-// pages of the file before it is more than `bytes`.
+// As long as it is there and the file has blocks, the process looks some thousand times a second
+// how much memory it has, and lets go of pages of the file before it is more than `bytes`. This is
+// done at a signal (SIGRTMIN), in a thread that is at work: one of its own would come too late on a
+// busy machine. There is one at a time.
 class ResidentLimit {
  public:
-  // `file` must outlive it.
+  // `file` must outlive it. The more threads may work, the earlier letting go begins. Where the
+  // system has no timer left there is no limit.
   ResidentLimit(SpillFile& file, std::uint64_t bytes);
   ResidentLimit(const ResidentLimit&) = delete;
   ResidentLimit& operator=(const ResidentLimit&) = delete;
   ~ResidentLimit();
 
  private:
-  void watch();
-  bool keep();
+  void start();
 
   SpillFile& file_;
-  std::uint64_t most_;  // bytes, less than the limit
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool done_ = false;
-  std::thread thread_;
+  timer_t timer_ = {};
+  bool has_timer_ = false;
 };
 
 }  // namespace meshrepair

@@ -97,6 +97,7 @@ void* SpillFile::take(std::size_t bytes) noexcept try {
   blocks_.emplace(at, size);
   bytes_ += size;
   most_bytes_ = std::max(most_bytes_.load(), bytes_);
+  if (at_first_block_) std::exchange(at_first_block_, {})();
   return base_ + at;
 } catch (const std::bad_alloc&) {
   return nullptr;
@@ -124,12 +125,22 @@ std::size_t SpillFile::size_of(const void* block) const noexcept {
   return blocks_.find(at)->second;
 }
 
+void SpillFile::at_first_block(std::function<void()> call) {
+  const std::scoped_lock lock(mutex_);
+  if (call && extent_ > 0) {
+    call();
+  } else {
+    at_first_block_ = std::move(call);
+  }
+}
+
 void SpillFile::let_go(std::size_t bytes) noexcept {
   const std::size_t extent = extent_.load();
-  if (hand_ >= extent) hand_ = 0;
-  const std::size_t size = std::min(bytes, extent - hand_);
-  if (size > 0) ::madvise(base_ + hand_, size, MADV_DONTNEED);
-  hand_ += size;
+  std::size_t at = hand_.load();
+  if (at >= extent) at = 0;
+  const std::size_t size = std::min(bytes, extent - at);
+  hand_ = at + size;
+  if (size > 0) ::madvise(base_ + at, size, MADV_DONTNEED);
 }
 
 SpillFile::Offset SpillFile::place_for(std::uint64_t bytes) {
@@ -169,7 +180,11 @@ void SpillFile::add_hole(Offset at, std::uint64_t bytes) {
 // A page for which the disk has no room would kill the process when it is written.
 bool SpillFile::reserve(Offset at, std::uint64_t bytes) noexcept {
   const int file = descriptor_;
-  if (::fallocate(file, 0, static_cast<off_t>(at), static_cast<off_t>(bytes)) == 0) return true;
+  int failed = 0;
+  do {
+    failed = ::fallocate(file, 0, static_cast<off_t>(at), static_cast<off_t>(bytes));
+  } while (failed != 0 && errno == EINTR);
+  if (failed == 0) return true;
   if (errno != EOPNOTSUPP) return false;
   return ::posix_fallocate(file, static_cast<off_t>(at), static_cast<off_t>(bytes)) == 0;
 }

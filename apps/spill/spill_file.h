@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 
@@ -28,8 +29,11 @@ class SpillFile : public BlockSource {
   void give_back(void* block) noexcept override;
   [[nodiscard]] std::size_t size_of(const void* block) const noexcept override;
 
-  // Lets go of up to `bytes` of addresses, from where the last call ended on, and round. From one
-  // thread at a time, whatever others do.
+  // Is called once: now if there are blocks or were, else with the first one.
+  void at_first_block(std::function<void()> call);
+
+  // Lets go of up to `bytes` of addresses, from where the last call ended on, and round. From any
+  // thread at any time, also from a signal handler.
   void let_go(std::size_t bytes) noexcept;
 
   // Of addresses that are in use, or were.
@@ -50,14 +54,15 @@ class SpillFile : public BlockSource {
   std::uint64_t addresses_ = 0;  // from there on
   std::uint64_t most_reserved_;
   std::uint64_t room_ = 0;                  // on the disk, for all blocks
-  mutable std::mutex mutex_;                // for the three that follow
+  mutable std::mutex mutex_;                // for the four that follow
   std::map<Offset, std::uint64_t> blocks_;  // by where they begin
   std::map<Offset, std::uint64_t> holes_;   // between blocks
   std::uint64_t bytes_ = 0;                 // of blocks
+  std::function<void()> at_first_block_;
   std::atomic<std::uint64_t> most_bytes_ = 0;
   std::atomic<std::size_t> extent_ = 0;
   std::atomic<bool> was_full_ = false;
-  std::size_t hand_ = 0;  // where let_go() goes on
+  std::atomic<std::size_t> hand_ = 0;  // where let_go() goes on
 };
 
 }  // namespace meshrepair
