@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <base/ids.h>
@@ -14,11 +15,13 @@
 #include <mesh/weld_points.h>
 
 #include "cut_simplifier.h"
+#include "movable_region.h"
 
 namespace meshrepair {
 namespace {
 
 using internal::CutSimplifier;
+using internal::MovableRegion;
 
 // What is little for the surface is much for a thin part: the bound for its points is its thickness
 // divided by this, if that is less.
@@ -96,28 +99,36 @@ void keep_contacts(const TriangleSoup& mesh, std::vector<char>& stays) {
   }
 }
 
-void take(const CutSimplifier& simplifier, Candidate& candidate) {
+void take(const Original& original, const MovableRegion& region, const CutSimplifier& simplifier,
+          Candidate& candidate) {
   candidate.mesh.triangles.clear();
   candidate.was.clear();
   candidate.changed.clear();
-  const std::vector<IndexTriangle>& triangles = simplifier.mesh().triangles();
+  const std::vector<IndexTriangle>& triangles = original.surface.mesh.triangles;
+  std::uint32_t r = 0;  // in the region
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (!simplifier.mesh().is_left(t)) continue;
-    if (simplifier.last_moved(t) != CutSimplifier::kNone) {
-      candidate.changed.push_back(static_cast<std::uint32_t>(candidate.was.size()));
+    const bool is_in_region = r < region.triangles().size() && region.triangles()[r] == t;
+    IndexTriangle triangle = triangles[t];
+    if (is_in_region) {
+      const std::uint32_t here = r++;
+      if (!simplifier.mesh().is_left(here)) continue;
+      if (simplifier.last_moved(here) != CutSimplifier::kNone) {
+        candidate.changed.push_back(static_cast<std::uint32_t>(candidate.was.size()));
+      }
+      const IndexTriangle& corners = simplifier.mesh().triangles()[here];
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = region.points()[corners[k]];
     }
     candidate.was.push_back(t);
-    candidate.mesh.triangles.push_back(triangles[t]);
+    candidate.mesh.triangles.push_back(triangle);
   }
 }
 
-Surface surface_of(const Surface& original, const CutSimplifier& simplifier) {
+Surface surface_of(const Surface& original, const Candidate& candidate) {
   Surface surface = original;
-  surface.mesh.triangles = simplifier.mesh().triangles();
-  std::vector<char> is_left;
-  is_left.reserve(surface.mesh.triangles.size());
-  for (std::uint32_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    is_left.push_back(simplifier.mesh().is_left(t) ? 1 : 0);
+  std::vector<char> is_left(surface.mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < candidate.was.size(); ++t) {
+    is_left[candidate.was[t]] = 1;
+    surface.mesh.triangles[candidate.was[t]] = candidate.mesh.triangles[t];
   }
   keep_triangles(surface, is_left);
   return surface;
@@ -135,16 +146,15 @@ class MeetingTest {
   }
 
   // The triangles of pairs that meet, but for pairs that are as in the original.
-  std::vector<std::uint32_t> run(const Candidate& candidate,
-                                 const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<std::uint32_t> run(const Candidate& candidate) {
+    const std::vector<IndexTriangle>& triangles = candidate.mesh.triangles;
     std::vector<std::uint32_t> to_test;
     for (std::uint32_t t = 0; t < candidate.was.size(); ++t) {
-      const std::uint32_t was = candidate.was[t];
-      if (known_[was] != triangles[was]) to_test.push_back(t);
+      if (known_[candidate.was[t]] != triangles[t]) to_test.push_back(t);
     }
     const SelfIntersections found = self_intersections(candidate.mesh, to_test, options_);
     known_.assign(known_.size(), kUnknown);
-    for (const std::uint32_t was : candidate.was) known_[was] = triangles[was];
+    for (std::size_t t = 0; t < candidate.was.size(); ++t) known_[candidate.was[t]] = triangles[t];
     if (found.count > found.pairs.size()) forget(candidate, to_test);
     std::vector<char> is_changed(candidate.was.size(), 0);
     for (const std::uint32_t t : candidate.changed) is_changed[t] = 1;
@@ -213,35 +223,63 @@ std::vector<std::uint32_t> turning_triangles(const Candidate& candidate, double 
 // Of each triangle to blame, the point that changed it last; where that takes too many rounds, all
 // points that ended in its corners. At least one point more each time.
 void take_back(const CutSimplifier& simplifier, const Candidate& candidate,
-               const std::vector<std::uint32_t>& blamed, bool all, std::vector<char>& stays) {
-  std::vector<char> is_corner(stays.size(), 0);
+               const std::vector<std::uint32_t>& blamed, bool all, MovableRegion& region) {
+  std::vector<char> is_corner(region.points().size(), 0);
   for (const std::uint32_t t : blamed) {
-    const std::uint32_t was = candidate.was[t];
-    if (simplifier.last_moved(was) == CutSimplifier::kNone) continue;
-    stays[simplifier.last_moved(was)] = 1;
-    for (const std::uint32_t p : simplifier.mesh().triangles()[was]) is_corner[p] = 1;
+    const std::optional<std::uint32_t> here = region.find(candidate.was[t]);
+    if (!here || simplifier.last_moved(*here) == CutSimplifier::kNone) continue;
+    region.stay(simplifier.last_moved(*here));
+    for (const std::uint32_t p : simplifier.mesh().triangles()[*here]) is_corner[p] = 1;
   }
   if (!all) return;
   const std::vector<std::uint32_t> places = simplifier.places();
-  for (std::uint32_t p = 0; p < stays.size(); ++p) {
-    if (simplifier.has_moved(p) && is_corner[places[p]] != 0) stays[p] = 1;
+  for (std::uint32_t p = 0; p < places.size(); ++p) {
+    if (simplifier.has_moved(p) && is_corner[places[p]] != 0) region.stay(p);
   }
 }
 
 // Whether the candidate is as good as the original; if not, what is to blame for it stays.
 bool passes(const Original& original, const CutSimplifier& simplifier, const Candidate& candidate,
             const SimplifyOptions& options, bool patient, MeetingTest& meeting,
-            std::vector<char>& stays) {
-  std::vector<std::uint32_t> blamed = meeting.run(candidate, simplifier.mesh().triangles());
+            MovableRegion& region) {
+  std::vector<std::uint32_t> blamed = meeting.run(candidate);
   const bool meet = !blamed.empty();
   if (!meet) blamed = resizing_triangles(original, candidate);
   if (blamed.empty()) blamed = turning_triangles(candidate, options.within, options.progress);
-  take_back(simplifier, candidate, blamed, !meet || !patient, stays);
+  take_back(simplifier, candidate, blamed, !meet || !patient, region);
   return blamed.empty();
 }
 
 std::size_t count_of(const std::vector<char>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
+}
+
+// Round by round, until a candidate passes.
+std::optional<Surface> simplified(const Original& original, MovableRegion& region,
+                                  const SimplifyOptions& options, SimplifyReport& report) {
+  const Surface& surface = original.surface;
+  MeetingTest meeting(surface.mesh, options);
+  CutSimplifier simplifier(region.mesh(), region.stays(), region.within(),
+                           {region.source(), options.reach}, options.progress);
+  Candidate candidate;
+  candidate.mesh.points = surface.mesh.points;
+  while (report.rounds < kMostRounds) {
+    ++report.rounds;
+    simplifier.run();
+    take(original, region, simplifier, candidate);
+    if (candidate.changed.empty()) return std::nullopt;
+    const bool patient = report.rounds <= kPatientRounds;
+    if (!passes(original, simplifier, candidate, options, patient, meeting, region)) {
+      simplifier.take_back();
+      continue;
+    }
+    Surface simpler = surface_of(surface, candidate);
+    report.removed_points = surface.mesh.points.size() - simpler.mesh.points.size();
+    report.removed_triangles = surface.mesh.triangles.size() - candidate.was.size();
+    report.distance = simplifier.distance();
+    return simpler;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -251,32 +289,13 @@ std::optional<Surface> simplify_cuts(const Surface& surface, std::vector<char>& 
   report = {};
   if (!(options.within > 0) || count_of(stays) == stays.size()) return std::nullopt;
   const Original original(surface);
-  const std::vector<double> within = original.bounds(options.within);
   keep_contacts(surface.mesh, stays);
   const std::size_t to_stay = count_of(stays);
-  MeetingTest meeting(surface.mesh, options);
-  CutSimplifier simplifier(surface.mesh, stays, within, {surface.source, options.reach},
-                           options.progress);
-  Candidate candidate;
-  candidate.mesh.points = surface.mesh.points;
-  while (report.rounds < kMostRounds) {
-    ++report.rounds;
-    simplifier.run();
-    take(simplifier, candidate);
-    if (candidate.changed.empty()) return std::nullopt;
-    const bool patient = report.rounds <= kPatientRounds;
-    if (!passes(original, simplifier, candidate, options, patient, meeting, stays)) {
-      simplifier.take_back();
-      continue;
-    }
-    Surface simpler = surface_of(surface, simplifier);
-    report.removed_points = surface.mesh.points.size() - simpler.mesh.points.size();
-    report.removed_triangles = surface.mesh.triangles.size() - candidate.was.size();
-    report.distance = simplifier.distance();
-    report.points_to_stay = count_of(stays) - to_stay;
-    return simpler;
-  }
-  return std::nullopt;
+  MovableRegion region(surface.mesh, stays, original.bounds(options.within), surface.source);
+  std::optional<Surface> simpler = simplified(original, region, options, report);
+  region.copy_stays(stays);
+  if (simpler) report.points_to_stay = count_of(stays) - to_stay;
+  return simpler;
 }
 
 }  // namespace meshrepair
