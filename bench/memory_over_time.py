@@ -98,7 +98,7 @@ def main():
     parser.add_argument("--temp", type=pathlib.Path, default="/var/tmp", help="a folder on a disk")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=arguments.temp) as folder:
-        runs = [run_with(arguments.program, arguments.mesh, name, pathlib.Path(folder)) for name in arguments.limits]
+        runs = [run_with(arguments.program.resolve(), arguments.mesh, name, pathlib.Path(folder)) for name in arguments.limits]
         for run in runs[1:]:
             if subprocess.run(["cmp", runs[0]["out"], run["out"]]).returncode != 0:
                 sys.exit("the outputs differ")

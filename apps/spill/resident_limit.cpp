@@ -16,8 +16,8 @@ constexpr long kBetweenLooks = 500'000;                 // nanoseconds; the syst
 constexpr std::size_t kAtOnce = std::size_t{32} << 20;  // addresses; a look follows
 // Pages that are in the file's cache come back fast: what threads may take between two looks.
 constexpr double kSparedShare = 0.2;
-constexpr double kSparedAlways = 64 << 20, kSparedForThread = 64 << 20;  // bytes
-constexpr double kMostSpared = 0.5;                                      // of the limit
+constexpr double kSparedAlways = 128 << 20, kSparedForThread = 128 << 20;  // bytes
+constexpr double kMostSpared = 0.5;                                        // of the limit
 constexpr double kEnd = 0.9;  // of where letting go begins: where it ends
 
 // What the handler works with; it starts with a file.
