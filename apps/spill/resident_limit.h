@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <ctime>
+#include <vector>
 
 #include "spill/spill_file.h"
 
@@ -25,8 +26,7 @@ class ResidentLimit {
   void start();
 
   SpillFile& file_;
-  timer_t timer_ = {};
-  bool has_timer_ = false;
+  std::vector<timer_t> timers_;
 };
 
 }  // namespace meshrepair

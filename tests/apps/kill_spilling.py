@@ -21,6 +21,7 @@ import tempfile
 import time
 
 DONE, LIMIT_REACHED, NOT_WRITTEN = 0, 4, 6
+ARRAYS_FOR_OUTPUT = 30  # bytes of arrays for each byte of the output
 MOST_SHARE = 1.1  # of the undisturbed time: when the latest kill comes
 
 
@@ -90,7 +91,11 @@ def main():
         trial.end(trial.start(), "the run after all kills")
         print(f"{kills} kills in runs of {trial.seconds:.1f} s: {dict(codes)}; nothing half written, nothing left", flush=True)
         size = len(trial.whole) >> 20
-        codes = collections.Counter(trial.fill(chance.randint(1, 4 * size), chance.random() < 0.3) for _ in range(full_disks))
+        codes = collections.Counter()
+        for _ in range(full_disks):
+            is_for_output = chance.random() < 0.3
+            most = 2 * size if is_for_output else ARRAYS_FOR_OUTPUT * size  # from too little to enough
+            codes[trial.fill(chance.randint(1, most), is_for_output)] += 1
         print(f"{full_disks} small disks: {dict(codes)}; nothing half written, nothing left")
 
 
