@@ -26,7 +26,7 @@ TriangleSoup strip(std::uint32_t length) {
   return soup;
 }
 
-struct MovableRegionTest : testing::Test {
+struct MovableRegionTest : ::testing::Test {
   MovableRegionTest() : soup_(strip(10)), stays_(22, 1), within_(22), source_(20) {
     stays_[5] = 0;
     std::iota(within_.begin(), within_.end(), 0.0);
