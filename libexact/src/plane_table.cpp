@@ -1,17 +1,19 @@
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include <base/assert.h>
+#include <base/buckets.h>
 #include <base/first_equal.h>
-#include <base/parallel.h>
 #include <base/release.h>
 #include <exact/plane_table.h>
 
 namespace meshrepair {
 namespace {
+
+constexpr std::size_t kPartsOfTable = 256;  // a power of two, as its size is
 
 std::uint64_t mix(std::uint64_t h, std::uint64_t value) {
   h = (h ^ value) * 0x9E3779B97F4A7C15u;
@@ -25,23 +27,6 @@ std::uint64_t hash_of(const Plane& plane) {
   h = mix(h, static_cast<std::uint64_t>(plane.offset));
   h = mix(h, static_cast<std::uint64_t>(plane.offset >> 64));
   return h ^ (h >> 32);
-}
-
-// The numbers of these slots, by the part of the table that each is in.
-std::vector<std::uint32_t> in_parts_of_table(const std::vector<std::uint64_t>& slots) {
-  constexpr std::uint64_t kSlotsOfPart = std::uint64_t{1} << 16;
-  std::vector<std::size_t> ends;  // where each part ends; first, where the one before it does
-  for (const std::uint64_t slot : slots) {
-    const std::size_t part = slot / kSlotsOfPart;
-    if (part + 2 > ends.size()) ends.resize(part + 2);
-    ++ends[part + 1];
-  }
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::uint32_t> order(slots.size());
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    order[ends[slots[i] / kSlotsOfPart]++] = static_cast<std::uint32_t>(i);
-  }
-  return order;
 }
 
 }  // namespace
@@ -106,13 +91,20 @@ void PlaneTable::grow_index() {
   const std::size_t wanted = std::max<std::size_t>(64, 4 * (planes_.size() + 1));
   slots_.assign(std::bit_ceil(wanted), PlaneId());
   const std::size_t mask = slots_.size() - 1;
-  std::vector<std::uint64_t> first_slots(planes_.size());
-  parallel_for(planes_.size(),
-               [&](std::size_t i) { first_slots[i] = hash_of(planes_[PlaneId(i)]) & mask; });
-  for (const std::uint32_t i : in_parts_of_table(first_slots)) {
-    std::size_t slot = first_slots[i];
-    while (slots_[slot].valid()) slot = (slot + 1) & mask;
-    slots_[slot] = PlaneId(i);
+  struct Entry {
+    PlaneId id;
+    std::size_t slot;
+  };
+  const std::size_t parts = std::min(slots_.size(), kPartsOfTable);
+  Buckets<Entry> buckets(planes_.size(), parts, [&](std::size_t i, const auto& put) {
+    const std::size_t slot = hash_of(planes_[PlaneId(i)]) & mask;
+    put(slot / (slots_.size() / parts), {PlaneId(i), slot});
+  });
+  for (std::size_t part = 0; part < parts; ++part) {
+    for (auto [id, slot] : buckets[part]) {
+      while (slots_[slot].valid()) slot = (slot + 1) & mask;
+      slots_[slot] = id;
+    }
   }
   interned_ = planes_.size();
 }
