@@ -20,8 +20,8 @@ void* taken(std::size_t bytes) {
 
 // Blocks of a source are aligned to pages.
 void* taken_aligned(std::size_t bytes, std::size_t alignment) {
-  if (bytes >= kLeastBlock && block_source() != nullptr) {
-    if (void* const block = block_source()->take(bytes)) return block;
+  if (BlockSource* const source = block_source_for(bytes)) {
+    if (void* const taken = source->take(bytes)) return taken;
   }
   void* block = nullptr;
   if (::posix_memalign(&block, alignment, bytes == 0 ? 1 : bytes) != 0) throw std::bad_alloc();

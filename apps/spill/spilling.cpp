@@ -26,6 +26,13 @@ std::string default_folder() {
   return named != nullptr && *named != '\0' ? named : kDefaultFolder;
 }
 
+// For tests: blocks from this size on lie in the file, whatever the limit, and none of them stays
+// in memory. 0: as the limit says.
+std::size_t forced_block() {
+  const char* const named = std::getenv("MESHREPAIR_SPILL_FROM");
+  return named == nullptr ? 0 : std::strtoull(named, nullptr, 10);
+}
+
 // Files there take the memory that they are to spare.
 bool is_in_memory(const std::string& folder) {
   struct statfs status = {};
@@ -39,15 +46,17 @@ Spilling::Spilling(const std::string& folder, const MemoryLimit& limit)
     : folder_(folder.empty() ? default_folder() : folder) {
   if (limit.bytes == 0 || folder == "none") return;
   if (folder.empty() && is_in_memory(folder_)) return;
+  const std::size_t forced = forced_block();
+  const std::uint64_t in_memory = limit.bytes / (limit.is_share ? kInMemoryOfShare : kInMemory);
   try {
-    file_ = new SpillFile(folder_, limit.bytes / (limit.is_share ? kInMemoryOfShare : kInMemory));
+    file_ = new SpillFile(folder_, forced > 0 ? 0 : in_memory);
   } catch (const OutputError& error) {
     if (!folder.empty()) throw;
     logger().debug("{}", error.what());
     return;
   }
-  resident_limit_ = std::make_unique<ResidentLimit>(*file_, limit.bytes);
-  set_block_source(file_);
+  resident_limit_ = std::make_unique<ResidentLimit>(*file_, forced > 0 ? 1 : limit.bytes);
+  set_block_source(file_, forced > 0 ? forced : kLeastBlock);
 }
 
 // Blocks that are still in the file are given back to it later.

@@ -7,7 +7,7 @@
 namespace meshrepair {
 
 void* take_block(std::size_t bytes) noexcept {
-  BlockSource* const source = bytes < kLeastBlock ? nullptr : block_source();
+  BlockSource* const source = block_source_for(bytes);
   void* const block = source == nullptr ? nullptr : source->take(bytes);
   return block != nullptr ? block : std::malloc(bytes);
 }
@@ -17,8 +17,9 @@ void* resize_block(void* block, std::size_t old_bytes, std::size_t bytes) noexce
   BlockSource* const source = block_source();
   if (source == nullptr) return std::realloc(block, bytes);
   const bool is_owned = block != nullptr && source->owns(block);
-  if (is_owned && bytes >= kLeastBlock && bytes <= source->size_of(block)) return block;
-  void* moved = bytes < kLeastBlock ? nullptr : source->take(bytes);
+  BlockSource* const next = block_source_for(bytes);
+  if (is_owned && next != nullptr && bytes <= source->size_of(block)) return block;
+  void* moved = next == nullptr ? nullptr : next->take(bytes);
   if (moved == nullptr && !is_owned) return std::realloc(block, bytes);
   if (moved == nullptr) moved = std::malloc(bytes);
   if (moved == nullptr) return nullptr;

@@ -7,6 +7,7 @@
 #include <base/assert.h>
 #include <base/buckets.h>
 #include <base/first_equal.h>
+#include <base/first_known.h>
 #include <base/release.h>
 #include <exact/plane_table.h>
 
@@ -29,6 +30,20 @@ std::uint64_t hash_of(const Plane& plane) {
   return h ^ (h >> 32);
 }
 
+// The planes of a table, and behind them canonical ones that may be new.
+struct PlaneKeys {
+  const IdVector<PlaneId, Plane>& known;
+  const std::vector<Plane>& fresh;
+
+  [[nodiscard]] const Plane& at(std::uint32_t i) const {
+    return i < known.size() ? known[PlaneId(i)] : fresh[i - known.size()];
+  }
+  [[nodiscard]] std::uint64_t hash_of(std::uint32_t i) const { return meshrepair::hash_of(at(i)); }
+  [[nodiscard]] bool same(std::uint32_t i, std::uint32_t j) const {
+    return same_coefficients(at(i), at(j));
+  }
+};
+
 }  // namespace
 
 PlaneTable::Interned PlaneTable::intern(Plane plane) {
@@ -43,6 +58,27 @@ PlaneTable::Interned PlaneTable::intern(Plane plane) {
   slots_[slot] = planes_.push_back(plane);
   ++interned_;
   return {slots_[slot], turned};
+}
+
+std::vector<PlaneTable::Interned> PlaneTable::intern(std::vector<Plane> planes) {
+  std::vector<Interned> interned;
+  interned.reserve(planes.size());
+  if (!slots_.empty()) {
+    for (const Plane& plane : planes) interned.push_back(intern(plane));
+    return interned;
+  }
+  for (Plane& plane : planes) interned.push_back({PlaneId(), make_canonical(plane)});
+  const auto known = static_cast<std::uint32_t>(planes_.size());
+  const std::vector<std::uint32_t> first =
+      first_known(known, static_cast<std::uint32_t>(planes.size()), PlaneKeys{planes_, planes});
+  for (std::uint32_t i = 0; i < planes.size(); ++i) {
+    if (first[i] != known + i) {
+      interned[i].id = first[i] < known ? PlaneId(first[i]) : interned[first[i] - known].id;
+    } else {
+      interned[i].id = planes_.push_back(planes[i]);
+    }
+  }
+  return interned;
 }
 
 PlaneId PlaneTable::find(const Plane& plane) const {

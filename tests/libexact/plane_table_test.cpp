@@ -135,6 +135,36 @@ TEST(PlaneTable, TakesManyAtOnceAsOneByOne) {
   }
 }
 
+// With a table of no planes, of few, of many, and one that has its index.
+TEST(PlaneTable, InternsSeveralAsOneByOne) {
+  Random random(6);
+  for (const int known : {0, 10, 200'000}) {
+    for (const bool has_index : {false, true}) {
+      PlaneTable one_by_one, at_once;
+      for (int i = 0; i < known; ++i) {
+        const Plane plane = plane_near_origin(random, 12);
+        one_by_one.intern(plane);
+        at_once.intern(plane);
+      }
+      if (!has_index) at_once.release_index();
+      std::vector<Plane> planes;
+      for (int i = 0; i < 3000; ++i) planes.push_back(plane_near_origin(random, i % 2 ? 3 : 20));
+      const std::vector<PlaneTable::Interned> interned = at_once.intern(planes);
+      ASSERT_EQ(interned.size(), planes.size());
+      for (std::size_t i = 0; i < planes.size(); ++i) {
+        const PlaneTable::Interned expected = one_by_one.intern(planes[i]);
+        ASSERT_EQ(interned[i].id, expected.id);
+        ASSERT_EQ(interned[i].turned, expected.turned);
+      }
+      ASSERT_EQ(at_once.size(), one_by_one.size());
+      for (PlaneId id(0u); id.index() < at_once.size(); ++id.value) {
+        ASSERT_TRUE(same_coefficients(at_once[id], one_by_one[id]));
+      }
+      EXPECT_EQ(at_once.intern(planes[0]).id, interned[0].id);
+    }
+  }
+}
+
 TEST(PlaneTable, AppendedPlanesGetIdsOfTheirOwn) {
   PlaneTable table;
   const Plane plane = make_plane({1, 2, 3}, 4);

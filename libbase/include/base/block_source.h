@@ -6,7 +6,7 @@
 
 namespace meshrepair {
 
-// Blocks from this size on are asked of the source.
+// Blocks from this size on are asked of the source, where nothing else is said.
 inline constexpr std::size_t kLeastBlock = std::size_t{1} << 20;  // bytes
 
 // Gives and takes back large blocks of memory. All blocks lie between two addresses that never
@@ -44,6 +44,7 @@ class BlockSource {
 
 namespace internal {
 inline std::atomic<BlockSource*> block_source{nullptr};
+inline std::atomic<std::size_t> least_block{~std::size_t{0}};
 }  // namespace internal
 
 // Null, the state at first, if all memory is the system's.
@@ -51,9 +52,17 @@ inline std::atomic<BlockSource*> block_source{nullptr};
   return internal::block_source.load(std::memory_order_acquire);
 }
 
-// From now on; blocks of the system stay what they are. The source has to outlive all blocks that
-// it gives, so it is for the rest of the process.
-inline void set_block_source(BlockSource* source) noexcept {
+// The source that is asked for a block of this size, if any.
+[[nodiscard]] inline BlockSource* block_source_for(std::size_t bytes) noexcept {
+  const bool is_small = bytes < internal::least_block.load(std::memory_order_relaxed);
+  return is_small ? nullptr : block_source();
+}
+
+// From now on, for blocks of at least so many bytes; blocks of the system stay what they are. The
+// source has to outlive all blocks that it gives, so it is for the rest of the process.
+inline void set_block_source(BlockSource* source, std::size_t least = kLeastBlock) noexcept {
+  internal::least_block.store(source == nullptr ? ~std::size_t{0} : least,
+                              std::memory_order_relaxed);
   internal::block_source.store(source, std::memory_order_release);
 }
 

@@ -19,6 +19,9 @@ class PlaneTable {
   // The id of the plane with these points, made canonical; a new one if it is not there yet. Ids
   // count up from 0. `plane` has a normal that is not zero. Amortised constant time.
   Interned intern(Plane plane);
+  // The same for several, as one by one would give. What is there already is read in order, and no
+  // look-up table of it is made: for a few planes and a table of many.
+  [[nodiscard]] std::vector<Interned> intern(std::vector<Plane> planes);
 
   // The id of a canonical plane; invalid if it is not there. Only between intern() and
   // release_index().

@@ -89,7 +89,6 @@ class HolePatcher {
         report_(report),
         progress_(progress),
         triangles_(index_triangles(soup)),
-        new_points_(soup),
         sheets_{DisjointSets(triangles_.size()), {}},
         parts_(0) {}
 
@@ -108,7 +107,9 @@ class HolePatcher {
     close_rings();
     if (!rings_.empty()) judge_openings();
     curve();
+    add_points_of_curved();
     for (std::size_t l = 0; l < patches_.size(); ++l) close_hole(l);
+    find_planes();
     drop_copies();
     report_.rings = rings_.size();
     report_.area *= soup_.grid.unit * soup_.grid.unit;
@@ -294,6 +295,18 @@ class HolePatcher {
     return too_large_[loop] == 0 && folded_[loop] == 0;
   }
 
+  // All at once: to look each up in a table of all points would be slow.
+  void add_points_of_curved() {
+    std::vector<Vec3d> places;
+    for (std::size_t l = 0; l < curved_.size(); ++l) {
+      first_point_.push_back(places.size());
+      if (!curved_[l]) continue;
+      const auto& points = curved_[l]->points;
+      for (std::size_t i = rims_[l].size(); i < points.size(); ++i) places.push_back(points[i]);
+    }
+    new_points_ = internal::add_points(soup_, places);
+  }
+
   void close_hole(std::size_t loop) {
     if (closed_[loop] != 0) return;
     if (curved_[loop]) return close_curved(loop);
@@ -319,8 +332,8 @@ class HolePatcher {
     const internal::PatchMesh& patch = *curved_[loop];
     std::vector<PointId> ids;
     for (const std::uint32_t p : loops_.points_of(loop)) ids.emplace_back(p);
-    for (std::size_t i = ids.size(); i < patch.points.size(); ++i) {
-      ids.push_back(new_points_.add(patch.points[i]));
+    for (std::size_t i = 0; ids.size() < patch.points.size(); ++i) {
+      ids.push_back(new_points_[first_point_[loop] + i]);
     }
     const bool turn = runs_along_surface(loop);
     double area = 0;
@@ -342,12 +355,21 @@ class HolePatcher {
   void add(Corners corners, bool turn) {
     if (turn) std::swap(corners[1], corners[2]);
     const auto& at = soup_.grid_points;
-    Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
+    const Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
     // Three points in a line need no triangle: the edge across bounds the same region.
     if (is_null(plane)) return;
-    const auto interned = soup_.planes.intern(plane);
-    soup_.triangles.push_back(
-        {corners, interned.id, interned.turned ? -1 : 1, Triangle::kNoSource});
+    planes_.push_back(plane);
+    soup_.triangles.push_back({corners, PlaneId(), 1, Triangle::kNoSource});
+  }
+
+  // Of all triangles that were added.
+  void find_planes() {
+    const auto interned = soup_.planes.intern(std::move(planes_));
+    for (std::size_t i = 0; i < interned.size(); ++i) {
+      Triangle& triangle = soup_.triangles[TriangleId(triangles_.size() + i)];
+      triangle.plane = interned[i].id;
+      triangle.winding = interned[i].turned ? -1 : 1;
+    }
   }
 
   // Most of the triangles at the loop pass it in its own direction, so that a patch has to turn.
@@ -398,7 +420,6 @@ class HolePatcher {
   HoleReport& report_;
   ProgressObserver* progress_;
   std::vector<IndexTriangle> triangles_;
-  internal::NewPoints new_points_;
   Sheets sheets_;
   DisjointSets parts_;  // of triangles: sheets that are joined by rims and rings
   std::vector<Ring> rings_;
@@ -410,6 +431,9 @@ class HolePatcher {
   std::vector<char> too_large_;                             // of each loop: its patch
   std::vector<char> closed_;                                // of each loop: by a ring
   std::vector<std::optional<internal::PatchMesh>> curved_;  // of each loop
+  std::vector<std::size_t> first_point_;                    // of each loop, in new_points_
+  std::vector<PointId> new_points_;                         // of curved patches
+  std::vector<Plane> planes_;                               // of the triangles that were added
   std::vector<std::uint32_t> roots_;                        // scratch
 };
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include <base/first_known.h>
 #include <exact/grid_hash.h>
 
 namespace meshrepair::internal {
@@ -13,32 +15,40 @@ std::int32_t nearest_step(double x) {
   return static_cast<std::int32_t>(std::clamp(std::nearbyint(x), -kReach, kReach));
 }
 
+// The points of a soup, and behind them those that may be new.
+struct PointKeys {
+  const IdVector<PointId, GridPoint>& known;
+  const std::vector<GridPoint>& fresh;
+
+  [[nodiscard]] const GridPoint& at(std::uint32_t i) const {
+    return i < known.size() ? known[PointId(i)] : fresh[i - known.size()];
+  }
+  [[nodiscard]] std::uint64_t hash_of(std::uint32_t i) const { return internal::hash_of(at(i)); }
+  [[nodiscard]] bool same(std::uint32_t i, std::uint32_t j) const { return at(i) == at(j); }
+};
+
 }  // namespace
 
-void NewPoints::index_all() {
-  index_.emplace(2 * soup_.grid_points.size());
-  for (PointId p(0u); p < soup_.grid_points.end_id(); ++p.value) {
-    (void)index_->find_or_insert(hash_of(soup_.grid_points[p]), p.value,
-                                 [](std::uint32_t) { return false; });
+std::vector<PointId> add_points(CleanSoup& soup, const std::vector<Vec3d>& places) {
+  std::vector<GridPoint> fresh;
+  fresh.reserve(places.size());
+  for (const Vec3d& at : places) {
+    fresh.push_back({nearest_step(at.x()), nearest_step(at.y()), nearest_step(at.z())});
   }
-}
-
-PointId NewPoints::add(const Vec3d& at) {
-  if (!index_) index_all();
-  const GridPoint place{nearest_step(at.x()), nearest_step(at.y()), nearest_step(at.z())};
-  const auto count = static_cast<std::uint32_t>(soup_.grid_points.size());
-  if (index_->full(count)) {
-    index_->grow(count, [&](std::uint32_t p) { return hash_of(soup_.grid_points[PointId(p)]); });
+  const auto known = static_cast<std::uint32_t>(soup.grid_points.size());
+  const std::vector<std::uint32_t> first = first_known(
+      known, static_cast<std::uint32_t>(fresh.size()), PointKeys{soup.grid_points, fresh});
+  std::vector<PointId> ids(fresh.size());
+  for (std::uint32_t i = 0; i < ids.size(); ++i) {
+    if (first[i] != known + i) {
+      ids[i] = first[i] < known ? PointId(first[i]) : ids[first[i] - known];
+      continue;
+    }
+    const Vec3d position = as_vector(fresh[i]);
+    ids[i] = soup.grid_points.push_back(fresh[i]);
+    soup.points.push_back(soup.grid.from_grid({position.x(), position.y(), position.z()}));
   }
-  const PointId id(index_->find_or_insert(hash_of(place), count, [&](std::uint32_t p) {
-    return soup_.grid_points[PointId(p)] == place;
-  }));
-  if (id.value == count) {
-    const Vec3d position = as_vector(place);
-    soup_.grid_points.push_back(place);
-    soup_.points.push_back(soup_.grid.from_grid({position.x(), position.y(), position.z()}));
-  }
-  return id;
+  return ids;
 }
 
 }  // namespace meshrepair::internal
