@@ -1,9 +1,12 @@
 // meshrepair IN OUT: any triangle mesh or point cloud to the boundary of a solid, the whole way in
 // one process.
+#include <string>
+
 #include <base/error.h>
 
 #include "common/file_kinds.h"
 #include "common/repair_command.h"
+#include "resume/resumable.h"
 #include "serve/serve.h"
 
 int main(int argc, char** argv) {
@@ -16,6 +19,7 @@ int main(int argc, char** argv) {
       "  meshrepair --for print broken.obj part.stl\n"
       "  meshrepair --inside solidity --report report.json broken.obj repaired.ply\n"
       "  meshrepair scan.xyz solid.obj\n"
+      "  meshrepair --resume /scratch/city --max-memory 8G city.ply repaired.ply\n"
       "  curl https://example.org/mesh.stl | meshrepair --format stl - - > repaired.stl\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", command.steps.input,
@@ -28,6 +32,8 @@ int main(int argc, char** argv) {
       ->check(names_file(mesh_extensions()))
       ->required();
   add_repair_command(app, command);
+  std::string resume;
+  add_resume_option(app, resume);
   app.add_flag_callback(
          "--serve", [] { throw UsageError("--serve: stands alone, and first"); },
          "Serve a page on this machine that checks and repairs meshes; without IN and\n"
@@ -35,6 +41,9 @@ int main(int argc, char** argv) {
       ->group("Page");
   return run_steps(program, argc, argv, command.steps,
                    [&](const StepOptions&, Run& run, Findings& findings) {
-                     repair_file(command, run, findings);
+                     run_resumable(resume, app, run, [&](StateStore* states) {
+                       command.steps.repair.states = states;
+                       repair_file(command, run, findings);
+                     });
                    });
 }

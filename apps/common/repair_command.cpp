@@ -37,6 +37,7 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
   keep_attributes(input.soup, input.attributes, options);
   options.keep_valid = !command.always && !input.cloud;
   const StepOptions& steps = command.steps;
+  if (input.cloud) options.states = nullptr;  // of points several soups are tried
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 

@@ -33,6 +33,7 @@
 #include "cells/covered_cells.h"
 #include "prepare/prepare.h"
 #include "report/describe_result.h"
+#include "resume/saved_states.h"
 #include "seal/seal_solid.h"
 #include "sew/moved_corners.h"
 #include "solid/find_solid.h"
@@ -50,6 +51,7 @@ struct Job {
   const RepairOptions& options;
   RepairReport& report;
   StageMeter meter;
+  internal::SavedStates states = internal::SavedStates(soup, options);
   std::optional<Invalid> invalid = {};  // what the first way found of the soup
   bool prepared = false;
   CleanSoup clean = {};  // once prepared: on the grid, its holes closed
@@ -59,15 +61,52 @@ struct Job {
     if (std::exchange(prepared, true)) return;
     clean = internal::close_soup(soup, options, report, meter);
     orientation = internal::orient_soup(clean, options, report, meter);
+    meter.end();
+    states.save(internal::kPreparedState, clean, orientation, invalid, report);
+  }
+
+  // The surface of an earlier run that got so far; else that run may have prepared the soup.
+  std::optional<Surface> resumed() {
+    const bool is_repaired = states.has(internal::kRepairedState);
+    if (!is_repaired && !states.has(internal::kPreparedState)) return std::nullopt;
+    meter.begin("resume");
+    Surface surface;
+    RepairReport saved;
+    if (is_repaired && states.load(internal::kRepairedState, surface, saved)) {
+      go_on_from(std::move(saved));
+      return surface;
+    }
+    prepared = states.load(internal::kPreparedState, clean, orientation, invalid, saved);
+    if (prepared) go_on_from(std::move(saved));
+    return std::nullopt;
+  }
+
+  void keep_repaired(const Surface& surface) {
+    if (!prepared) return;
+    states.save(internal::kRepairedState, surface, report);
+    for (const char* const name :
+         {internal::kPreparedState, internal::kChambersState, internal::kTanglesState}) {
+      states.drop(name);
+    }
+  }
+
+ private:
+  // Stages of this run follow those of the other one.
+  void go_on_from(RepairReport saved) {
+    meter.end();
+    saved.stages.insert(saved.stages.end(), report.stages.begin(), report.stages.end());
+    report = std::move(saved);
   }
 };
 
 std::optional<Surface> as_given(Job& job) {
+  if (job.prepared) return std::nullopt;
   return internal::keep_as_given(job.soup, job.options, job.report, job.meter, job.invalid);
 }
 
 std::optional<Surface> mended(Job& job) {
   job.prepare();
+  if (job.states.has(internal::kChambersState)) return std::nullopt;
   return internal::keep_mended(job.clean, job.orientation, job.invalid, job.options, job.report,
                                job.meter);
 }
@@ -75,13 +114,14 @@ std::optional<Surface> mended(Job& job) {
 std::optional<Surface> by_chambers(Job& job) {
   if (!internal::may_spare_cells(job.options)) return std::nullopt;
   job.prepare();
-  return internal::surface_by_chambers(job.clean, job.orientation, job.options, job.report,
-                                       job.meter);
+  return internal::surface_by_chambers(job.clean, job.orientation, job.options, job.states,
+                                       job.report, job.meter);
 }
 
 std::optional<Surface> around_tangles(Job& job) {
   job.prepare();
-  return internal::cut_tangles(job.clean, job.orientation, job.options, job.report, job.meter);
+  return internal::cut_tangles(job.clean, job.orientation, job.options, job.states, job.report,
+                               job.meter);
 }
 
 std::optional<Surface> cells_everywhere(Job& job) {
@@ -95,11 +135,13 @@ constexpr std::array kWays = {as_given, mended, by_chambers, around_tangles, cel
 
 // By the first way that applies; the last one always does.
 std::optional<Surface> first_way(Job& job) {
-  std::optional<Surface> surface;
+  std::optional<Surface> surface = job.resumed();
+  if (surface) return surface;
   for (const auto& way : kWays) {
     surface = way(job);
     if (surface) break;
   }
+  job.keep_repaired(*surface);
   return surface;
 }
 
@@ -172,10 +214,18 @@ Surface repair_with_fitting_walls(const TriangleSoup& soup, RepairOptions option
   return surface;
 }
 
+// Soups that are repaired several times, in several ways, have no states.
+RepairOptions without_states(RepairOptions options) {
+  options.states = nullptr;
+  return options;
+}
+
 Surface repair_what_is_there(const TriangleSoup& soup, const RepairOptions& options,
                              RepairReport& report) {
-  if (options.thicken.automatic) return repair_with_fitting_walls(soup, options, report);
-  return options.thicken.wanted() ? repair_with_walls(soup, options, report)
+  if (options.thicken.automatic) {
+    return repair_with_fitting_walls(soup, without_states(options), report);
+  }
+  return options.thicken.wanted() ? repair_with_walls(soup, without_states(options), report)
                                   : repair_solids(soup, options, report);
 }
 
@@ -205,7 +255,8 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   Surface surface = repair_what_is_there(soup, options, report);
   if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
   if (options.seal.wanted()) {
-    surface = internal::seal_solid(soup, std::move(surface), options, repair_solids, report);
+    surface = internal::seal_solid(soup, std::move(surface), without_states(options), repair_solids,
+                                   report);
   }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
   if (options.keep.wanted()) {

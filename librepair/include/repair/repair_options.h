@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <base/state_store.h>
 #include <bsp/build_tree.h>
 #include <extract/extract_surface.h>
 #include <extract/float_engine.h>
@@ -62,6 +63,9 @@ struct RepairOptions {
   bool explain = false;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
   bool check_cells = false;
+  // Where what is done is kept, for a run that goes on from there with the same options; not owned.
+  // Null: nowhere. Nothing is kept of what follows repair(), nor where sheets become walls.
+  StateStore* states = nullptr;
   ProgressObserver* progress = nullptr;
 };
 

@@ -30,6 +30,7 @@ RepairOptions options_of_again(const RepairOptions& options, ProgressObserver& q
   again.opacity.clear();
   again.examine = nullptr;
   again.certify.wanted = false;
+  again.states = nullptr;
   // Points that are on the grid now, and coarser, say what they say.
   if (options.certify.precision == Precision::float64) again.slit_steps = 0;
   again.progress = &quiet;
@@ -59,7 +60,8 @@ Surface repair_again(const Surface& surface, const RepairOptions& options) {
   const Orientation orientation = orient_soup(clean, again, report, meter);
   // In single precision slits have to be filled, or rounding makes sheets cross again and again.
   if (again.keep_valid && again.slit_steps == 0) {
-    auto mended = surface_by_chambers(clean, orientation, again, report, meter);
+    SavedStates none;
+    auto mended = surface_by_chambers(clean, orientation, again, none, report, meter);
     if (mended) return std::move(*mended);
   }
   return surface_by_cells(std::move(clean), orientation, again, report, meter);

@@ -166,10 +166,12 @@ Surface surface_by_cells(CleanSoup soup, const Orientation& orientation,
 }
 
 std::optional<Surface> surface_by_chambers(const CleanSoup& soup, const Orientation& orientation,
-                                           const RepairOptions& options, RepairReport& report,
-                                           StageMeter& meter) {
+                                           const RepairOptions& options, SavedStates& states,
+                                           RepairReport& report, StageMeter& meter) {
   RepairReport attempt = report;
-  std::optional<Surface> surface = surface_of_chambers(soup, orientation, options, attempt, meter);
+  std::optional<Surface> surface =
+      made_once(states, kChambersState, attempt, report.stages, meter,
+                [&] { return surface_of_chambers(soup, orientation, options, attempt, meter); });
   if (!surface) return std::nullopt;
   RepairOptions finishing = options;
   finishing.examine = nullptr;

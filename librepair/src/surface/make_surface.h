@@ -12,6 +12,7 @@
 #include <repair/repair_report.h>
 
 #include "cells/covered_cells.h"
+#include "resume/saved_states.h"
 
 namespace meshrepair::internal {
 
@@ -23,11 +24,12 @@ namespace meshrepair::internal {
 
 // The surface that all cells would give, made without them where surface_of_chambers() can; nothing
 // elsewhere, or if it is to be certified and is not, and the report says only which stages there
-// were.
+// were. What came of it before it was finished is kept.
 [[nodiscard]] std::optional<Surface> surface_by_chambers(const CleanSoup& soup,
                                                          const Orientation& orientation,
                                                          const RepairOptions& options,
-                                                         RepairReport& report, StageMeter& meter);
+                                                         SavedStates& states, RepairReport& report,
+                                                         StageMeter& meter);
 
 // The boundary between the cells that are solid and the others, simplified and certified as the
 // options say: the first attempt that passes, else the one with the fewest faults. `covered` is

@@ -210,34 +210,33 @@ class TangleCutter {
   StageMeter& meter_;
 };
 
-// The whole of the work, of a report of its own.
+// The boundary, not finished yet.
 std::optional<Surface> try_to_cut(const CleanSoup& soup, const Orientation& orientation,
                                   const RepairOptions& options, RepairReport& report,
                                   StageMeter& meter) {
   meter.begin("tangles");
   std::optional<Tangles> tangles = find_tangles(soup, orientation.winding, options.progress);
   if (!tangles) return std::nullopt;
-  std::optional<Surface> sewn =
-      TangleCutter(soup, orientation, std::move(*tangles), options, report, meter).run();
-  if (!sewn) return std::nullopt;
-  RepairOptions finishing = options;
-  finishing.examine = nullptr;
-  finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kMostRounds);
-  finishing.certify.most_pairs_at_first = kPairsOfTangles;
-  Surface surface = finish_surface(soup, std::move(*sewn), finishing, report, meter);
-  if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
-  return surface;
+  return TangleCutter(soup, orientation, std::move(*tangles), options, report, meter).run();
 }
 
 }  // namespace
 
 std::optional<Surface> cut_tangles(const CleanSoup& soup, const Orientation& orientation,
-                                   const RepairOptions& options, RepairReport& report,
-                                   StageMeter& meter) {
+                                   const RepairOptions& options, SavedStates& states,
+                                   RepairReport& report, StageMeter& meter) {
   if (!is_wanted(orientation, options)) return std::nullopt;
   RepairReport attempt = report;
-  std::optional<Surface> surface = try_to_cut(soup, orientation, options, attempt, meter);
+  std::optional<Surface> surface =
+      made_once(states, kTanglesState, attempt, report.stages, meter,
+                [&] { return try_to_cut(soup, orientation, options, attempt, meter); });
   if (!surface) return std::nullopt;
+  RepairOptions finishing = options;
+  finishing.examine = nullptr;
+  finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kMostRounds);
+  finishing.certify.most_pairs_at_first = kPairsOfTangles;
+  surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
+  if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
   attempt.stages = std::move(report.stages);
   report = std::move(attempt);
   if (options.examine) options.examine(report);

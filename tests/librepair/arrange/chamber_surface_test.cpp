@@ -36,7 +36,8 @@ std::optional<RepairResult> repair_by_chambers(const TriangleSoup& soup, RepairO
     StageMeter meter(report.stages, options.progress);
     const CleanSoup clean = internal::close_soup(soup, options, report, meter);
     const Orientation orientation = internal::orient_soup(clean, options, report, meter);
-    surface = internal::surface_by_chambers(clean, orientation, options, report, meter);
+    internal::SavedStates states;
+    surface = internal::surface_by_chambers(clean, orientation, options, states, report, meter);
   }
   if (!surface) return std::nullopt;
   return RepairResult{std::move(*surface), std::move(report)};

@@ -81,7 +81,8 @@ std::optional<RepairResult> repair_around_tangles(const TriangleSoup& soup, Repa
     StageMeter meter(report.stages, options.progress);
     const CleanSoup clean = internal::close_soup(soup, options, report, meter);
     const Orientation orientation = internal::orient_soup(clean, options, report, meter);
-    surface = internal::cut_tangles(clean, orientation, options, report, meter);
+    internal::SavedStates states;
+    surface = internal::cut_tangles(clean, orientation, options, states, report, meter);
   }
   if (!surface) return std::nullopt;
   return RepairResult{std::move(*surface), std::move(report)};

@@ -1,0 +1,58 @@
+#include "resume/resumable.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <base/error.h>
+
+#include "resume/state_folder.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr std::array<std::string_view, 2> kOtherGroups = {"Running", "Reporting"};
+constexpr std::string_view kInput = "IN";
+
+bool changes_results(const CLI::Option& option) {
+  const bool is_other =
+      std::find(kOtherGroups.begin(), kOtherGroups.end(), option.get_group()) != kOtherGroups.end();
+  return !is_other && option.get_name() != kInput;
+}
+
+}  // namespace
+
+void add_resume_option(CLI::App& app, std::string& folder) {
+  app.add_option("--resume", folder,
+                 "Keep in this folder what is done, and go on from what an interrupted run\n"
+                 "left there; at the end it is removed")
+      ->type_name("DIR")
+      ->group("Running");
+}
+
+std::string options_of_results(const CLI::App& app) {
+  std::string all;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || !changes_results(*option)) continue;
+    all += option->get_name();
+    for (const std::string& value : option->results()) all += '=' + value;
+    all += '\n';
+  }
+  return all;
+}
+
+void run_resumable(const std::string& folder, const CLI::App& app, Run& run,
+                   const std::function<void(StateStore*)>& body) {
+  if (folder.empty()) return body(nullptr);
+  StateFolder states(folder, options_of_results(app));
+  try {
+    body(&states);
+  } catch (const NoSolidError&) {
+    states.remove();
+    throw;
+  }
+  states.remove();
+  if (!states.loaded().empty()) run.report.set_section("resumed", {{"from", states.loaded()}});
+}
+
+}  // namespace meshrepair

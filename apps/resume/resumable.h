@@ -1,0 +1,27 @@
+// Runs that go on from where an earlier one was interrupted.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "common/program.h"
+
+namespace meshrepair {
+
+class StateStore;
+
+// Sets `folder` to the value of --resume.
+void add_resume_option(CLI::App& app, std::string& folder);
+
+// All that `app` was asked for that changes what a repair decides: not how the program runs and
+// tells, nor the input.
+[[nodiscard]] std::string options_of_results(const CLI::App& app);
+
+// Calls body(store): with a folder that keeps states until the body has ended well, or there is no
+// solid; without a name of a folder, with null. The report names the states that were there.
+void run_resumable(const std::string& folder, const CLI::App& app, Run& run,
+                   const std::function<void(StateStore*)>& body);
+
+}  // namespace meshrepair

@@ -1,0 +1,154 @@
+#include "resume/state_folder.h"
+
+#include <cerrno>
+#include <chrono>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/file.h>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+#include <spdlog/logger.h>
+
+#include <base/error.h>
+#include <base/hash_index.h>
+
+#include "common/logging.h"
+#include "resume/state_file.h"
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExtension = ".state";
+constexpr const char* kUnfinished = ".part";
+
+constexpr int kLooks = 20;
+constexpr std::chrono::milliseconds kBetweenLooks{100};
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+std::uint64_t hash_of(std::uint64_t hash, const char* bytes, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    hash = internal::hash_mix(hash, static_cast<unsigned char>(bytes[i]));
+  }
+  return internal::hash_mix(hash, size);
+}
+
+// States are read as they lie in memory, so they are of one build.
+std::uint64_t hash_of_program() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  std::vector<char> block(std::size_t{1} << 16);
+  std::uint64_t hash = 0;
+  while (program.read(block.data(), static_cast<std::streamsize>(block.size())) ||
+         program.gcount() > 0) {
+    hash = hash_of(hash, block.data(), static_cast<std::size_t>(program.gcount()));
+  }
+  return hash;
+}
+
+// A run that was killed may take a moment to be gone.
+bool lock(int folder) {
+  for (int i = 0; i < kLooks; ++i) {
+    if (::flock(folder, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK) return false;
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
+  errno = EWOULDBLOCK;
+  return false;
+}
+
+int locked(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directory(folder, failed);
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) {
+    throw OutputError("--resume: " + folder.string() + " is no folder: " + reason(errno));
+  }
+  if (lock(descriptor)) return descriptor;
+  const int error = errno;
+  ::close(descriptor);
+  if (error == EWOULDBLOCK) {
+    throw UsageError("--resume: another run is at work with " + folder.string());
+  }
+  throw OutputError("--resume: " + folder.string() + " cannot be locked: " + reason(error));
+}
+
+template <class Act>
+void for_each_of_ours(const fs::path& folder, const Act& act) {
+  std::error_code failed;
+  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+    const std::string extension = at->path().extension().string();
+    if (extension == kExtension || extension == kUnfinished) act(at->path());
+  }
+}
+
+}  // namespace
+
+StateFolder::StateFolder(fs::path folder, const std::string& options)
+    : folder_(std::move(folder)),
+      lock_(locked(folder_)),
+      key_(hash_of(hash_of_program(), options.data(), options.size())) {
+  for_each_of_ours(folder_, [this](const fs::path& file) {
+    if (file.extension() == kExtension && key_of_state(file) == key_) return;
+    std::error_code failed;
+    fs::remove(file, failed);
+  });
+}
+
+StateFolder::~StateFolder() { ::close(lock_); }
+
+fs::path StateFolder::path_of(const std::string& name) const {
+  return folder_ / (name + kExtension);
+}
+
+bool StateFolder::has(const std::string& name) const {
+  std::error_code failed;
+  return fs::exists(path_of(name), failed);
+}
+
+bool StateFolder::load(const std::string& name,
+                       const std::function<void(std::istream&, std::uint64_t)>& read) {
+  const fs::path file = path_of(name);
+  if (!has(name)) return false;
+  if (!read_state(file, read)) {
+    logger().warn("--resume: {} is damaged, and not used", file.string());
+    drop(name);
+    return false;
+  }
+  logger().info("goes on from {}", file.string());
+  loaded_.push_back(name);
+  return true;
+}
+
+void StateFolder::save(const std::string& name, const std::function<void(std::ostream&)>& write) {
+  if (!may_save_) return;
+  const fs::path unfinished = folder_ / (name + kUnfinished);
+  try {
+    write_state(unfinished, key_, write);
+    fs::rename(unfinished, path_of(name));
+    ::fsync(lock_);
+  } catch (const fs::filesystem_error& error) {
+    may_save_ = false;
+    logger().warn("--resume: {} cannot be written, so what follows is not kept: {}",
+                  unfinished.string(), error.code().message());
+    std::error_code failed;
+    fs::remove(unfinished, failed);
+  }
+}
+
+void StateFolder::drop(const std::string& name) {
+  std::error_code failed;
+  fs::remove(path_of(name), failed);
+}
+
+void StateFolder::remove() noexcept {
+  std::error_code failed;
+  for_each_of_ours(folder_, [&](const fs::path& file) { fs::remove(file, failed); });
+  ::rmdir(folder_.c_str());
+}
+
+}  // namespace meshrepair

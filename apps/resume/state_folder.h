@@ -1,0 +1,42 @@
+// States of a run in a folder, so that a run after this one can go on from them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <base/state_store.h>
+
+namespace meshrepair {
+
+// One file for each state, whole or not there. Those of another program or of other options are of
+// no use and removed. One run at a time has the folder.
+class StateFolder : public StateStore {
+ public:
+  // Makes the folder if it is not there. `options`: all that results depend on, but for the input.
+  // Throws OutputError where that cannot be, and UsageError where another run has it.
+  StateFolder(std::filesystem::path folder, const std::string& options);
+  ~StateFolder() override;
+
+  [[nodiscard]] bool has(const std::string& name) const override;
+  [[nodiscard]] bool load(const std::string& name,
+                          const std::function<void(std::istream&, std::uint64_t)>& read) override;
+  void save(const std::string& name, const std::function<void(std::ostream&)>& write) override;
+  void drop(const std::string& name) override;
+
+  // The states that were loaded.
+  [[nodiscard]] const std::vector<std::string>& loaded() const { return loaded_; }
+  // All states, and the folder if it is empty then: the work is done.
+  void remove() noexcept;
+
+ private:
+  [[nodiscard]] std::filesystem::path path_of(const std::string& name) const;
+
+  std::filesystem::path folder_;
+  int lock_ = -1;          // a descriptor of the folder
+  std::uint64_t key_ = 0;  // of program and options
+  bool may_save_ = true;   // the disk had room so far
+  std::vector<std::string> loaded_;
+};
+
+}  // namespace meshrepair

@@ -1,0 +1,93 @@
+// What the states of a repair are made of.
+//
+// fields_of() names all members of a type, or the compiler complains: none is forgotten when one is
+// added. That of a repair's report leaves out what is found last of all, after the last state; so
+// does that of a surface's, which only tangles ask for, and do not keep.
+#pragma once
+
+#include <tuple>
+
+#include <bsp/clean_soup.h>
+#include <extract/surface.h>
+#include <repair/orient_parts.h>
+#include <repair/repair_report.h>
+
+#include "state_bytes.h"
+
+// Where the types are, or they would not be found.
+namespace meshrepair {
+
+using internal::Is;
+
+template <Is<Grid> T>
+auto fields_of(T& grid) {
+  auto& [origin, unit] = grid;
+  return std::tie(origin, unit);
+}
+
+template <Is<CleanSoup> T>
+auto fields_of(T& soup) {
+  auto& [grid, points, grid_points, triangles, planes] = soup;
+  return std::tie(grid, points, grid_points, triangles, planes);
+}
+
+template <Is<Orientation> T>
+auto fields_of(T& orientation) {
+  auto& [winding, part_of, parts] = orientation;
+  return std::tie(winding, part_of, parts);
+}
+
+template <Is<TriangleSoup> T>
+auto fields_of(T& soup) {
+  auto& [points, triangles] = soup;
+  return std::tie(points, triangles);
+}
+
+template <Is<Surface> T>
+auto fields_of(T& surface) {
+  auto& [mesh, source, input_point] = surface;
+  return std::tie(mesh, source, input_point);
+}
+
+template <Is<StageReport> T>
+auto fields_of(T& stage) {
+  auto& [name, seconds, cpu_seconds, peak_bytes] = stage;
+  return std::tie(name, seconds, cpu_seconds, peak_bytes);
+}
+
+template <Is<PartFates> T>
+auto fields_of(T& fates) {
+  auto& [nothing, inside, bounding, inside_triangles, outside_triangles, places] = fates;
+  return std::tie(nothing, inside, bounding, inside_triangles, outside_triangles, places);
+}
+
+template <Is<ExtractReport> T>
+auto fields_of(T& report) {
+  auto& [facets, unmerged, regions, edges, vertices, middle, polygons, facet_of] = report;
+  return std::tie(facets, unmerged, regions, edges, vertices, middle, polygons);
+}
+
+template <Is<InsideReport> T>
+auto fields_of(T& report) {
+  auto& [asked, used, reason, exact, contradictions, solve, distance, contradiction, loose, turned,
+         doubtful, cavity_walls, poking_walls, poking_share, other, folds, voids, cells] = report;
+  return std::tie(asked, used, reason, exact, contradictions, solve, distance, contradiction, loose,
+                  turned, doubtful, cavity_walls, poking_walls, poking_share, other, folds, voids,
+                  cells);
+}
+
+template <Is<RepairReport> T>
+auto fields_of(T& report) {
+  auto& [kept_valid, spared_cells, set_aside, clean, input, input_area, sew, holes, seal, thicken,
+         tree, predicates, epsilon, arrange, cells, facets, clip, cover, orient, links, inside,
+         open_regions, parts, extract, thin_cells, precision, slits_area, fins_area, crumbs,
+         simplify, certify, keep, triangles, same_triangles, explanation, output, output_volume,
+         output_area, closing_area, stages] = report;
+  return std::tie(kept_valid, spared_cells, set_aside, clean, input, input_area, sew, holes, seal,
+                  thicken, tree, predicates, epsilon, arrange, cells, facets, clip, cover, orient,
+                  links, inside, open_regions, parts, extract, thin_cells, precision, slits_area,
+                  fins_area, crumbs, simplify, certify, triangles, same_triangles, output,
+                  output_volume, output_area, closing_area, stages);
+}
+
+}  // namespace meshrepair
