@@ -24,7 +24,8 @@ from manual import python_reference  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
 SCHEMA = DOCS / "report.schema.json"
-PROGRAMS = ("meshrepair", "meshconvert", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshcheck", "meshdist")
+PROGRAMS = ("meshrepair", "meshconvert", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshcheck", "meshdist",
+            "meshrepair-blocks plan", "meshrepair-blocks run", "meshrepair-blocks join")
 WIDTH = 138  # of a line
 UNLISTED = ("", "file")  # definitions whose keys the text of the key that refers to them names
 EXAMPLES = """examples:
@@ -117,7 +118,8 @@ def read_helps(folder: pathlib.Path) -> dict[str, Help]:
     helps = {}
     for program in PROGRAMS:
         try:
-            text = subprocess.run([folder / program, "--help"], check=True, capture_output=True, text=True).stdout
+            name, *verb = program.split()
+            text = subprocess.run([folder / name, *verb, "--help"], check=True, capture_output=True, text=True).stdout
         except OSError as error:
             sys.exit(f"make_docs.py: {error.filename}: {error.strerror}; where are the programs? (--programs)")
         helps[program] = parsed_help(text)
@@ -162,7 +164,8 @@ def program_lines(helps: dict[str, Help]) -> list[str]:
         rest = [option for option in own if option.group != "Positionals"]
         if rest:
             lines += option_table(rest) + [""]
-        lines += ["```sh", *entry.examples, "```", ""]
+        # What a verb works with is made by the one before, so these do not run alone.
+        lines += ["```text" if " " in program else "```sh", *entry.examples, "```", ""]
     return lines
 
 
@@ -179,17 +182,18 @@ def shared_lines(helps: dict[str, Help]) -> list[str]:
 
 
 def matrix_lines(helps: dict[str, Help]) -> list[str]:
-    """Which program has which of the options that not all have."""
+    """Which program has which of the options that not all have. Verbs have those of other programs."""
+    programs = [program for program in PROGRAMS if " " not in program]
     names: dict[str, list[str]] = {}
-    for program, entry in helps.items():
-        for option in entry.options:
+    for program in programs:
+        for option in helps[program].options:
             if option.group != "Positionals":
                 names.setdefault(option.name, []).append(program)
     rows = []
     for name, having in names.items():
-        if len(having) < len(PROGRAMS):
-            rows.append((f"`{name}`", *("x" if program in having else "" for program in PROGRAMS)))
-    return table(("option", *PROGRAMS), rows)
+        if len(having) < len(programs):
+            rows.append((f"`{name}`", *("x" if program in having else "" for program in programs)))
+    return table(("option", *programs), rows)
 
 
 # Keys of reports, from the schema

@@ -30,10 +30,11 @@ void add_resume_option(CLI::App& app, std::string& folder) {
       ->group("Running");
 }
 
-std::string options_of_results(const CLI::App& app) {
+std::string options_of_results(const CLI::App& app, const std::vector<std::string>& others) {
   std::string all;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || !changes_results(*option)) continue;
+    if (std::find(others.begin(), others.end(), option->get_name()) != others.end()) continue;
     all += option->get_name();
     for (const std::string& value : option->results()) all += '=' + value;
     all += '\n';
@@ -44,7 +45,7 @@ std::string options_of_results(const CLI::App& app) {
 void run_resumable(const std::string& folder, const CLI::App& app, Run& run,
                    const std::function<void(StateStore*)>& body) {
   if (folder.empty()) return body(nullptr);
-  StateFolder states(folder, options_of_results(app));
+  StateFolder states(folder, options_of_results(app, {"IN"}));
   try {
     body(&states);
   } catch (const NoSolidError&) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/App.hpp>
 
@@ -16,8 +17,9 @@ class StateStore;
 void add_resume_option(CLI::App& app, std::string& folder);
 
 // All that `app` was asked for that changes what a repair decides: not how the program runs and
-// tells, nor the input.
-[[nodiscard]] std::string options_of_results(const CLI::App& app);
+// tells, nor these options, such as the input.
+[[nodiscard]] std::string options_of_results(const CLI::App& app,
+                                             const std::vector<std::string>& others);
 
 // Calls body(store): with a folder that keeps states until the body has ended well, or there is no
 // solid; without a name of a folder, with null. The report names the states that were there.

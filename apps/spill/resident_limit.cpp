@@ -1,6 +1,7 @@
 #include "spill/resident_limit.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -15,9 +16,10 @@ namespace {
 constexpr long kBetweenLooks = 500'000;                 // nanoseconds; the system may take longer
 constexpr std::size_t kAtOnce = std::size_t{32} << 20;  // addresses; a look follows
 // Pages that are in the file's cache come back fast: what threads may take between two looks.
-constexpr double kSparedShare = 0.2;
+constexpr double kSparedShare = 0.25;
 constexpr double kSparedAlways = 128 << 20, kSparedForThread = 128 << 20;  // bytes
 constexpr double kMostSpared = 0.5;                                        // of the limit
+constexpr std::array<clockid_t, 2> kClocks = {CLOCK_MONOTONIC, CLOCK_PROCESS_CPUTIME_ID};
 constexpr double kEnd = 0.9;  // of where letting go begins: where it ends
 
 // What the handler works with; it starts with a file.
@@ -58,6 +60,7 @@ extern "C" void handle_tick(int /*number*/) {
 ResidentLimit::ResidentLimit(SpillFile& file, std::uint64_t bytes) : file_(file) {
   most_resident = most_of(bytes);
   file_at_work = &file;
+  timers_.reserve(kClocks.size());  // start() may not throw
   file.at_first_block([this] { start(); });
 }
 
@@ -74,7 +77,7 @@ void ResidentLimit::start() {
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGRTMIN;
   const itimerspec times = {{0, kBetweenLooks}, {0, kBetweenLooks}};
-  for (const clockid_t clock : {CLOCK_MONOTONIC, CLOCK_PROCESS_CPUTIME_ID}) {
+  for (const clockid_t clock : kClocks) {
     timer_t timer = {};
     if (::timer_create(clock, &event, &timer) != 0) continue;
     ::timer_settime(timer, 0, &times, nullptr);

@@ -12,27 +12,16 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 sys.dont_write_bytecode = True
 
 import kill_folder
+from small_cluster import CLUSTER, SCRIPTS, SECONDS, SmallCluster, need, run_tests
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPTS = ROOT / "scripts"
-CLUSTER = SCRIPTS / "cluster"
-SAMPLES = ROOT / "samples/meshes"
-SECONDS = 300
+SAMPLES = SCRIPTS.parent / "samples/meshes"
 COPIES = 10
 MESHREPAIR = ""  # set at the end
-
-
-def need(*programs):
-    missing = [program for program in programs if shutil.which(program) is None]
-    if missing or os.geteuid() != 0:
-        print(f"skipped: {', '.join(missing) or 'root'} is missing")
-        sys.exit(77)
 
 
 class Folders(unittest.TestCase):
@@ -60,54 +49,25 @@ class Folders(unittest.TestCase):
 
 class Slurm(Folders):
     def setUp(self):
-        need("slurmctld", "slurmd", "munged", "sbatch")
         super().setUp()
-        self.slurm = self.folder / "slurm"
-        subprocess.run([SCRIPTS / "start_slurm.sh", "start", self.slurm], check=True, capture_output=True, timeout=SECONDS)
-        self.addCleanup(lambda: subprocess.run([SCRIPTS / "start_slurm.sh", "stop", self.slurm], check=True, timeout=SECONDS))
-        self.environment = {**os.environ, "SLURM_CONF": str(self.slurm / "slurm.conf")}
-
-    def run_there(self, *command):
-        return subprocess.run(command, env=self.environment, check=True, capture_output=True, text=True, timeout=SECONDS).stdout
+        self.cluster = SmallCluster(self, self.folder / "slurm")
 
     def submit(self, shards):
-        said = self.run_there(CLUSTER / "slurm_submit.sh", "--shards", str(shards), "--sbatch", "--mem=500M", "--folder",
-                              f"--meshrepair {MESHREPAIR}", str(self.source), str(self.out))
+        said = self.cluster.run(CLUSTER / "slurm_submit.sh", "--shards", str(shards), "--sbatch", "--mem=500M", "--folder",
+                                f"--meshrepair {MESHREPAIR}", str(self.source), str(self.out))
         self.assertRegex(said, r"^array \d+, merge \d+;")
-        return said.split()[1].rstrip(",")
-
-    def wait_for_all(self):
-        deadline = time.monotonic() + SECONDS
-        while self.run_there("squeue", "--noheader"):
-            self.assertLess(time.monotonic(), deadline, self.run_there("squeue"))
-            time.sleep(0.2)
-
-    def wait_for_running(self):
-        deadline = time.monotonic() + SECONDS
-        while not self.run_there("squeue", "--noheader", "--states=running"):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
 
     def test_an_array(self):
         self.submit(6)
-        self.wait_for_all()
+        self.cluster.wait_for_all()
         self.assert_all_done()
 
     def test_a_node_goes_and_a_task_is_killed(self):
-        array = self.submit(12)
-        self.wait_for_running()
-        running = self.run_there("squeue", "--noheader", "--array", "--states=running", "--format=%i %N").split("\n")[0].split()
-        self.run_there("scontrol", "update", "nodename=node2", "state=drain", "reason=test")
-        self.run_there("scontrol", "requeue", running[0])
-        self.wait_for_running()
-        running = self.run_there("squeue", "--noheader", "--array", "--states=running", "--format=%i").split()
-        if running:
-            subprocess.run(["scancel", "--signal=KILL", "--full", running[0]], env=self.environment, check=False)
-        self.run_there("scontrol", "update", "nodename=node2", "state=resume")
-        self.wait_for_all()
-        self.assertTrue(array)
+        self.submit(12)
+        self.cluster.lose_a_node_and_a_task()
+        self.cluster.wait_for_all()
         self.submit(12)  # what the killed task has left
-        self.wait_for_all()
+        self.cluster.wait_for_all()
         self.assert_all_done()
 
 
@@ -135,7 +95,7 @@ class SnakemakeAndSlurm(Slurm):
 
     def test_as_jobs(self):
         need("snakemake")
-        self.run_there("snakemake", "--quiet", "all", "--snakefile", CLUSTER / "Snakefile", "--profile", CLUSTER / "profiles/slurm",
+        self.cluster.run("snakemake", "--quiet", "all", "--snakefile", CLUSTER / "Snakefile", "--profile", CLUSTER / "profiles/slurm",
                        "--directory", self.folder, "--default-resources", "mem_mb=500", "runtime=10", "--set-resources", "share:mem_mb=500",
                        "--config", f"in_dir={self.source}", f"out_dir={self.out}", "shards=4", f"folder=--meshrepair {MESHREPAIR}")
         self.assert_all_done()
@@ -145,4 +105,4 @@ if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
         sys.exit(__doc__)
     MESHREPAIR = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    run_tests()

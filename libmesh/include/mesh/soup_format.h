@@ -26,6 +26,9 @@ enum class SoupFormat {
 // That of "part.obj.gz" is .obj. Case does not matter.
 [[nodiscard]] std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path);
 
+// ".stl", ...: format_of_extension() gives the format, or another kind of it.
+[[nodiscard]] std::string_view extension_of(SoupFormat format);
+
 // ".stl, .obj, .off, .ply, .glb, .gltf, .3mf": for messages.
 [[nodiscard]] std::string_view known_extensions();
 

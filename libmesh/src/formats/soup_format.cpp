@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -9,6 +10,16 @@
 
 namespace meshrepair {
 namespace {
+
+constexpr std::array<std::pair<std::string_view, SoupFormat>, 7> kExtensions = {{
+    {".stl", SoupFormat::stl_binary},
+    {".obj", SoupFormat::obj},
+    {".off", SoupFormat::off},
+    {".ply", SoupFormat::ply_binary},
+    {".glb", SoupFormat::glb},
+    {".gltf", SoupFormat::gltf},
+    {".3mf", SoupFormat::threemf},
+}};
 
 bool is_any_gltf(SoupFormat format) {
   return format == SoupFormat::glb || format == SoupFormat::gltf;
@@ -41,20 +52,24 @@ std::string_view format_name(SoupFormat format) {
 }
 
 std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
-  constexpr std::array<std::pair<std::string_view, SoupFormat>, 7> kExtensions = {{
-      {".stl", SoupFormat::stl_binary},
-      {".obj", SoupFormat::obj},
-      {".off", SoupFormat::off},
-      {".ply", SoupFormat::ply_binary},
-      {".glb", SoupFormat::glb},
-      {".gltf", SoupFormat::gltf},
-      {".3mf", SoupFormat::threemf},
-  }};
   const std::string extension = without_packing(path).extension().string();
   for (const auto& [name, format] : kExtensions) {
     if (equals_ignoring_case(extension, name)) return format;
   }
   return std::nullopt;
+}
+
+std::string_view extension_of(SoupFormat format) {
+  switch (format) {
+    case SoupFormat::stl_ascii:
+      return extension_of(SoupFormat::stl_binary);
+    case SoupFormat::ply_ascii:
+      return extension_of(SoupFormat::ply_binary);
+    default:
+      return std::find_if(kExtensions.begin(), kExtensions.end(),
+                          [&](const auto& entry) { return entry.second == format; })
+          ->first;
+  }
 }
 
 std::string_view known_extensions() { return ".stl, .obj, .off, .ply, .glb, .gltf, .3mf"; }

@@ -24,6 +24,13 @@ struct CertifyOptions {
   std::size_t most_pairs_at_first = ~std::size_t{0};
 };
 
+// So many pairs may be chance in a surface of so many triangles: of more the surface is finer than
+// the numbers. The larger a mesh, the more places has it where sheets cross.
+[[nodiscard]] constexpr std::size_t pairs_by_chance(std::size_t triangles) {
+  constexpr std::size_t kAlways = 32, kTrianglesOfPair = 8192;
+  return triangles / kTrianglesOfPair > kAlways ? triangles / kTrianglesOfPair : kAlways;
+}
+
 struct CertifyReport {
   bool done = false;                 // the test ran to its end
   std::size_t pairs_at_first = 0;    // of triangles that intersected once rounded, thin parts apart

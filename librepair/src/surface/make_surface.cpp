@@ -37,7 +37,6 @@ constexpr std::size_t kFewFaults = 32;
 // In single precision, what moving points does not mend soon is left to cells, which fill slits;
 // and so are more pairs of triangles that rounding makes meet than may be chance.
 constexpr std::size_t kRoundsOfChambers = 1;
-constexpr std::size_t kPairsOfChambers = 32;
 
 // In this order, until one is certified.
 constexpr std::array<Attempt, 5> kAttempts = {{
@@ -177,7 +176,7 @@ std::optional<Surface> surface_by_chambers(const CleanSoup& soup, const Orientat
   finishing.examine = nullptr;
   if (options.certify.precision == Precision::float32) {
     finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kRoundsOfChambers);
-    finishing.certify.most_pairs_at_first = kPairsOfChambers;
+    finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
   }
   surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
   if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;

@@ -45,7 +45,6 @@ constexpr double kMostFilled = 0.01;
 // What moving points does not mend soon is left to a repair that may cut otherwise; and so are more
 // pairs of triangles that rounding makes meet than may be chance.
 constexpr std::size_t kMostRounds = 1;
-constexpr std::size_t kPairsOfTangles = 32;
 
 bool is_wanted(const Orientation& orientation, const RepairOptions& options) {
   if (!may_spare_cells(options) || may_fill(options.inside)) return false;
@@ -234,7 +233,7 @@ std::optional<Surface> cut_tangles(const CleanSoup& soup, const Orientation& ori
   RepairOptions finishing = options;
   finishing.examine = nullptr;
   finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kMostRounds);
-  finishing.certify.most_pairs_at_first = kPairsOfTangles;
+  finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
   surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
   if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
   attempt.stages = std::move(report.stages);

@@ -1,0 +1,140 @@
+#include "blocks/block_folder.h"
+
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <zlib.h>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <base/atomic_file.h>
+#include <base/error.h>
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kDone = ".done";
+constexpr std::size_t kBlock = std::size_t{1} << 20;
+
+void make_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) {
+    throw OutputError(folder.string() + ": cannot be made: " + failed.message());
+  }
+}
+
+// Nothing where it cannot be read or is no JSON.
+std::optional<Json> read_json(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  Json json = Json::parse(std::istreambuf_iterator<char>(in), {}, nullptr, false);
+  return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+}
+
+// The library takes -1 for a very large count.
+std::uint64_t count_of(const Json& json, const char* key) {
+  const Json& count = json.at(key);
+  if (!count.is_number_unsigned()) {
+    throw Json::type_error::create(302, std::string(key) + " is no count", &count);
+  }
+  return count;
+}
+
+void write_json(const fs::path& file, const Json& json) {
+  write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace
+
+fs::path BlockFolder::block_file(std::size_t block) const {
+  return folder_ / "blocks" / (std::to_string(block) + ".ply");
+}
+
+fs::path BlockFolder::result_file(std::size_t block, const std::string& extension) const {
+  return folder_ / "repaired" / (std::to_string(block) + extension);
+}
+
+void BlockFolder::create() const {
+  std::error_code failed;
+  if (fs::exists(plan_file(), failed)) {
+    throw UsageError(folder_.string() + ": there is a plan already");
+  }
+  make_folder(folder_ / "blocks");
+  make_folder(folder_ / "repaired");
+}
+
+void BlockFolder::write_plan(const BlockPlan& plan) const {
+  Json blocks = Json::array();
+  for (const Block& block : plan.blocks) {
+    blocks.push_back(
+        {{"triangles", block.triangles}, {"groups", block.groups}, {"checksum", block.checksum}});
+  }
+  write_json(plan_file(), {{"input", plan.input},
+                           {"triangles", plan.triangles},
+                           {"unit", plan.unit ? Json(unit_name(*plan.unit)) : Json()},
+                           {"blocks", std::move(blocks)}});
+}
+
+BlockPlan BlockFolder::read_plan() const try {
+  const auto json = read_json(plan_file());
+  if (!json)
+    throw InputError(plan_file().string() + ": is no plan: meshrepair-blocks plan makes it");
+  BlockPlan plan;
+  plan.input = json->at("input");
+  plan.triangles = count_of(*json, "triangles");
+  if (!json->at("unit").is_null()) plan.unit = unit_named(json->at("unit").get<std::string>());
+  for (const Json& block : json->at("blocks")) {
+    plan.blocks.push_back(
+        {count_of(block, "triangles"), count_of(block, "groups"), count_of(block, "checksum")});
+  }
+  return plan;
+} catch (const Json::exception& error) {
+  throw InputError(plan_file().string() + ": is damaged: " + error.what());
+}
+
+void BlockFolder::write_result(std::size_t block, const BlockResult& result) const {
+  write_json(result_file(block, kDone), {{"block", result.block},
+                                         {"result", result.result},
+                                         {"options", result.options},
+                                         {"file", result.file},
+                                         {"certified", result.certified}});
+}
+
+std::optional<BlockResult> BlockFolder::read_result(std::size_t block, const BlockPlan& plan) const
+    try {
+  const auto json = read_json(result_file(block, kDone));
+  if (!json) return std::nullopt;
+  BlockResult result = {count_of(*json, "block"), count_of(*json, "result"), json->at("options"),
+                        json->at("file"), json->at("certified")};
+  if (result.block != plan.blocks[block - 1].checksum) return std::nullopt;
+  if (!result.file.empty() && checksum_of_file(file_of(result)) != result.result) {
+    return std::nullopt;
+  }
+  return result;
+} catch (const Json::exception&) {
+  return std::nullopt;
+} catch (const InputError&) {
+  return std::nullopt;
+}
+
+std::uint64_t checksum_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file.string() + ": cannot be opened");
+  std::vector<char> block(kBlock);
+  std::uint64_t sum = 0, size = 0;
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(in.gcount());
+    sum = ::crc32_z(sum, reinterpret_cast<const Bytef*>(block.data()), count);
+    size += count;
+  }
+  return size << 32 ^ sum;
+}
+
+}  // namespace meshrepair

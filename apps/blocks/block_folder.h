@@ -1,0 +1,77 @@
+// A mesh in blocks: what is in their folder, and what is known of them.
+//
+//   plan.json            what the blocks are
+//   blocks/1.ply ...     the mesh, block by block
+//   repaired/1.ply ...   what was made of each, in the format that was asked for
+//   repaired/1.done ...  that it is all there, and checksums
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <mesh/length_unit.h>
+
+namespace meshrepair {
+
+struct Block {
+  std::size_t triangles = 0;
+  std::size_t groups = 0;      // of parts that have to do with each other
+  std::uint64_t checksum = 0;  // of its file
+};
+
+struct BlockPlan {
+  std::string input;
+  std::size_t triangles = 0;  // of the input
+  std::optional<LengthUnit> unit;
+  std::vector<Block> blocks;
+};
+
+// How the repair of a block ended.
+struct BlockResult {
+  std::uint64_t block = 0;   // checksum of what was repaired
+  std::uint64_t result = 0;  // checksum of what came of it
+  std::string options;       // that results depend on
+  std::string file;          // its name; empty: the block encloses nothing
+  bool certified = false;
+};
+
+class BlockFolder {
+ public:
+  explicit BlockFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // The numbers of blocks begin at 1.
+  [[nodiscard]] std::filesystem::path plan_file() const { return folder_ / "plan.json"; }
+  [[nodiscard]] std::filesystem::path block_file(std::size_t block) const;
+  // `extension` begins with a point.
+  [[nodiscard]] std::filesystem::path result_file(std::size_t block,
+                                                  const std::string& extension) const;
+
+  // Of a block that does not enclose nothing.
+  [[nodiscard]] std::filesystem::path file_of(const BlockResult& result) const {
+    return folder_ / "repaired" / result.file;
+  }
+
+  // Makes the folders. Throws OutputError; UsageError if there is a plan already.
+  void create() const;
+  void write_plan(const BlockPlan& plan) const;
+  // Throws InputError where there is none, or it is damaged.
+  [[nodiscard]] BlockPlan read_plan() const;
+
+  void write_result(std::size_t block, const BlockResult& result) const;
+  // Nothing where the block is not repaired, or files are not what they were.
+  [[nodiscard]] std::optional<BlockResult> read_result(std::size_t block,
+                                                       const BlockPlan& plan) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// Throws InputError where the file cannot be read.
+[[nodiscard]] std::uint64_t checksum_of_file(const std::filesystem::path& file);
+
+}  // namespace meshrepair

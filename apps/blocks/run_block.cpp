@@ -1,0 +1,111 @@
+#include <iostream>
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/logger.h>
+
+#include <base/error.h>
+
+#include "blocks/block_folder.h"
+#include "blocks/verbs.h"
+#include "common/logging.h"
+#include "common/numbers.h"
+#include "common/repair_command.h"
+#include "resume/resumable.h"
+
+namespace meshrepair {
+namespace {
+
+struct RunOptions {
+  std::string folder;
+  std::size_t block = 0;
+  std::string resume;
+  RepairCommand repair;
+};
+
+// Of the options those that change results, as they are for all blocks.
+std::string options_text(const CLI::App& app) {
+  return options_of_results(app, {"DIR", "--block"});
+}
+
+void require_block(const BlockPlan& plan, const BlockFolder& folder, std::size_t block) {
+  if (block > plan.blocks.size()) {
+    throw UsageError(fmt::format("--block: there are {} blocks", plan.blocks.size()));
+  }
+  const std::filesystem::path file = folder.block_file(block);
+  if (checksum_of_file(file) != plan.blocks[block - 1].checksum) {
+    throw InputError(file.string() + ": is not what the plan says");
+  }
+}
+
+ExitCode code_of(const BlockResult& result) {
+  return result.certified ? ExitCode::done : ExitCode::not_certified;
+}
+
+// What encloses nothing, as a sheet does, is no part of the result; the whole mesh has others.
+BlockResult repaired(RunOptions& options, const CLI::App& app, Run& run) {
+  BlockResult result;
+  StepOptions& steps = options.repair.steps;
+  try {
+    const ExitCode code =
+        run_steps(steps, run, [&](const StepOptions&, Run& inner, Findings& findings) {
+          run_resumable(options.resume, app, inner, [&](StateStore* states) {
+            options.repair.steps.repair.states = states;
+            repair_file(options.repair, inner, findings);
+          });
+        });
+    result.certified = code == ExitCode::done;
+    result.file = std::filesystem::path(steps.output).filename().string();
+    result.result = checksum_of_file(steps.output);
+  } catch (const NoSolidError& error) {
+    logger().warn("{}", error.what());
+    result.certified = true;
+  }
+  return result;
+}
+
+ExitCode run_of_block(RunOptions& options, const CLI::App& app, Run& run) {
+  const BlockFolder folder(options.folder);
+  const BlockPlan plan = folder.read_plan();
+  require_block(plan, folder, options.block);
+  const std::string text = options_text(app);
+  const auto before = folder.read_result(options.block, plan);
+  if (before && before->options == text) {
+    run.progress.finish();
+    if (!run.options.quiet) std::cout << fmt::format("block {} is done already\n", options.block);
+    return code_of(*before);
+  }
+  StepOptions& steps = options.repair.steps;
+  if (!steps.format) steps.format = SoupFormat::ply_binary;
+  steps.input = folder.block_file(options.block).string();
+  steps.output =
+      folder.result_file(options.block, std::string(extension_of(*steps.format))).string();
+  BlockResult result = repaired(options, app, run);
+  result.block = plan.blocks[options.block - 1].checksum;
+  result.options = text;
+  folder.write_result(options.block, result);
+  return code_of(result);
+}
+
+}  // namespace
+
+int run_block(int argc, const char* const* argv) {
+  RunOptions options;
+  Program program("meshrepair-blocks run",
+                  "Repairs one block. What is done already is not done again.",
+                  "  meshrepair-blocks run city.blocks --block 17\n"
+                  "  meshrepair-blocks run city.blocks --block 17 --format stl --max-memory 4G\n");
+  CLI::App& app = program.command_line();
+  app.add_option("DIR", options.folder, "Folder that meshrepair-blocks plan has made")->required();
+  app.add_option_function<std::string>(
+         "--block", [&](const std::string& text) { options.block = *parse_count(text); },
+         "Number of the block, from 1")
+      ->check(count_between(1))
+      ->type_name("K")
+      ->required()
+      ->group("Blocks");
+  add_repair_command(app, options.repair);
+  add_resume_option(app, options.resume);
+  return program.run(argc, argv, [&](Run& run) { return run_of_block(options, app, run); });
+}
+
+}  // namespace meshrepair

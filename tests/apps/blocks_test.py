@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+"""Repairs a mesh in blocks, as many machines would, by meshrepair-blocks.
+
+Usage: blocks_test.py PROGRAMS
+"""
+
+import json
+import pathlib
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from spilling_test import write_torus
+
+PROGRAMS = pathlib.Path()
+RINGS = 5
+STL_HEADER = 84  # bytes
+STL_RECORD = struct.Struct("<12fH")
+
+
+def write_stl(path, corners_of_triangles):
+    with open(path, "wb") as file:
+        file.write(bytes(80) + struct.pack("<I", len(corners_of_triangles)))
+        for corners in corners_of_triangles:
+            file.write(STL_RECORD.pack(0, 0, 0, *(x for corner in corners for x in corner), 0))
+
+
+def write_rings(path, rings=RINGS, turns=60, across=30):
+    """Pairs of rings that cross, each pair apart from the others; the triangles of all are mixed."""
+    records = []
+    for i in range(2 * rings):
+        write_torus(path, turns, across, 4 * (i // 2) + 0.3 * (i % 2))
+        data = path.read_bytes()[STL_HEADER:]
+        records += [data[at:at + STL_RECORD.size] for at in range(0, len(data), STL_RECORD.size)]
+    random.Random(1).shuffle(records)
+    path.write_bytes(bytes(80) + struct.pack("<I", len(records)) + b"".join(records))
+
+
+def square(z, size=1.0):
+    a, b, c, d = (0, 0, z), (size, 0, z), (size, size, z), (0, size, z)
+    return [(a, b, c), (a, c, d)]
+
+
+class Blocks(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="blocks_")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.mesh, self.blocks, self.out = self.folder / "mesh.stl", self.folder / "mesh.blocks", self.folder / "out.ply"
+
+    def run_verb(self, *arguments, code=0):
+        """What it says on both streams."""
+        done = subprocess.run([PROGRAMS / "meshrepair-blocks", *map(str, arguments)], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stdout + done.stderr
+
+    def plan(self, *options):
+        self.run_verb("plan", self.mesh, self.blocks, *options)
+        return json.loads((self.blocks / "plan.json").read_text())
+
+    def run_all(self, *options, order=None):
+        for block in order or range(1, len(json.loads((self.blocks / "plan.json").read_text())["blocks"]) + 1):
+            self.run_verb("run", "-q", self.blocks, "--block", block, *options)
+
+    def join(self, code=0, out=None):
+        said = self.run_verb("join", self.blocks, out or self.out, code=code)
+        return said, (out or self.out).read_bytes() if code in (0, 1) else None
+
+    def plan_rings(self):
+        write_rings(self.mesh)
+        return self.plan("--triangles", "1000")
+
+    def test_a_mesh_of_rings(self):
+        plan = self.plan_rings()
+        self.assertEqual(len(plan["blocks"]), RINGS)
+        self.assertEqual(sum(block["triangles"] for block in plan["blocks"]), plan["triangles"])
+        self.run_all()
+        self.join()
+        checked = subprocess.run([PROGRAMS / "meshcheck", self.out], check=False, capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        whole = self.folder / "whole.ply"
+        subprocess.run([PROGRAMS / "meshrepair", "-q", self.mesh, whole], check=True)
+        distance = json.loads(subprocess.run([PROGRAMS / "meshdist", self.out, whole, "--json"], check=True,
+                                             capture_output=True).stdout)["distance"]
+        self.assertLess(distance["hausdorff"], 1e-4)
+
+    def test_the_same_bytes_wherever_and_however_often(self):
+        results = []
+        for threads, order in (("1", [3, 1, 5, 4, 2]), ("2", [1, 2, 2, 3, 5, 4, 1])):
+            self.blocks = self.folder / f"blocks{threads}"
+            if not self.mesh.exists():
+                write_rings(self.mesh)
+            self.plan("--triangles", "1000", "--threads", threads)
+            self.run_all("--threads", threads, order=order)
+            results.append(self.join()[1])
+        self.assertEqual(results[0], results[1])
+
+    def test_blocks_of_several_groups(self):
+        write_rings(self.mesh)
+        self.assertEqual(len(self.plan("--triangles", "100000")["blocks"]), 1)
+        shutil.rmtree(self.blocks)
+        plan = self.plan("--triangles", "16000")
+        self.assertTrue(1 < len(plan["blocks"]) < RINGS)
+        self.assertEqual(sum(block["groups"] for block in plan["blocks"]), RINGS)
+
+    def test_what_is_done_is_not_done_again(self):
+        self.plan_rings()
+        self.run_all(order=[2])
+        result = self.blocks / "repaired" / "2.ply"
+        before = result.stat().st_mtime_ns
+        self.assertIn("block 2 is done already", self.run_verb("run", self.blocks, "--block", 2))
+        self.assertEqual(result.stat().st_mtime_ns, before)
+
+    def test_what_is_damaged_is_done_again(self):
+        self.plan_rings()
+        self.run_all()
+        whole = self.join()[1]
+        for name in ("2.ply", "2.done"):
+            file = self.blocks / "repaired" / name
+            data = file.read_bytes()
+            file.write_bytes(data[:-9] + b"x" + data[-8:])
+            self.assertIn("not repaired: block 2; do 'meshrepair-blocks run", self.join(code=3)[0])
+            self.run_all(order=[2])
+            self.assertEqual(self.join()[1], whole)
+
+    def test_a_block_that_is_damaged(self):
+        self.plan_rings()
+        file = self.blocks / "blocks" / "3.ply"
+        file.write_bytes(file.read_bytes()[:-1])
+        self.assertIn("3.ply: is not what the plan says", self.run_verb("run", self.blocks, "--block", 3, code=3))
+
+    def test_a_plan_that_is_damaged(self):
+        self.plan_rings()
+        plan = self.blocks / "plan.json"
+        whole = plan.read_text()
+        for text in ("", "{", "[]", "{}", whole.replace('"groups"', '"grops"'), whole.replace(": 1,", ": -1,", 1),
+                     whole.replace('"triangles": ', '"triangles": "a", "b": ', 1)):
+            plan.write_text(text)
+            said = self.run_verb("join", self.blocks, self.out, code=3)
+            self.assertEqual(said.count("\n"), 1)
+            self.assertIn("plan.json: is ", said)
+
+    def test_blocks_that_are_missing_are_named(self):
+        self.plan_rings()
+        self.run_all(order=[1, 3])
+        self.assertIn("not repaired: blocks 2, 4, 5; do", self.join(code=3)[0])
+        self.assertFalse(self.out.exists())
+
+    def test_all_blocks_have_the_same_options(self):
+        self.plan_rings()
+        self.run_all()
+        self.run_all("--holes", "flat", order=[4])
+        self.assertIn("block 4 was repaired with other options than block 1", self.join(code=3)[0])
+
+    def test_single_precision(self):
+        self.plan_rings()
+        self.run_all()
+        said, _ = self.join(code=2, out=self.folder / "out.stl")
+        self.assertIn("run them with --format stl", said)
+        self.run_all("--format", "stl")
+        self.join(out=self.folder / "out.stl")
+        checked = subprocess.run([PROGRAMS / "meshcheck", "-q", self.folder / "out.stl"], check=False)
+        self.assertEqual(checked.returncode, 0)
+
+    def test_a_sheet_is_no_part_of_the_result(self):
+        write_rings(self.mesh, 1)
+        data = self.mesh.read_bytes()
+        sheet = self.folder / "sheet.stl"
+        write_stl(sheet, square(50, 3))
+        count = struct.unpack("<I", data[80:84])[0] + 2
+        self.mesh.write_bytes(bytes(80) + struct.pack("<I", count) + data[84:] + sheet.read_bytes()[84:])
+        self.assertEqual(len(self.plan("--triangles", "1000")["blocks"]), 2)
+        self.run_all()
+        self.assertIn("of 2 blocks", self.join()[0])
+
+    def test_only_sheets(self):
+        write_stl(self.mesh, square(0))
+        self.plan()
+        self.run_all()
+        self.assertIn("no block encloses anything", self.join(code=5)[0])
+
+    def test_blocks_that_meet_are_told(self):
+        write_stl(self.mesh, square(0) + square(0.1))
+        self.assertEqual(len(self.plan("--triangles", "1", "--margin", "0")["blocks"]), 2)
+        self.run_all("--thicken", "0.3")
+        said, data = self.join(code=1)
+        self.assertIn("of different blocks meet: plan with a larger --margin", said)
+        self.assertTrue(data)
+
+    def test_one_part_is_one_block(self):
+        write_torus(self.mesh, 60, 30, 0)
+        self.assertIn("several machines do not help", self.run_verb("plan", self.mesh, self.blocks, "--triangles", 100))
+
+    def test_a_plan_is_not_replaced(self):
+        self.plan_rings()
+        self.assertIn("there is a plan already", self.run_verb("plan", self.mesh, self.blocks, code=2))
+
+    def test_a_run_that_is_killed_leaves_nothing_half_written(self):
+        self.plan_rings()
+        rng = random.Random(2)
+        for _ in range(20):
+            run = subprocess.Popen([PROGRAMS / "meshrepair-blocks", "run", "-q", self.blocks, "--block", "1"])
+            time.sleep(rng.uniform(0, 0.3))
+            run.send_signal(signal.SIGKILL)
+            if run.wait() == 0:
+                break
+            self.assertIn("not repaired: block", self.join(code=3)[0])
+        self.run_all()
+        self.join()
+
+    def test_mistakes(self):
+        self.assertIn("VERB is required", self.run_verb(code=2))
+        self.assertIn("walk not in {plan,run,join}", self.run_verb("walk", code=2))
+        self.assertIn("VERB: stands first", self.run_verb("-q", "plan", code=2))
+        self.assertIn("is no plan", self.run_verb("run", self.folder, "--block", 1, code=3))
+        self.assertIn("is no plan", self.run_verb("join", self.folder, self.out, code=3))
+        self.plan_rings()
+        self.assertIn("there are 5 blocks", self.run_verb("run", self.blocks, "--block", 6, code=2))
+        self.assertIn("--block", self.run_verb("run", self.blocks, "--block", 0, code=2))
+
+
+if __name__ == "__main__":
+    PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()
