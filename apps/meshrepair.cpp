@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
       "  meshrepair --for print broken.obj part.stl\n"
       "  meshrepair --inside solidity --report report.json broken.obj repaired.ply\n"
       "  meshrepair scan.xyz solid.obj\n"
-      "  meshrepair --resume city.states --max-memory 8G city.ply repaired.ply\n"
+      "  meshrepair --resume broken.states --max-memory 8G broken.obj repaired.ply\n"
       "  curl https://example.org/mesh.stl | meshrepair --format stl - - > repaired.stl\n");
   CLI::App& app = program.command_line();
   app.add_option("IN", command.steps.input,

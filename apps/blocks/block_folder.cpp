@@ -7,20 +7,20 @@
 #include <utility>
 #include <zlib.h>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <base/atomic_file.h>
 #include <base/error.h>
 
+#include "common/json_report.h"
+
 namespace meshrepair {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kDone = ".done";
-constexpr std::size_t kBlock = std::size_t{1} << 20;
+constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;
 
 void make_folder(const fs::path& folder) {
   std::error_code failed;
@@ -127,7 +127,7 @@ std::optional<BlockResult> BlockFolder::read_result(std::size_t block, const Blo
 std::uint64_t checksum_of_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file.string() + ": cannot be opened");
-  std::vector<char> block(kBlock);
+  std::vector<char> block(kReadAtOnce);
   std::uint64_t sum = 0, size = 0;
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     const auto count = static_cast<std::size_t>(in.gcount());

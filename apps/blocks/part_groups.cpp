@@ -12,7 +12,7 @@
 namespace meshrepair {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
 
 bool is_empty(const Box& box) { return !(box.low[0] <= box.high[0]); }
 
@@ -92,12 +92,12 @@ PartGroups find_groups(const TriangleSoup& soup, double margin) {
   const MeshParts parts = find_parts(soup);
   const std::vector<Box> boxes = boxes_of(soup, parts);
   DisjointSets sets = joined_parts(boxes, margin);
-  std::vector<std::uint32_t> group_of_root(parts.count, kNone);
+  std::vector<std::uint32_t> group_of_root(parts.count, kNoGroup);
   PartGroups groups;
   groups.of_triangle.reserve(soup.triangles.size());
   for (const std::uint32_t part : parts.of_triangle) {
     std::uint32_t& group = group_of_root[sets.root(part)];
-    if (group == kNone) {
+    if (group == kNoGroup) {
       group = static_cast<std::uint32_t>(groups.size());
       groups.box.emplace_back();
       groups.triangles.push_back(0);

@@ -28,8 +28,8 @@ struct Header {
 // Behind the bytes.
 using Checksum = std::uint64_t;
 
-constexpr std::size_t kBlock = std::size_t{1} << 16;
-constexpr std::size_t kAtOnce = std::size_t{1} << 24;  // what one call of the system is to take
+constexpr std::size_t kStateBlock = std::size_t{1} << 16;
+constexpr std::size_t kMostOfCall = std::size_t{1} << 24;  // what one call of the system is to take
 
 Checksum continued(Checksum sum, const char* bytes, std::size_t size) {
   return ::crc32_z(sum, reinterpret_cast<const Bytef*>(bytes), size);
@@ -38,7 +38,7 @@ Checksum continued(Checksum sum, const char* bytes, std::size_t size) {
 // Small pieces go through a block, large ones directly.
 class ChecksumWriter : public std::streambuf {
  public:
-  explicit ChecksumWriter(int file) : file_(file), block_(kBlock) { start_block(); }
+  explicit ChecksumWriter(int file) : file_(file), block_(kStateBlock) { start_block(); }
 
   // All that was written, on the disk. Returns the error, or 0.
   int finish() {
@@ -66,7 +66,7 @@ class ChecksumWriter : public std::streambuf {
       return size;
     }
     flush_block();
-    if (count < kBlock) return xsputn(bytes, size);
+    if (count < kStateBlock) return xsputn(bytes, size);
     put(bytes, count);
     return error_ == 0 ? size : 0;
   }
@@ -86,7 +86,7 @@ class ChecksumWriter : public std::streambuf {
 
   void write(const char* bytes, std::size_t size) {
     while (size > 0 && error_ == 0) {
-      const ssize_t count = ::write(file_, bytes, std::min(size, kAtOnce));
+      const ssize_t count = ::write(file_, bytes, std::min(size, kMostOfCall));
       if (count < 0 && errno == EINTR) continue;
       if (count < 0) error_ = errno;
       if (count <= 0) return;
@@ -104,7 +104,7 @@ class ChecksumWriter : public std::streambuf {
 // As many bytes as are left of a state.
 class ChecksumReader : public std::streambuf {
  public:
-  ChecksumReader(int file, std::uint64_t bytes) : file_(file), left_(bytes), block_(kBlock) {}
+  ChecksumReader(int file, std::uint64_t bytes) : file_(file), left_(bytes), block_(kStateBlock) {}
 
   // Reads what is left. Whether the checksum behind it is right.
   bool finish() {
@@ -127,7 +127,7 @@ class ChecksumReader : public std::streambuf {
     if (there > 0) std::memcpy(bytes, gptr(), static_cast<std::size_t>(there));
     gbump(static_cast<int>(there));
     const auto rest = static_cast<std::size_t>(size - there);
-    if (rest >= kBlock) return there + static_cast<std::streamsize>(take(bytes + there, rest));
+    if (rest >= kStateBlock) return there + static_cast<std::streamsize>(take(bytes + there, rest));
     if (rest == 0 || underflow() == traits_type::eof()) return there;
     return there + xsgetn(bytes + there, size - there);
   }
@@ -143,7 +143,7 @@ class ChecksumReader : public std::streambuf {
   [[nodiscard]] std::size_t read(char* bytes, std::size_t size) const {
     std::size_t done = 0;
     while (done < size) {
-      const ssize_t count = ::read(file_, bytes + done, std::min(size - done, kAtOnce));
+      const ssize_t count = ::read(file_, bytes + done, std::min(size - done, kMostOfCall));
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) break;
       done += static_cast<std::size_t>(count);
@@ -176,7 +176,7 @@ std::optional<Header> read_header(int file) {
   return header;
 }
 
-[[noreturn]] void fail(const fs::path& file, int error) {
+[[noreturn]] void fail_writing(const fs::path& file, int error) {
   throw fs::filesystem_error("cannot be written", file, {error, std::generic_category()});
 }
 
@@ -191,15 +191,15 @@ std::optional<std::uint64_t> key_of_state(const fs::path& file) {
 void write_state(const fs::path& file, std::uint64_t key,
                  const std::function<void(std::ostream&)>& write) {
   const Descriptor to(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
-  if (to.number < 0) fail(file, errno);
+  if (to.number < 0) fail_writing(file, errno);
   Header header;
   header.key = key;
-  if (::write(to.number, &header, sizeof header) != sizeof header) fail(file, errno);
+  if (::write(to.number, &header, sizeof header) != sizeof header) fail_writing(file, errno);
   ChecksumWriter writer(to.number);
   std::ostream out(&writer);
   write(out);
   const int error = writer.finish();
-  if (error != 0) fail(file, error);
+  if (error != 0) fail_writing(file, error);
 }
 
 bool read_state(const fs::path& file,

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 constexpr const char* kExtension = ".state";
 constexpr const char* kUnfinished = ".part";
 
-constexpr int kLooks = 20;
-constexpr std::chrono::milliseconds kBetweenLooks{100};
+constexpr int kTries = 20;
+constexpr std::chrono::milliseconds kBetweenTries{100};
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -52,10 +52,10 @@ std::uint64_t hash_of_program() {
 
 // A run that was killed may take a moment to be gone.
 bool lock(int folder) {
-  for (int i = 0; i < kLooks; ++i) {
+  for (int i = 0; i < kTries; ++i) {
     if (::flock(folder, LOCK_EX | LOCK_NB) == 0) return true;
     if (errno != EWOULDBLOCK) return false;
-    std::this_thread::sleep_for(kBetweenLooks);
+    std::this_thread::sleep_for(kBetweenTries);
   }
   errno = EWOULDBLOCK;
   return false;
