@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDone = ".done";
 constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;
 
 void make_folder(const fs::path& folder) {
@@ -57,8 +56,18 @@ fs::path BlockFolder::block_file(std::size_t block) const {
   return folder_ / "blocks" / (std::to_string(block) + ".ply");
 }
 
-fs::path BlockFolder::result_file(std::size_t block, const std::string& extension) const {
-  return folder_ / "repaired" / (std::to_string(block) + extension);
+fs::path BlockFolder::result_file(std::size_t block, const std::string& options,
+                                  const std::string& extension) const {
+  std::string name = std::to_string(block);
+  if (!options.empty()) {
+    const auto* const bytes = reinterpret_cast<const Bytef*>(options.data());
+    name += fmt::format("-{:08x}", ::crc32_z(0, bytes, options.size()));
+  }
+  return folder_ / "repaired" / (name + extension);
+}
+
+fs::path BlockFolder::done_file(std::size_t block) const {
+  return folder_ / "repaired" / (std::to_string(block) + ".done");
 }
 
 void BlockFolder::create() const {
@@ -90,9 +99,14 @@ BlockPlan BlockFolder::read_plan() const try {
   plan.input = json->at("input");
   plan.triangles = count_of(*json, "triangles");
   if (!json->at("unit").is_null()) plan.unit = unit_named(json->at("unit").get<std::string>());
+  std::size_t triangles = 0;
   for (const Json& block : json->at("blocks")) {
     plan.blocks.push_back(
         {count_of(block, "triangles"), count_of(block, "groups"), count_of(block, "checksum")});
+    triangles += plan.blocks.back().triangles;
+  }
+  if (plan.blocks.empty() || triangles != plan.triangles) {
+    throw InputError(plan_file().string() + ": is damaged: blocks are missing");
   }
   return plan;
 } catch (const Json::exception& error) {
@@ -100,20 +114,21 @@ BlockPlan BlockFolder::read_plan() const try {
 }
 
 void BlockFolder::write_result(std::size_t block, const BlockResult& result) const {
-  write_json(result_file(block, kDone), {{"block", result.block},
-                                         {"result", result.result},
-                                         {"options", result.options},
-                                         {"file", result.file},
-                                         {"certified", result.certified}});
+  write_json(done_file(block), {{"block", result.block},
+                                {"result", result.result},
+                                {"options", result.options},
+                                {"file", result.file},
+                                {"certified", result.certified}});
 }
 
 std::optional<BlockResult> BlockFolder::read_result(std::size_t block, const BlockPlan& plan) const
     try {
-  const auto json = read_json(result_file(block, kDone));
+  const auto json = read_json(done_file(block));
   if (!json) return std::nullopt;
   BlockResult result = {count_of(*json, "block"), count_of(*json, "result"), json->at("options"),
                         json->at("file"), json->at("certified")};
   if (result.block != plan.blocks[block - 1].checksum) return std::nullopt;
+  if (fs::path(result.file).filename() != result.file) return std::nullopt;
   if (!result.file.empty() && checksum_of_file(file_of(result)) != result.result) {
     return std::nullopt;
   }

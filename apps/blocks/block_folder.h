@@ -2,7 +2,8 @@
 //
 //   plan.json            what the blocks are
 //   blocks/1.ply ...     the mesh, block by block
-//   repaired/1.ply ...   what was made of each, in the format that was asked for
+//   repaired/1.ply ...   what was made of each, in the format that was asked for, and with a number
+//                        in its name that tells the options, if there are any
 //   repaired/1.done ...  that it is all there, and checksums
 #pragma once
 
@@ -47,14 +48,17 @@ class BlockFolder {
   // The numbers of blocks begin at 1.
   [[nodiscard]] std::filesystem::path plan_file() const { return folder_ / "plan.json"; }
   [[nodiscard]] std::filesystem::path block_file(std::size_t block) const;
+  // Results of other options have other names, so that runs at the same time do not meet.
   // `extension` begins with a point.
-  [[nodiscard]] std::filesystem::path result_file(std::size_t block,
+  [[nodiscard]] std::filesystem::path result_file(std::size_t block, const std::string& options,
                                                   const std::string& extension) const;
 
   // Of a block that does not enclose nothing.
   [[nodiscard]] std::filesystem::path file_of(const BlockResult& result) const {
     return folder_ / "repaired" / result.file;
   }
+  // Says that the block is repaired; done_file() of block 1 is repaired/1.done.
+  [[nodiscard]] std::filesystem::path done_file(std::size_t block) const;
 
   // Makes the folders. Throws OutputError; UsageError if there is a plan already.
   void create() const;

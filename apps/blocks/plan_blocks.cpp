@@ -120,7 +120,6 @@ void say(const BlockPlan& plan, const PartGroups& groups, const PlanOptions& opt
 ExitCode plan(const PlanOptions& options, Run& run) {
   check_files(options.input, "", run);
   const BlockFolder folder(options.folder);
-  folder.create();
   Findings findings(options.input, "");
   ReadOptions reading = read_options(run);
   reading.attributes = true;
@@ -129,6 +128,7 @@ ExitCode plan(const PlanOptions& options, Run& run) {
     if (!input.attributes.empty()) {
       logger().warn("{}: its colours, textures and names are not in the blocks", options.input);
     }
+    folder.create();
     StageMeter meter(findings.repair.stages, &run.progress);
     meter.begin("group");
     const PartGroups groups = find_groups(input.soup, options.margin);

@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/logger.h>
@@ -37,12 +39,21 @@ void require_block(const BlockPlan& plan, const BlockFolder& folder, std::size_t
   }
 }
 
+// What belongs to the whole mesh.
+void require_options_of_blocks(const StepOptions& steps) {
+  if (!steps.staging.empty()) throw UsageError("--staging: blocks have a folder of their own");
+  if (steps.assets.units) {
+    throw UsageError("--units: the unit of all blocks is that of the mesh that was divided");
+  }
+}
+
 ExitCode code_of(const BlockResult& result) {
   return result.certified ? ExitCode::done : ExitCode::not_certified;
 }
 
 // What encloses nothing, as a sheet does, is no part of the result; the whole mesh has others.
-BlockResult repaired(RunOptions& options, const CLI::App& app, Run& run) {
+// Nothing where the result was not to be written, as it lacks a guarantee.
+std::optional<BlockResult> repaired(RunOptions& options, const CLI::App& app, Run& run) {
   BlockResult result;
   StepOptions& steps = options.repair.steps;
   try {
@@ -54,6 +65,7 @@ BlockResult repaired(RunOptions& options, const CLI::App& app, Run& run) {
           });
         });
     result.certified = code == ExitCode::done;
+    if (!result.certified && steps.strict) return std::nullopt;
     result.file = std::filesystem::path(steps.output).filename().string();
     result.result = checksum_of_file(steps.output);
   } catch (const NoSolidError& error) {
@@ -64,6 +76,7 @@ BlockResult repaired(RunOptions& options, const CLI::App& app, Run& run) {
 }
 
 ExitCode run_of_block(RunOptions& options, const CLI::App& app, Run& run) {
+  require_options_of_blocks(options.repair.steps);
   const BlockFolder folder(options.folder);
   const BlockPlan plan = folder.read_plan();
   require_block(plan, folder, options.block);
@@ -71,19 +84,24 @@ ExitCode run_of_block(RunOptions& options, const CLI::App& app, Run& run) {
   const auto before = folder.read_result(options.block, plan);
   if (before && before->options == text) {
     run.progress.finish();
-    if (!run.options.quiet) std::cout << fmt::format("block {} is done already\n", options.block);
+    if (!run.options.quiet && run.options.report != "-")
+      std::cout << fmt::format("block {} is done already\n", options.block);
     return code_of(*before);
   }
   StepOptions& steps = options.repair.steps;
   if (!steps.format) steps.format = SoupFormat::ply_binary;
   steps.input = folder.block_file(options.block).string();
   steps.output =
-      folder.result_file(options.block, std::string(extension_of(*steps.format))).string();
-  BlockResult result = repaired(options, app, run);
-  result.block = plan.blocks[options.block - 1].checksum;
-  result.options = text;
-  folder.write_result(options.block, result);
-  return code_of(result);
+      folder.result_file(options.block, text, std::string(extension_of(*steps.format))).string();
+  std::optional<BlockResult> result = repaired(options, app, run);
+  if (!result) return ExitCode::not_certified;
+  result->block = plan.blocks[options.block - 1].checksum;
+  result->options = text;
+  folder.write_result(options.block, *result);
+  if (before && !before->file.empty() && before->file != result->file) {
+    std::filesystem::remove(folder.file_of(*before));
+  }
+  return code_of(*result);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <fcntl.h>
 #include <fstream>
+#include <string_view>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
@@ -23,8 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExtension = ".state";
-constexpr const char* kUnfinished = ".part";
+// Of names of files: what else is in the folder is not touched.
+constexpr std::string_view kPrefix = "meshrepair-";
+constexpr std::string_view kExtension = ".state";
+constexpr std::string_view kUnfinished = ".part";
 
 constexpr int kTries = 20;
 constexpr std::chrono::milliseconds kBetweenTries{100};
@@ -61,28 +65,44 @@ bool lock(int folder) {
   return false;
 }
 
+// The run that had the lock may have removed the folder with it.
+bool is_still_there(int descriptor, const fs::path& folder) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(folder.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
 int locked(const fs::path& folder) {
+  for (;;) {
+    ::mkdir(folder.c_str(), S_IRWXU);  // or it is there
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) {
+      throw OutputError("--resume: " + folder.string() + " is no folder: " + reason(errno));
+    }
+    const bool is_locked = lock(descriptor);
+    const int error = errno;
+    if (is_locked && is_still_there(descriptor, folder)) return descriptor;
+    ::close(descriptor);
+    if (is_locked) continue;
+    throw OutputError(error == EWOULDBLOCK
+                          ? "--resume: another run is at work with " + folder.string()
+                          : "--resume: " + folder.string() + " cannot be locked: " + reason(error));
+  }
+}
+
+bool is_ours(const fs::directory_entry& entry) {
   std::error_code failed;
-  fs::create_directory(folder, failed);
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) {
-    throw OutputError("--resume: " + folder.string() + " is no folder: " + reason(errno));
-  }
-  if (lock(descriptor)) return descriptor;
-  const int error = errno;
-  ::close(descriptor);
-  if (error == EWOULDBLOCK) {
-    throw UsageError("--resume: another run is at work with " + folder.string());
-  }
-  throw OutputError("--resume: " + folder.string() + " cannot be locked: " + reason(error));
+  const std::string name = entry.path().filename().string();
+  return entry.symlink_status(failed).type() == fs::file_type::regular &&
+         name.starts_with(kPrefix) && (name.ends_with(kExtension) || name.ends_with(kUnfinished));
 }
 
 template <class Act>
 void for_each_of_ours(const fs::path& folder, const Act& act) {
   std::error_code failed;
   for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
-    const std::string extension = at->path().extension().string();
-    if (extension == kExtension || extension == kUnfinished) act(at->path());
+    if (is_ours(*at)) act(at->path());
   }
 }
 
@@ -99,20 +119,24 @@ StateFolder::StateFolder(fs::path folder, const std::string& options)
   });
 }
 
-StateFolder::~StateFolder() { ::close(lock_); }
+// What nothing is kept in goes, also after an error.
+StateFolder::~StateFolder() {
+  ::rmdir(folder_.c_str());
+  ::close(lock_);
+}
 
-fs::path StateFolder::path_of(const std::string& name) const {
-  return folder_ / (name + kExtension);
+fs::path StateFolder::path_of(const std::string& name, std::string_view extension) const {
+  return folder_ / (std::string(kPrefix) + name + std::string(extension));
 }
 
 bool StateFolder::has(const std::string& name) const {
   std::error_code failed;
-  return fs::exists(path_of(name), failed);
+  return fs::symlink_status(path_of(name, kExtension), failed).type() == fs::file_type::regular;
 }
 
 bool StateFolder::load(const std::string& name,
                        const std::function<void(std::istream&, std::uint64_t)>& read) {
-  const fs::path file = path_of(name);
+  const fs::path file = path_of(name, kExtension);
   if (!has(name)) return false;
   if (!read_state(file, read)) {
     logger().warn("--resume: {} is damaged, and not used", file.string());
@@ -126,10 +150,10 @@ bool StateFolder::load(const std::string& name,
 
 void StateFolder::save(const std::string& name, const std::function<void(std::ostream&)>& write) {
   if (!may_save_) return;
-  const fs::path unfinished = folder_ / (name + kUnfinished);
+  const fs::path unfinished = path_of(name, kUnfinished);
   try {
     write_state(unfinished, key_, write);
-    fs::rename(unfinished, path_of(name));
+    fs::rename(unfinished, path_of(name, kExtension));
     ::fsync(lock_);
   } catch (const fs::filesystem_error& error) {
     may_save_ = false;
@@ -142,13 +166,12 @@ void StateFolder::save(const std::string& name, const std::function<void(std::os
 
 void StateFolder::drop(const std::string& name) {
   std::error_code failed;
-  fs::remove(path_of(name), failed);
+  fs::remove(path_of(name, kExtension), failed);
 }
 
 void StateFolder::remove() noexcept {
   std::error_code failed;
   for_each_of_ours(folder_, [&](const fs::path& file) { fs::remove(file, failed); });
-  ::rmdir(folder_.c_str());
 }
 
 }  // namespace meshrepair

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <base/state_store.h>
@@ -14,7 +15,7 @@ namespace meshrepair {
 class StateFolder : public StateStore {
  public:
   // Makes the folder if it is not there. `options`: all that results depend on, but for the input.
-  // Throws OutputError where that cannot be, and UsageError where another run has it.
+  // Throws OutputError where that cannot be, or another run has it.
   StateFolder(std::filesystem::path folder, const std::string& options);
   ~StateFolder() override;
 
@@ -26,11 +27,12 @@ class StateFolder : public StateStore {
 
   // The states that were loaded.
   [[nodiscard]] const std::vector<std::string>& loaded() const { return loaded_; }
-  // All states, and the folder if it is empty then: the work is done.
+  // All states: the work is done. The folder goes with this object if it is empty then.
   void remove() noexcept;
 
  private:
-  [[nodiscard]] std::filesystem::path path_of(const std::string& name) const;
+  [[nodiscard]] std::filesystem::path path_of(const std::string& name,
+                                              std::string_view extension) const;
 
   std::filesystem::path folder_;
   int lock_ = -1;          // a descriptor of the folder

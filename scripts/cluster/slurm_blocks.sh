@@ -41,6 +41,7 @@ dir=$(realpath "$1") out=$(realpath --canonicalize-missing "$2")
 shift 2
 [ "${1-}" = -- ] && shift
 program=$(command -v "$program") || { echo "slurm_blocks.sh: there is no $program: use --program" >&2; exit 2; }
+[ -f "$dir/plan.json" ] || { echo "slurm_blocks.sh: $dir holds no plan: meshrepair-blocks plan makes it" >&2; exit 2; }
 blocks=$(python3 -c 'import json, sys; print(len(json.load(open(sys.argv[1]))["blocks"]))' "$dir/plan.json")
 logs=$dir/logs
 mkdir --parents "$logs"

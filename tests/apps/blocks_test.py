@@ -139,7 +139,9 @@ class Blocks(unittest.TestCase):
         self.plan_rings()
         plan = self.blocks / "plan.json"
         whole = plan.read_text()
-        for text in ("", "{", "[]", "{}", whole.replace('"groups"', '"grops"'), whole.replace(": 1,", ": -1,", 1),
+        fewer = json.loads(whole)
+        del fewer["blocks"][1]
+        for text in ("", "{", "[]", "{}", json.dumps(fewer), json.dumps({**fewer, "blocks": []}), whole.replace('"groups"', '"grops"'), whole.replace(": 1,", ": -1,", 1),
                      whole.replace('"triangles": ', '"triangles": "a", "b": ', 1)):
             plan.write_text(text)
             said = self.run_verb("join", self.blocks, self.out, code=3)
@@ -157,6 +159,24 @@ class Blocks(unittest.TestCase):
         self.run_all()
         self.run_all("--holes", "flat", order=[4])
         self.assertIn("block 4 was repaired with other options than block 1", self.join(code=3)[0])
+
+    def test_results_of_other_options_do_not_meet(self):
+        self.plan_rings()
+        self.run_all(order=[1])
+        self.run_all("--holes", "flat", order=[1])
+        names = sorted(file.name for file in (self.blocks / "repaired").iterdir())
+        self.assertEqual(len(names), 2)
+        self.assertRegex(names[0], r"^1-[0-9a-f]{8}\.ply$")
+        self.assertEqual(names[1], "1.done")
+
+    def test_options_of_the_whole_mesh_are_refused(self):
+        self.plan_rings()
+        self.assertIn("--staging: ", self.run_verb("run", self.blocks, "--block", 1, "--staging", self.folder, code=2))
+        self.assertIn("--units: ", self.run_verb("run", self.blocks, "--block", 1, "--units", "mm", code=2))
+
+    def test_an_input_that_is_not_there_leaves_nothing(self):
+        self.run_verb("plan", self.mesh, self.blocks, code=3)
+        self.assertFalse(self.blocks.exists())
 
     def test_single_precision(self):
         self.plan_rings()

@@ -59,7 +59,7 @@ class Resume(unittest.TestCase):
         return [PROGRAMS / "meshrepair", mesh, out, *(["--resume", resume] if resume else []), *more]
 
     def state(self, name):
-        return next(iter(self.states.glob(f"{name}-*.state")), None)
+        return next(iter(self.states.glob(f"meshrepair-{name}-*.state")), None)
 
     def interrupt_at(self, name, *more):
         """Kills a run once this state is there; others may be, too."""
@@ -160,7 +160,7 @@ class Resume(unittest.TestCase):
         first.send_signal(signal.SIGSTOP)
         second = subprocess.run(self.command(), cwd=self.folder, capture_output=True, text=True)
         first.send_signal(signal.SIGCONT)
-        self.assertEqual(second.returncode, 2)
+        self.assertEqual(second.returncode, NOT_WRITTEN)
         self.assertIn("--resume: another run is at work with states", second.stderr)
         self.assertEqual(first.wait(), 0)
 
@@ -179,9 +179,18 @@ class Resume(unittest.TestCase):
 
     def test_what_other_files_are_there_stays(self):
         self.states.mkdir()
-        (self.states / "notes.txt").write_text("mine")
+        mine = ["game.state", "meshrepair-notes.txt", "movie.part", "notes.txt"]
+        for name in mine:
+            (self.states / name).write_text("mine")
+        (self.states / "meshrepair-folder.state").mkdir()
         subprocess.run(self.command("a.stl", "out.ply", "-q"), cwd=self.folder, check=True)
-        self.assertEqual([file.name for file in self.states.iterdir()], ["notes.txt"])
+        (self.states / "meshrepair-folder.state").rmdir()
+        self.assertEqual(sorted(file.name for file in self.states.iterdir()), mine)
+
+    def test_an_error_leaves_no_empty_folder(self):
+        done = subprocess.run(self.command("gone.stl", "out.ply"), cwd=self.folder, capture_output=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertFalse(self.states.exists())
 
     def test_where_states_do_not_fit_the_run_goes_on(self):
         def small_files():
