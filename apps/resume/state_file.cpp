@@ -60,6 +60,7 @@ class ChecksumWriter : public std::streambuf {
 
   std::streamsize xsputn(const char* bytes, std::streamsize size) override {
     const auto count = static_cast<std::size_t>(size);
+    if (count == 0) return 0;  // of an empty list, which may be nowhere
     if (size <= epptr() - pptr()) {
       std::memcpy(pptr(), bytes, count);
       pbump(static_cast<int>(size));
