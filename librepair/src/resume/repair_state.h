@@ -1,8 +1,8 @@
 // What the states of a repair are made of.
 //
 // fields_of() names all members of a type, or the compiler complains: none is forgotten when one is
-// added. That of a repair's report leaves out what is found last of all, after the last state; so
-// does that of a surface's, which only tangles ask for, and do not keep.
+// added. RepairReport is without what is found after the last state; ExtractReport without
+// `facet_of`, which tangles ask for and do not keep.
 #pragma once
 
 #include <tuple>

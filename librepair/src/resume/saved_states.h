@@ -15,7 +15,7 @@
 
 namespace meshrepair::internal {
 
-// In the order in which they come; each makes those before it needless.
+// In the order in which they come; the last makes the others needless.
 inline constexpr const char* kPreparedState = "prepared";  // clean, closed and turned
 inline constexpr const char* kChambersState = "chambers";  // what came of that way, not finished
 inline constexpr const char* kTanglesState = "tangles";    // the same

@@ -50,6 +50,13 @@ Surface certified(const Surface& surface, const CertifyOptions& options, Certify
   return certified(surface, options, no_repair, report);
 }
 
+TEST(PairsByChance, GrowWithLargeMeshesAlone) {
+  EXPECT_EQ(pairs_by_chance(0), 32u);
+  EXPECT_EQ(pairs_by_chance(200'000), 32u);
+  EXPECT_EQ(pairs_by_chance(2'000'000), 244u);
+  EXPECT_EQ(pairs_by_chance(20'000'000), 2441u);
+}
+
 TEST(Certify, LeavesASoundSurfaceAsItIs) {
   CertifyReport report;
   const TriangleSoup soup = sphere(300);
