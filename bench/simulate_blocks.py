@@ -5,8 +5,8 @@
 
 REPORTS is a folder with reports of meshrepair-blocks: plan.json, join.json, and 1.json, 2.json ... of its blocks, each run
 with one thread. Reading, grouping and writing of plan and join go on as they were measured, for each triangle, one after the
-other. Blocks are drawn from those that were measured; each takes one core, the next that is free. Prints a table, and as JSON
-with --json."""
+other. Blocks are drawn from those that were measured; each takes one core, the next that is free. All nodes share one disk: no
+phase is faster than it gives and takes the bytes. Prints a table, and as JSON with --json."""
 
 import argparse
 import heapq
@@ -16,7 +16,7 @@ import random
 
 
 class Measured:
-    """Seconds for each triangle, and of blocks."""
+    """Seconds and bytes for each triangle, and seconds of blocks."""
 
     def __init__(self, folder):
         reports = {path.stem: json.loads(path.read_text()) for path in folder.glob("*.json")}
@@ -26,6 +26,8 @@ class Measured:
         self.plan = plan["seconds"] / triangles
         self.join = join["seconds"] / triangles
         self.repair = sum(seconds for _, seconds in self.blocks) / triangles
+        self.input_bytes = plan["read"]["bytes"] / triangles
+        self.block_bytes = sum(report["read"]["bytes"] for report in reports.values()) / triangles
 
 
 def run_blocks(seconds, slots, start):
@@ -38,7 +40,7 @@ def run_blocks(seconds, slots, start):
 
 
 def simulate(measured, options, nodes):
-    """Seconds of each phase."""
+    """Seconds of each phase. Results take as many bytes as the blocks that they are made of."""
     rng = random.Random(1)
     blocks = []
     left = options.triangles
@@ -47,8 +49,14 @@ def simulate(measured, options, nodes):
         triangles, seconds = rng.choice(measured.blocks)
         blocks.append(seconds / triangles * size)
         left -= size
-    plan, join = measured.plan * options.triangles, measured.join * options.triangles
-    return {"plan": plan, "blocks": run_blocks(blocks, nodes * options.cores, options.start), "join": join}
+    cores = {
+        "plan": measured.plan * options.triangles,
+        "blocks": run_blocks(blocks, nodes * options.cores, options.start),
+        "join": measured.join * options.triangles,
+    }
+    block_bytes = measured.block_bytes
+    disk = {"plan": measured.input_bytes + block_bytes, "blocks": 2 * block_bytes, "join": 2 * block_bytes}
+    return {phase: max(cores[phase], options.triangles * disk[phase] / (1e6 * options.disk)) for phase in cores}
 
 
 def main():
@@ -58,6 +66,7 @@ def main():
     parser.add_argument("--block", type=int, default=10**6, help="triangles of a block (default: %(default)s)")
     parser.add_argument("--cores", type=int, default=16, help="of a node (default: %(default)s)")
     parser.add_argument("--start", type=float, default=1.0, help="seconds until a task starts (default: %(default)s)")
+    parser.add_argument("--disk", type=float, default=1000, help="MB/s that the shared disk gives or takes (default: %(default)s)")
     parser.add_argument("--nodes", type=int, nargs="+", default=[1, 10, 100, 1000])
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()

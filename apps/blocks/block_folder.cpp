@@ -12,14 +12,14 @@
 #include <base/atomic_file.h>
 #include <base/error.h>
 
+#include "common/file_checksum.h"
 #include "common/json_report.h"
+#include "common/program.h"
 
 namespace meshrepair {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;
 
 void make_folder(const fs::path& folder) {
   std::error_code failed;
@@ -44,6 +44,13 @@ std::uint64_t count_of(const Json& json, const char* key) {
     throw Json::type_error::create(302, std::string(key) + " is no count", &count);
   }
   return count;
+}
+
+std::optional<LengthUnit> unit_of(const Json& name) {
+  if (name.is_null()) return std::nullopt;
+  const auto unit = unit_named(name.get<std::string>());
+  if (!unit) throw Json::type_error::create(302, "unit is none", &name);
+  return unit;
 }
 
 void write_json(const fs::path& file, const Json& json) {
@@ -98,7 +105,7 @@ BlockPlan BlockFolder::read_plan() const try {
   BlockPlan plan;
   plan.input = json->at("input");
   plan.triangles = count_of(*json, "triangles");
-  if (!json->at("unit").is_null()) plan.unit = unit_named(json->at("unit").get<std::string>());
+  plan.unit = unit_of(json->at("unit"));
   std::size_t triangles = 0;
   for (const Json& block : json->at("blocks")) {
     plan.blocks.push_back(
@@ -113,9 +120,23 @@ BlockPlan BlockFolder::read_plan() const try {
   throw InputError(plan_file().string() + ": is damaged: " + error.what());
 }
 
+void BlockFolder::require_outside(const std::string& option, const std::string& file,
+                                  Run& run) const {
+  if (file.empty() || file == "-") return;
+  std::error_code failed;
+  const fs::path at = fs::weakly_canonical(fs::absolute(file, failed), failed);
+  const fs::path folder = fs::weakly_canonical(fs::absolute(folder_, failed), failed);
+  for (const fs::path& ours : {folder / "blocks", folder / "repaired", folder / "plan.json"}) {
+    if (at != ours && at.parent_path() != ours) continue;
+    if (file == run.options.report) run.report.withhold();
+    throw UsageError(option + ": " + file + " lies among the files of " + folder_.string());
+  }
+}
+
 void BlockFolder::write_result(std::size_t block, const BlockResult& result) const {
   write_json(done_file(block), {{"block", result.block},
                                 {"result", result.result},
+                                {"program", result.program},
                                 {"options", result.options},
                                 {"file", result.file},
                                 {"certified", result.certified}});
@@ -125,11 +146,12 @@ std::optional<BlockResult> BlockFolder::read_result(std::size_t block, const Blo
     try {
   const auto json = read_json(done_file(block));
   if (!json) return std::nullopt;
-  BlockResult result = {count_of(*json, "block"), count_of(*json, "result"), json->at("options"),
-                        json->at("file"), json->at("certified")};
+  BlockResult result = {count_of(*json, "block"),   count_of(*json, "result"),
+                        count_of(*json, "program"), json->at("options"),
+                        json->at("file"),           json->at("certified")};
   if (result.block != plan.blocks[block - 1].checksum) return std::nullopt;
   if (fs::path(result.file).filename() != result.file) return std::nullopt;
-  if (!result.file.empty() && checksum_of_file(file_of(result)) != result.result) {
+  if (!result.file.empty() && file_checksum(file_of(result)) != result.result) {
     return std::nullopt;
   }
   return result;
@@ -137,19 +159,6 @@ std::optional<BlockResult> BlockFolder::read_result(std::size_t block, const Blo
   return std::nullopt;
 } catch (const InputError&) {
   return std::nullopt;
-}
-
-std::uint64_t checksum_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string() + ": cannot be opened");
-  std::vector<char> block(kReadAtOnce);
-  std::uint64_t sum = 0, size = 0;
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    const auto count = static_cast<std::size_t>(in.gcount());
-    sum = ::crc32_z(sum, reinterpret_cast<const Bytef*>(block.data()), count);
-    size += count;
-  }
-  return size << 32 ^ sum;
 }
 
 }  // namespace meshrepair

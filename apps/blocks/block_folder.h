@@ -19,6 +19,8 @@
 
 namespace meshrepair {
 
+struct Run;
+
 struct Block {
   std::size_t triangles = 0;
   std::size_t groups = 0;      // of parts that have to do with each other
@@ -34,10 +36,11 @@ struct BlockPlan {
 
 // How the repair of a block ended.
 struct BlockResult {
-  std::uint64_t block = 0;   // checksum of what was repaired
-  std::uint64_t result = 0;  // checksum of what came of it
-  std::string options;       // that results depend on
-  std::string file;          // its name; empty: the block encloses nothing
+  std::uint64_t block = 0;    // checksum of what was repaired
+  std::uint64_t result = 0;   // checksum of what came of it
+  std::uint64_t program = 0;  // checksum of what repaired it
+  std::string options;        // that results depend on, as options_of_results() gives them
+  std::string file;           // its name; empty: the block encloses nothing
   bool certified = false;
 };
 
@@ -66,6 +69,10 @@ class BlockFolder {
   // Throws InputError where there is none, or it is damaged.
   [[nodiscard]] BlockPlan read_plan() const;
 
+  // Throws UsageError where the file, which `option` names, would lie among those of the folder;
+  // where it is the report, this is withheld.
+  void require_outside(const std::string& option, const std::string& file, Run& run) const;
+
   void write_result(std::size_t block, const BlockResult& result) const;
   // Nothing where the block is not repaired, or files are not what they were.
   [[nodiscard]] std::optional<BlockResult> read_result(std::size_t block,
@@ -74,8 +81,5 @@ class BlockFolder {
  private:
   std::filesystem::path folder_;
 };
-
-// Throws InputError where the file cannot be read.
-[[nodiscard]] std::uint64_t checksum_of_file(const std::filesystem::path& file);
 
 }  // namespace meshrepair

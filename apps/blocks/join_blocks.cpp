@@ -6,9 +6,11 @@
 #include <spdlog/logger.h>
 
 #include <base/error.h>
-#include <check/box_tree.h>
+#include <check/part_groups.h>
 #include <check/self_intersections.h>
-#include <mesh/mesh_parts.h>
+#include <mesh/append_soup.h>
+#include <mesh/float32.h>
+#include <mesh/mesh_limits.h>
 
 #include "blocks/block_folder.h"
 #include "blocks/verbs.h"
@@ -31,7 +33,7 @@ struct JoinOptions {
 // All results, block behind block.
 struct Joined {
   TriangleSoup soup;
-  std::vector<std::uint32_t> block_of;  // of each triangle, from 0
+  std::vector<std::size_t> first;  // of each block, its first triangle
   std::vector<std::size_t> uncertified, empty;
 };
 
@@ -42,6 +44,26 @@ std::string named(const std::vector<std::size_t>& blocks) {
   }
   if (blocks.size() > kMostNamed) text += fmt::format(" and {} more", blocks.size() - kMostNamed);
   return text;
+}
+
+// That does a block as the first of the others were done.
+std::string command_of(const JoinOptions& options, std::size_t block,
+                       const std::vector<BlockResult>& results) {
+  std::string words = results.empty() ? "" : ' ' + results[0].options;
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  while (words.ends_with(' ')) words.pop_back();
+  return fmt::format("meshrepair-blocks run {} --block {}{}", options.folder, block, words);
+}
+
+void require_same(const JoinOptions& options, const std::vector<BlockResult>& results) {
+  for (std::size_t b = 1; b < results.size(); ++b) {
+    const bool has_same_options = results[b].options == results[0].options;
+    if (has_same_options && results[b].program == results[0].program) continue;
+    throw InputError(fmt::format(
+        "{}: block {} was repaired {} than block 1; do '{}'", options.folder, b + 1,
+        has_same_options ? "by another build of meshrepair-blocks" : "with other options",
+        command_of(options, b + 1, results)));
+  }
 }
 
 std::vector<BlockResult> read_results(const JoinOptions& options, const BlockFolder& folder,
@@ -56,80 +78,74 @@ std::vector<BlockResult> read_results(const JoinOptions& options, const BlockFol
     }
   }
   if (!missing.empty()) {
-    throw InputError(fmt::format(
-        "{}: not repaired: {} {}; do 'meshrepair-blocks run {} --block {}'", options.folder,
-        missing.size() == 1 ? "block" : "blocks", named(missing), options.folder, missing[0]));
+    throw InputError(fmt::format("{}: not repaired: {} {}; do '{}'", options.folder,
+                                 missing.size() == 1 ? "block" : "blocks", named(missing),
+                                 command_of(options, missing[0], results)));
   }
-  for (std::size_t b = 1; b < results.size(); ++b) {
-    if (results[b].options == results[0].options) continue;
-    throw InputError(fmt::format("{}: block {} was repaired with other options than block 1",
-                                 options.folder, b + 1));
-  }
+  require_same(options, results);
   return results;
 }
 
-void append(const TriangleSoup& part, std::uint32_t block, Joined& joined) {
-  const auto first = static_cast<std::uint32_t>(joined.soup.points.size());
-  joined.soup.points.insert(joined.soup.points.end(), part.points.begin(), part.points.end());
-  for (const auto& t : part.triangles) {
-    joined.soup.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+// What the format rounds and welds was so before: it still is what was certified.
+bool stays_certified(const ReadResult& part, SoupFormat format) {
+  if (welds_points(format) && !welds_points(part.report.format)) return false;
+  return !is_single(format) ||
+         std::all_of(part.soup.points.begin(), part.soup.points.end(),
+                     [](const Vec3d& p) { return rounded_to_float32(p) == p; });
+}
+
+void append(const TriangleSoup& part, Joined& joined) {
+  if (part.points.size() > kMostPoints - joined.soup.points.size() ||
+      part.triangles.size() > kMostTriangles - joined.soup.triangles.size()) {
+    throw LimitError("all blocks together have more points or triangles than a mesh can have");
   }
-  joined.block_of.resize(joined.soup.triangles.size(), block);
+  append_soup(joined.soup, part);
 }
 
 Joined read_all(const JoinOptions& options, const BlockFolder& folder, const BlockPlan& plan,
                 SoupFormat format, Run& run) {
   const std::vector<BlockResult> results = read_results(options, folder, plan);
   Joined joined;
-  for (std::uint32_t b = 0; b < results.size(); ++b) {
+  for (std::size_t b = 0; b < results.size(); ++b) {
+    joined.first.push_back(joined.soup.triangles.size());
     if (!results[b].certified) joined.uncertified.push_back(b + 1);
     if (results[b].file.empty()) {
       joined.empty.push_back(b + 1);
       continue;
     }
     const ReadResult part = read_soup(folder.file_of(results[b]), read_options(run));
-    if (is_single(format) && !is_single(part.report.format)) {
+    if (!stays_certified(part, format)) {
       throw UsageError(
-          fmt::format("{}: {} rounds coordinates more than the blocks were made for: run them with "
-                      "--format stl, or write PLY, OBJ or OFF",
+          fmt::format("{}: {} rounds or joins corners that the blocks have: run them with its "
+                      "--format, too, or write PLY, OBJ or OFF",
                       options.step.output, format_name(format)));
     }
-    append(part.soup, b, joined);
+    append(part.soup, joined);
     run.progress.advance(static_cast<double>(b + 1) / static_cast<double>(results.size()));
   }
   return joined;
 }
 
-// Of parts in different blocks whose boxes meet, the triangles; the blocks of these.
-struct Neighbours {
-  TriangleSoup soup;
-  std::vector<std::uint32_t> block_of;
-};
+std::size_t block_of(const Joined& joined, std::size_t triangle) {
+  const auto after = std::upper_bound(joined.first.begin(), joined.first.end(), triangle);
+  return static_cast<std::size_t>(after - joined.first.begin()) - 1;
+}
 
-Neighbours neighbours_in(const Joined& joined) {
-  const MeshParts parts = find_parts(joined.soup);
-  std::vector<Box> boxes(parts.count);
-  std::vector<std::uint32_t> block_of_part(parts.count);
+// The triangles of parts whose boxes meet those of other blocks, by themselves or by others.
+std::vector<std::uint32_t> triangles_near_others(const Joined& joined) {
+  constexpr std::size_t kNone = ~std::size_t{0};
+  const PartGroups groups = find_groups(joined.soup, 0);
+  std::vector<std::size_t> block(groups.size(), kNone);
+  std::vector<char> is_near(groups.size(), 0);
   for (std::size_t t = 0; t < joined.soup.triangles.size(); ++t) {
-    const std::uint32_t part = parts.of_triangle[t];
-    block_of_part[part] = joined.block_of[t];
-    for (const std::uint32_t p : joined.soup.triangles[t]) boxes[part].add(joined.soup.points[p]);
+    const std::uint32_t group = groups.of_triangle[t];
+    const std::size_t own = block_of(joined, t);
+    if (block[group] == kNone) block[group] = own;
+    if (block[group] != own) is_near[group] = 1;
   }
-  const BoxTree tree(boxes);
-  std::vector<char> is_near(parts.count, 0);
-  for (std::uint32_t part = 0; part < parts.count; ++part) {
-    tree.visit([&](const Box& box) { return box.meets(boxes[part]); },
-               [&](std::uint32_t other) {
-                 if (block_of_part[other] == block_of_part[part]) return;
-                 if (boxes[other].meets(boxes[part])) is_near[part] = is_near[other] = 1;
-               });
-  }
-  Neighbours found;
-  found.soup.points = joined.soup.points;
-  for (std::size_t t = 0; t < joined.soup.triangles.size(); ++t) {
-    if (is_near[parts.of_triangle[t]] == 0) continue;
-    found.soup.triangles.push_back(joined.soup.triangles[t]);
-    found.block_of.push_back(joined.block_of[t]);
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t t = 0; t < groups.of_triangle.size(); ++t) {
+    if (is_near[groups.of_triangle[t]] != 0) found.push_back(t);
   }
   return found;
 }
@@ -137,15 +153,15 @@ Neighbours neighbours_in(const Joined& joined) {
 // Pairs of triangles of different blocks that meet. Each block is certified for itself, and parts
 // whose boxes do not meet do not meet.
 std::size_t pairs_between_blocks(const Joined& joined, Run& run) {
-  const Neighbours near = neighbours_in(joined);
-  if (near.soup.triangles.empty()) return 0;
+  const std::vector<std::uint32_t> near = triangles_near_others(joined);
+  if (near.empty()) return 0;
   SelfIntersectionOptions options;
-  options.most_pairs = near.soup.triangles.size();
+  options.most_pairs = joined.soup.triangles.size();
   options.progress = &run.progress;
-  const SelfIntersections found = self_intersections(near.soup, options);
+  const SelfIntersections found = self_intersections(joined.soup, near, options);
   return static_cast<std::size_t>(std::count_if(
       found.pairs.begin(), found.pairs.end(),
-      [&](const auto& pair) { return near.block_of[pair[0]] != near.block_of[pair[1]]; }));
+      [&](const auto& pair) { return block_of(joined, pair[0]) != block_of(joined, pair[1]); }));
 }
 
 std::string faults_of(const Joined& joined, std::size_t pairs) {
@@ -164,6 +180,8 @@ std::string faults_of(const Joined& joined, std::size_t pairs) {
 ExitCode join(JoinOptions& options, Run& run) {
   const BlockFolder folder(options.folder);
   const BlockPlan plan = folder.read_plan();
+  folder.require_outside("OUT", options.step.output, run);
+  folder.require_outside("--report", run.options.report, run);
   check_files(folder.plan_file().string(), options.step.output, run);
   options.step.input = options.folder;
   WriteOptions format = mesh_format(options.step);

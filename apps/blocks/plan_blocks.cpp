@@ -8,11 +8,12 @@
 #include <spdlog/logger.h>
 
 #include <base/error.h>
+#include <check/part_groups.h>
 
 #include "blocks/block_folder.h"
-#include "blocks/part_groups.h"
 #include "blocks/verbs.h"
 #include "common/attribute_report.h"
+#include "common/file_checksum.h"
 #include "common/file_kinds.h"
 #include "common/logging.h"
 #include "common/numbers.h"
@@ -91,7 +92,7 @@ BlockPlan write_blocks(const TriangleSoup& soup, const PartGroups& groups,
     const std::filesystem::path file = folder.block_file(b + 1);
     write_soup(part, file, format);
     plan.blocks[b].triangles = part.triangles.size();
-    plan.blocks[b].checksum = checksum_of_file(file);
+    plan.blocks[b].checksum = file_checksum(file);
     progress.advance(static_cast<double>(b + 1) / static_cast<double>(blocks));
   }
   return plan;

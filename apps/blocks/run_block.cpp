@@ -1,6 +1,9 @@
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <system_error>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/logger.h>
@@ -9,6 +12,7 @@
 
 #include "blocks/block_folder.h"
 #include "blocks/verbs.h"
+#include "common/file_checksum.h"
 #include "common/logging.h"
 #include "common/numbers.h"
 #include "common/repair_command.h"
@@ -34,9 +38,29 @@ void require_block(const BlockPlan& plan, const BlockFolder& folder, std::size_t
     throw UsageError(fmt::format("--block: there are {} blocks", plan.blocks.size()));
   }
   const std::filesystem::path file = folder.block_file(block);
-  if (checksum_of_file(file) != plan.blocks[block - 1].checksum) {
+  if (file_checksum(file) != plan.blocks[block - 1].checksum) {
     throw InputError(file.string() + ": is not what the plan says");
   }
+}
+
+// What is written besides the result is not kept: who asks for it has the block done again.
+bool has_side_files(const StepOptions& steps) {
+  return !steps.explained.empty() || steps.picture.wanted() || steps.html.wanted();
+}
+
+void require_files_outside(const BlockFolder& folder, const StepOptions& steps, Run& run) {
+  folder.require_outside("--report", run.options.report, run);
+  folder.require_outside("--explain", steps.explained, run);
+  folder.require_outside("--picture", steps.picture.path, run);
+  folder.require_outside("--html", steps.html.path, run);
+}
+
+// Blocks may be at work at the same time, so each has a folder of its own in that of --resume.
+std::string resume_folder(const RunOptions& options) {
+  if (options.resume.empty()) return {};
+  std::error_code failed;
+  std::filesystem::create_directories(options.resume, failed);
+  return std::filesystem::path(options.resume) / std::to_string(options.block);
 }
 
 // What belongs to the whole mesh.
@@ -59,7 +83,7 @@ std::optional<BlockResult> repaired(RunOptions& options, const CLI::App& app, Ru
   try {
     const ExitCode code =
         run_steps(steps, run, [&](const StepOptions&, Run& inner, Findings& findings) {
-          run_resumable(options.resume, app, inner, [&](StateStore* states) {
+          run_resumable(resume_folder(options), app, inner, [&](StateStore* states) {
             options.repair.steps.repair.states = states;
             repair_file(options.repair, inner, findings);
           });
@@ -67,7 +91,7 @@ std::optional<BlockResult> repaired(RunOptions& options, const CLI::App& app, Ru
     result.certified = code == ExitCode::done;
     if (!result.certified && steps.strict) return std::nullopt;
     result.file = std::filesystem::path(steps.output).filename().string();
-    result.result = checksum_of_file(steps.output);
+    result.result = file_checksum(steps.output);
   } catch (const NoSolidError& error) {
     logger().warn("{}", error.what());
     result.certified = true;
@@ -76,19 +100,22 @@ std::optional<BlockResult> repaired(RunOptions& options, const CLI::App& app, Ru
 }
 
 ExitCode run_of_block(RunOptions& options, const CLI::App& app, Run& run) {
-  require_options_of_blocks(options.repair.steps);
+  StepOptions& steps = options.repair.steps;
+  require_options_of_blocks(steps);
   const BlockFolder folder(options.folder);
+  require_files_outside(folder, steps, run);
   const BlockPlan plan = folder.read_plan();
   require_block(plan, folder, options.block);
   const std::string text = options_text(app);
+  const std::uint64_t program = program_checksum();
   const auto before = folder.read_result(options.block, plan);
-  if (before && before->options == text) {
+  const bool is_same = before && before->options == text && before->program == program;
+  if (is_same && !has_side_files(steps)) {
     run.progress.finish();
     if (!run.options.quiet && run.options.report != "-")
       std::cout << fmt::format("block {} is done already\n", options.block);
     return code_of(*before);
   }
-  StepOptions& steps = options.repair.steps;
   if (!steps.format) steps.format = SoupFormat::ply_binary;
   steps.input = folder.block_file(options.block).string();
   steps.output =
@@ -96,6 +123,7 @@ ExitCode run_of_block(RunOptions& options, const CLI::App& app, Run& run) {
   std::optional<BlockResult> result = repaired(options, app, run);
   if (!result) return ExitCode::not_certified;
   result->block = plan.blocks[options.block - 1].checksum;
+  result->program = program;
   result->options = text;
   folder.write_result(options.block, *result);
   if (before && !before->file.empty() && before->file != result->file) {

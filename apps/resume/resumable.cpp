@@ -11,13 +11,17 @@
 namespace meshrepair {
 namespace {
 
-constexpr std::array<std::string_view, 2> kOtherGroups = {"Running", "Reporting"};
-constexpr std::string_view kInput = "IN";
+constexpr std::array<std::string_view, 4> kOtherGroups = {"Running", "Reporting", "Picture",
+                                                          "Page"};
+constexpr std::array<std::string_view, 2> kOthers = {"IN", "--explain"};
+
+template <class Names>
+bool names(const Names& all, const std::string& name) {
+  return std::find(all.begin(), all.end(), name) != all.end();
+}
 
 bool changes_results(const CLI::Option& option) {
-  const bool is_other =
-      std::find(kOtherGroups.begin(), kOtherGroups.end(), option.get_group()) != kOtherGroups.end();
-  return !is_other && option.get_name() != kInput;
+  return !names(kOtherGroups, option.get_group()) && !names(kOthers, option.get_name());
 }
 
 }  // namespace
@@ -34,7 +38,7 @@ std::string options_of_results(const CLI::App& app, const std::vector<std::strin
   std::string all;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || !changes_results(*option)) continue;
-    if (std::find(others.begin(), others.end(), option->get_name()) != others.end()) continue;
+    if (names(others, option->get_name())) continue;
     all += option->get_name();
     for (const std::string& value : option->results()) all += '=' + value;
     all += '\n';
@@ -45,7 +49,7 @@ std::string options_of_results(const CLI::App& app, const std::vector<std::strin
 void run_resumable(const std::string& folder, const CLI::App& app, Run& run,
                    const std::function<void(StateStore*)>& body) {
   if (folder.empty()) return body(nullptr);
-  StateFolder states(folder, options_of_results(app, {"IN"}));
+  StateFolder states(folder, options_of_results(app, {}));
   try {
     body(&states);
   } catch (const NoSolidError&) {

@@ -16,8 +16,8 @@ class StateStore;
 // Sets `folder` to the value of --resume.
 void add_resume_option(CLI::App& app, std::string& folder);
 
-// All that `app` was asked for that changes what a repair decides: not how the program runs and
-// tells, nor these options, such as the input.
+// All that `app` was asked for that changes what a repair decides: not IN, how the program runs and
+// tells, and what it draws, nor these options. Words of a command line, each with a line feed.
 [[nodiscard]] std::string options_of_results(const CLI::App& app,
                                              const std::vector<std::string>& others);
 

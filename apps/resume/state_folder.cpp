@@ -1,9 +1,9 @@
 #include "resume/state_folder.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <fcntl.h>
-#include <fstream>
 #include <string_view>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -17,6 +17,7 @@
 #include <base/error.h>
 #include <base/hash_index.h>
 
+#include "common/file_checksum.h"
 #include "common/logging.h"
 #include "resume/state_file.h"
 
@@ -35,23 +36,11 @@ constexpr std::chrono::milliseconds kBetweenTries{100};
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-std::uint64_t hash_of(std::uint64_t hash, const char* bytes, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) {
-    hash = internal::hash_mix(hash, static_cast<unsigned char>(bytes[i]));
-  }
-  return internal::hash_mix(hash, size);
-}
-
 // States are read as they lie in memory, so they are of one build.
-std::uint64_t hash_of_program() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  std::vector<char> block(std::size_t{1} << 16);
-  std::uint64_t hash = 0;
-  while (program.read(block.data(), static_cast<std::streamsize>(block.size())) ||
-         program.gcount() > 0) {
-    hash = hash_of(hash, block.data(), static_cast<std::size_t>(program.gcount()));
-  }
-  return hash;
+std::uint64_t key_of(const std::string& options) {
+  std::uint64_t hash = program_checksum();
+  for (const char c : options) hash = internal::hash_mix(hash, static_cast<unsigned char>(c));
+  return internal::hash_mix(hash, options.size());
 }
 
 // A run that was killed may take a moment to be gone.
@@ -109,9 +98,7 @@ void for_each_of_ours(const fs::path& folder, const Act& act) {
 }  // namespace
 
 StateFolder::StateFolder(fs::path folder, const std::string& options)
-    : folder_(std::move(folder)),
-      lock_(locked(folder_)),
-      key_(hash_of(hash_of_program(), options.data(), options.size())) {
+    : folder_(std::move(folder)), lock_(locked(folder_)), key_(key_of(options)) {
   for_each_of_ours(folder_, [this](const fs::path& file) {
     if (file.extension() == kExtension && key_of_state(file) == key_) return;
     std::error_code failed;
@@ -144,7 +131,7 @@ bool StateFolder::load(const std::string& name,
     return false;
   }
   logger().info("goes on from {}", file.string());
-  loaded_.push_back(name);
+  if (std::find(saved_.begin(), saved_.end(), name) == saved_.end()) loaded_.push_back(name);
   return true;
 }
 
@@ -155,6 +142,7 @@ void StateFolder::save(const std::string& name, const std::function<void(std::os
     write_state(unfinished, key_, write);
     fs::rename(unfinished, path_of(name, kExtension));
     ::fsync(lock_);
+    saved_.push_back(name);
   } catch (const fs::filesystem_error& error) {
     may_save_ = false;
     logger().warn("--resume: {} cannot be written, so what follows is not kept: {}",

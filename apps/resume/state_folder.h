@@ -25,7 +25,7 @@ class StateFolder : public StateStore {
   void save(const std::string& name, const std::function<void(std::ostream&)>& write) override;
   void drop(const std::string& name) override;
 
-  // The states that were loaded.
+  // The states that were loaded, of an earlier run.
   [[nodiscard]] const std::vector<std::string>& loaded() const { return loaded_; }
   // All states: the work is done. The folder goes with this object if it is empty then.
   void remove() noexcept;
@@ -38,7 +38,7 @@ class StateFolder : public StateStore {
   int lock_ = -1;          // a descriptor of the folder
   std::uint64_t key_ = 0;  // of program and options
   bool may_save_ = true;   // the disk had room so far
-  std::vector<std::string> loaded_;
+  std::vector<std::string> loaded_, saved_;
 };
 
 }  // namespace meshrepair

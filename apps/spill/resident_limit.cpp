@@ -21,6 +21,8 @@ constexpr double kSparedAlways = 128 << 20, kSparedForThread = 128 << 20;  // by
 constexpr double kMostSpared = 0.5;                                        // of the limit
 constexpr std::array<clockid_t, 2> kClocks = {CLOCK_MONOTONIC, CLOCK_PROCESS_CPUTIME_ID};
 constexpr double kEnd = 0.9;  // of where letting go begins: where it ends
+// The same, beyond what cannot be let go of: where it begins and ends.
+constexpr double kBeyondHeld = 0.2, kEndBeyondHeld = 0.05;
 
 // What the handler works with; it starts with a file.
 std::atomic<SpillFile*> file_at_work = nullptr;
@@ -37,11 +39,19 @@ std::uint64_t most_of(std::uint64_t limit) {
   return static_cast<std::uint64_t>(bytes - spared);
 }
 
-// Once round at most: what is not in the file cannot be let go of.
+std::uint64_t share_of(std::uint64_t bytes, double share) {
+  return static_cast<std::uint64_t>(share * static_cast<double>(bytes));
+}
+
+// Once round at most: what is not in the file cannot be let go of. Where that alone is about as
+// much as there may be, letting go has to wait until it brings something, or nothing else would be
+// done.
 void keep(SpillFile& file) noexcept {
-  const std::uint64_t most = most_resident.load();
-  const auto end = static_cast<std::uint64_t>(kEnd * static_cast<double>(most));
-  if (resident_memory() <= most) return;
+  const std::uint64_t most = most_resident.load(), resident = resident_memory();
+  if (resident <= most) return;
+  const std::uint64_t held = private_memory();
+  if (resident <= held + share_of(most, kBeyondHeld)) return;
+  const std::uint64_t end = std::max(share_of(most, kEnd), held + share_of(most, kEndBeyondHeld));
   for (std::size_t passed = 0; passed < file.extent(); passed += kAtOnce) {
     file.let_go(kAtOnce);
     if (resident_memory() <= end) return;

@@ -21,15 +21,21 @@ Example:
 TEXT
 }
 
+fail() {
+  echo "slurm_blocks.sh: $1" >&2
+  exit 2
+}
+
 at_once= program=meshrepair-blocks more=() join=()
 while [ $# -gt 0 ]; do
   case "$1" in
+    --at-once | --program | --sbatch | --join) [ $# -gt 1 ] || fail "$1: needs a value" ;;&
     --at-once) at_once=%$2; shift 2 ;;
     --program) program=$2; shift 2 ;;
     --sbatch) read -ra more <<<"$2"; shift 2 ;;
     --join) read -ra join <<<"$2"; shift 2 ;;
     -h | --help) usage; exit 0 ;;
-    -*) echo "slurm_blocks.sh: $1 is unknown" >&2; exit 2 ;;
+    -*) fail "$1 is unknown" ;;
     *) break ;;
   esac
 done
@@ -40,18 +46,32 @@ fi
 dir=$(realpath "$1") out=$(realpath --canonicalize-missing "$2")
 shift 2
 [ "${1-}" = -- ] && shift
-program=$(command -v "$program") || { echo "slurm_blocks.sh: there is no $program: use --program" >&2; exit 2; }
-[ -f "$dir/plan.json" ] || { echo "slurm_blocks.sh: $dir holds no plan: meshrepair-blocks plan makes it" >&2; exit 2; }
+for word in "$@"; do
+  case "$word" in
+    --block | --block=* | --threads | --threads=* | --max-memory | --max-memory=*) fail "$word: as the task of Slurm says" ;;
+  esac
+done
+found=$(command -v "$program") || fail "there is no $program: use --program"
+program=$(realpath "$found")
+[ -f "$dir/plan.json" ] || fail "$dir holds no plan: meshrepair-blocks plan makes it"
 blocks=$(python3 -c 'import json, sys; print(len(json.load(open(sys.argv[1]))["blocks"]))' "$dir/plan.json")
 logs=$dir/logs
 mkdir --parents "$logs"
 
 # Threads and memory are those of the task. 1 is the end of a whole run: the result lacks a guarantee, and join says so.
-run="memory=\${SLURM_MEM_PER_NODE:-0}
-$(printf '%q ' "$program" run -q "$dir" "$@") --block \$SLURM_ARRAY_TASK_ID --threads \${SLURM_CPUS_PER_TASK:-1} \
---max-memory \$([ \$memory -gt 0 ] && echo \$((memory * 9 / 10))M || echo 80%) || [ \$? -eq 1 ]"
 array=$(sbatch --parsable --job-name=meshrepair-block --requeue "${more[@]}" --array="1-$blocks$at_once" --output="$logs/%a.log" \
-  --wrap "$run")
+  <<JOB
+#!/usr/bin/env bash
+threads=\${SLURM_CPUS_PER_TASK:-1}
+memory=\${SLURM_MEM_PER_NODE:-\$((\${SLURM_MEM_PER_CPU:-0} * threads))}
+[ "\$memory" -gt 0 ] && most=\$((memory * 9 / 10))M || most=80%
+$(printf '%q ' "$program" run -q "$dir" "$@") --block "\$SLURM_ARRAY_TASK_ID" --threads "\$threads" --max-memory "\$most" || [ \$? -eq 1 ]
+JOB
+)
 last=$(sbatch --parsable --job-name=meshrepair-join "${join[@]}" --dependency="afterok:$array" --kill-on-invalid-dep=yes \
-  --output="$logs/join.log" --wrap "$(printf '%q ' "$program" join -q "$dir" "$out")")
+  --output="$logs/join.log" <<JOB
+#!/usr/bin/env bash
+$(printf '%q ' "$program" join -q "$dir" "$out")
+JOB
+)
 echo "array $array, join $last; logs in $logs"

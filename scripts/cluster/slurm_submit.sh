@@ -24,6 +24,7 @@ TEXT
 shards=100 at_once= more=() folder=() given=()
 while [ $# -gt 0 ]; do
   case "$1" in
+    --shards | --at-once | --sbatch | --folder) [ $# -gt 1 ] || { echo "slurm_submit.sh: $1: needs a value" >&2; exit 2; } ;;&
     --shards) shards=$2; shift 2 ;;
     --at-once) at_once=%$2; shift 2 ;;
     --sbatch) read -ra more <<<"$2"; shift 2 ;;
@@ -48,6 +49,9 @@ words=("${folder[@]}" "${given[@]}" "$in_dir" "$out_dir" "$@")
 
 array=$(sbatch --parsable "${more[@]}" --array="1-$shards$at_once" --output="$logs/%a.log" \
   "$scripts/cluster/slurm_array.sh" "$scripts" "${words[@]}")
-merge=$(sbatch --parsable --job-name=meshrepair-merge --dependency="afterany:$array" --output="$logs/merge.log" \
-  --wrap "$(printf '%q ' "$scripts/repair_folder.py" --merge "${words[@]}")")
+merge=$(sbatch --parsable --job-name=meshrepair-merge --dependency="afterany:$array" --output="$logs/merge.log" <<JOB
+#!/usr/bin/env bash
+$(printf '%q ' "$scripts/repair_folder.py" --merge "${words[@]}")
+JOB
+)
 echo "array $array, merge $merge; logs in $logs"

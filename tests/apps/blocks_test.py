@@ -141,7 +141,9 @@ class Blocks(unittest.TestCase):
         whole = plan.read_text()
         fewer = json.loads(whole)
         del fewer["blocks"][1]
-        for text in ("", "{", "[]", "{}", json.dumps(fewer), json.dumps({**fewer, "blocks": []}), whole.replace('"groups"', '"grops"'), whole.replace(": 1,", ": -1,", 1),
+        for text in ("", "{", "[]", "{}", json.dumps(fewer),
+                     json.dumps({**fewer, "blocks": []}), json.dumps({**json.loads(whole), "unit": "ells"}),
+                     whole.replace('"groups"', '"grops"'), whole.replace(": 1,", ": -1,", 1),
                      whole.replace('"triangles": ', '"triangles": "a", "b": ', 1)):
             plan.write_text(text)
             said = self.run_verb("join", self.blocks, self.out, code=3)
@@ -169,6 +171,52 @@ class Blocks(unittest.TestCase):
         self.assertRegex(names[0], r"^1-[0-9a-f]{8}\.ply$")
         self.assertEqual(names[1], "1.done")
 
+    def test_all_blocks_are_of_the_same_program(self):
+        self.plan_rings()
+        self.run_all()
+        done = self.blocks / "repaired" / "3.done"
+        result = json.loads(done.read_text())
+        done.write_text(json.dumps({**result, "program": result["program"] + 1}))
+        self.assertIn("block 3 was repaired by another build of meshrepair-blocks than block 1; do", self.join(code=3)[0])
+        self.run_all(order=[3])
+        self.assertEqual(json.loads(done.read_text()), result)
+        self.join()
+
+    def test_join_says_with_which_options_a_block_is_to_be_done(self):
+        self.plan_rings()
+        self.run_all("--holes", "flat", "--always", order=[1, 3, 4, 5])
+        said = self.join(code=3)[0]
+        self.assertRegex(said, "; do 'meshrepair-blocks run .* --block 2 --holes=flat --always")
+        self.run_verb(*said.split("; do 'meshrepair-blocks ")[1].split("'")[0].split())
+        self.join()
+
+    def test_pictures_are_of_no_matter(self):
+        self.plan_rings()
+        self.run_all("-q")
+        picture = self.folder / "2.png"
+        self.run_verb("run", self.blocks, "--block", 2, "--picture", picture)
+        self.assertTrue(picture.exists())
+        self.join()
+
+    def test_files_of_the_folder_are_not_replaced(self):
+        self.plan_rings()
+        for name in ("plan.json", "blocks/1.ply", "repaired/1.done", "repaired/x.ply"):
+            file = self.blocks / name
+            self.assertIn("among the files of", self.run_verb("run", self.blocks, "--block", 1, "--report", file, code=2))
+            self.assertIn("among the files of", self.run_verb("join", self.blocks, self.out, "--report", file, code=2))
+        self.assertIn("OUT: ", self.run_verb("join", self.blocks, self.blocks / "blocks" / "6.ply", code=2))
+        self.run_all("--report", self.blocks / "report.json")
+        self.join(out=self.blocks / "out.ply")
+
+    def test_blocks_go_on_from_states_of_their_own(self):
+        self.plan_rings()
+        states = self.folder / "states"
+        runs = [subprocess.Popen([PROGRAMS / "meshrepair-blocks", "run", "-q", self.blocks, "--block", str(block), "--resume", states])
+                for block in range(1, RINGS + 1)]
+        self.assertEqual([run.wait() for run in runs], [0] * RINGS)
+        self.assertEqual(list(states.iterdir()), [])
+        self.join()
+
     def test_options_of_the_whole_mesh_are_refused(self):
         self.plan_rings()
         self.assertIn("--staging: ", self.run_verb("run", self.blocks, "--block", 1, "--staging", self.folder, code=2))
@@ -182,7 +230,9 @@ class Blocks(unittest.TestCase):
         self.plan_rings()
         self.run_all()
         said, _ = self.join(code=2, out=self.folder / "out.stl")
-        self.assertIn("run them with --format stl", said)
+        self.assertIn("run them with its --format", said)
+        self.run_all("--precision", "float32")
+        self.join(code=2, out=self.folder / "out.stl")
         self.run_all("--format", "stl")
         self.join(out=self.folder / "out.stl")
         checked = subprocess.run([PROGRAMS / "meshcheck", "-q", self.folder / "out.stl"], check=False)

@@ -52,11 +52,12 @@ class OneMesh(unittest.TestCase):
 class Slurm(OneMesh):
     def setUp(self):
         super().setUp()
+        self.blocks, self.out = self.folder / "our blöcke", self.folder / "das 'große.ply"
         self.plan(self.blocks)
         self.cluster = SmallCluster(self, self.folder / "slurm")
 
     def submit(self):
-        said = self.cluster.run(CLUSTER / "slurm_blocks.sh", "--program", PROGRAM, "--sbatch", "--mem=500M", "--join", "--mem=500M",
+        said = self.cluster.run(CLUSTER / "slurm_blocks.sh", "--program", PROGRAM, "--sbatch", "--mem-per-cpu=500M", "--join", "--mem=500M",
                                 str(self.blocks), str(self.out))
         self.assertRegex(said, r"^array \d+, join \d+;")
 

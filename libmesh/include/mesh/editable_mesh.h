@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <base/ids.h>
@@ -28,8 +29,10 @@ class EditableMesh {
 
   [[nodiscard]] const std::vector<TriangleCorners>& triangles() const { return triangles_; }
   [[nodiscard]] bool is_left(std::uint32_t triangle) const { return triangles_[triangle] != kGone; }
-  [[nodiscard]] const std::vector<std::uint32_t>& triangles_of(std::uint32_t point) const {
-    return around_[point];
+  // Until the next edit is applied.
+  [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::uint32_t point) const {
+    if (const std::uint32_t list = list_of_[point]; list != kNone) return lists_[list];
+    return {around_.data() + first_[point], around_.data() + first_[point + 1]};
   }
 
   // The point's neighbours in the order in which the triangles around it pass them. False for a
@@ -47,8 +50,16 @@ class EditableMesh {
   void apply(const MeshEdit& edit);
 
  private:
+  std::vector<std::uint32_t>& changed_list(std::uint32_t point);
+
   std::vector<TriangleCorners> triangles_;
-  std::vector<std::vector<std::uint32_t>> around_;  // of each point, its triangles
+  // Of each point its triangles at first, from around_[first_[p]] on. Lists of their own would be
+  // so many small objects as a large mesh has points.
+  std::vector<std::size_t> first_;
+  std::vector<std::uint32_t> around_;
+  // Of those where edits were made, as they are now.
+  std::vector<std::uint32_t> list_of_;  // kNone: no edit was made
+  std::vector<std::vector<std::uint32_t>> lists_;
 };
 
 }  // namespace meshrepair::internal

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include <mesh/editable_mesh.h>
@@ -21,14 +24,32 @@ bool has(const std::vector<std::uint32_t>& points, std::uint32_t point) {
 }  // namespace
 
 EditableMesh::EditableMesh(std::vector<TriangleCorners> triangles, std::size_t points)
-    : triangles_(std::move(triangles)), around_(points) {
+    : triangles_(std::move(triangles)),
+      first_(points + 2),
+      around_(3 * triangles_.size()),
+      list_of_(points, kNone) {
+  // Shifted by one, so that entries are where the next triangle goes, and then where lists begin.
+  for (const TriangleCorners& corners : triangles_) {
+    for (const std::uint32_t p : corners) ++first_[p + 2];
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    for (const std::uint32_t p : triangles_[t]) around_[p].push_back(t);
+    for (const std::uint32_t p : triangles_[t]) around_[first_[p + 1]++] = t;
   }
 }
 
+std::vector<std::uint32_t>& EditableMesh::changed_list(std::uint32_t point) {
+  std::uint32_t& list = list_of_[point];
+  if (list == kNone) {
+    const std::span<const std::uint32_t> before = triangles_of(point);
+    list = static_cast<std::uint32_t>(lists_.size());
+    lists_.emplace_back(before.begin(), before.end());
+  }
+  return lists_[list];
+}
+
 bool EditableMesh::find_link(std::uint32_t point, std::vector<std::uint32_t>& link) const {
-  const auto& around = around_[point];
+  const auto around = triangles_of(point);
   link.clear();
   if (around.size() < 3 || around.size() > kMostOfStar) return false;
   std::vector<std::array<std::uint32_t, 2>> sides;
@@ -55,10 +76,11 @@ bool EditableMesh::find_collapse(std::uint32_t point, std::uint32_t onto, MeshEd
                [&](std::uint32_t p) { return has(other, p); });
   if (common.size() != 2 || link.size() + other.size() < 7) return false;
   if (std::any_of(common.begin(), common.end(),
-                  [&](std::uint32_t p) { return around_[p].size() < 4; })) {
+                  [&](std::uint32_t p) { return triangles_of(p).size() < 4; })) {
     return false;
   }
-  edit.triangles = around_[point];
+  const auto around = triangles_of(point);
+  edit.triangles.assign(around.begin(), around.end());
   edit.now.clear();
   for (const std::uint32_t t : edit.triangles) {
     TriangleCorners corners = triangles_[t];
@@ -75,7 +97,7 @@ bool EditableMesh::find_collapse(std::uint32_t point, std::uint32_t onto, MeshEd
 bool EditableMesh::find_flip(std::uint32_t triangle, std::size_t k, MeshEdit& edit) const {
   const TriangleCorners& corners = triangles_[triangle];
   const std::uint32_t from = corners[k], to = corners[(k + 1) % 3], left = corners[(k + 2) % 3];
-  const auto& around = around_[from];
+  const auto around = triangles_of(from);
   const auto beside = std::find_if(around.begin(), around.end(), [&](std::uint32_t t) {
     const TriangleCorners& c = triangles_[t];
     return c[(place_of(c, to) + 1) % 3] == from && place_of(c, to) < 3;
@@ -85,7 +107,7 @@ bool EditableMesh::find_flip(std::uint32_t triangle, std::size_t k, MeshEdit& ed
   const std::uint32_t right = other[(place_of(other, from) + 1) % 3];
   std::vector<std::uint32_t> link;
   if (left == right || !find_link(left, link) || has(link, right)) return false;
-  if (around.size() < 4 || around_[to].size() < 4) return false;
+  if (around.size() < 4 || triangles_of(to).size() < 4) return false;
   edit.triangles = {triangle, *beside};
   edit.now = {TriangleCorners{right, left, from}, TriangleCorners{left, right, to}};
   return true;
@@ -94,12 +116,12 @@ bool EditableMesh::find_flip(std::uint32_t triangle, std::size_t k, MeshEdit& ed
 void EditableMesh::apply(const MeshEdit& edit) {
   for (const std::uint32_t t : edit.triangles) {
     if (triangles_[t] == kGone) continue;
-    for (const std::uint32_t p : triangles_[t]) std::erase(around_[p], t);
+    for (const std::uint32_t p : triangles_[t]) std::erase(changed_list(p), t);
   }
   for (std::size_t i = 0; i < edit.triangles.size(); ++i) {
     triangles_[edit.triangles[i]] = edit.now[i];
     if (edit.now[i] == kGone) continue;
-    for (const std::uint32_t p : edit.now[i]) around_[p].push_back(edit.triangles[i]);
+    for (const std::uint32_t p : edit.now[i]) changed_list(p).push_back(edit.triangles[i]);
   }
 }
 

@@ -25,10 +25,11 @@ struct CertifyOptions {
 };
 
 // So many pairs may be chance in a surface of so many triangles: of more the surface is finer than
-// the numbers. The larger a mesh, the more places has it where sheets cross.
+// the numbers. Of large meshes it takes more to say so: they have more places where sheets cross,
+// and what is left to cells takes far longer.
 [[nodiscard]] constexpr std::size_t pairs_by_chance(std::size_t triangles) {
-  constexpr std::size_t kAlways = 32, kTrianglesOfPair = 8192;
-  return triangles / kTrianglesOfPair > kAlways ? triangles / kTrianglesOfPair : kAlways;
+  constexpr std::size_t kAlways = 32, kLarge = 1 << 18, kTrianglesOfPair = 256;
+  return triangles > kLarge ? kAlways + (triangles - kLarge) / kTrianglesOfPair : kAlways;
 }
 
 struct CertifyReport {

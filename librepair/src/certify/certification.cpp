@@ -4,9 +4,10 @@
 // What may fail is the rounding of those intersections, and that input points are written with
 // their own coordinates, not with those of the grid. So a point at fault goes onto the grid. What
 // still intersects is mended place by place, by moving points and collapsing and turning edges.
-// Where that does not do, the mesh is a soup of grid points, and repairing it again makes
-// intersections only where the moves made some, fewer each time. A coarser grid keeps points
-// further apart, which is why it ends.
+// Where that does not do, but for a few places, the rounded mesh is a soup of its own: repairing it
+// again cuts, and rounds, at these places only. Else the mesh is a soup of grid points, and
+// repairing it again makes intersections only where the moves made some, fewer each time. A coarser
+// grid keeps points further apart, which is why it ends.
 #include "certification.h"
 
 #include <algorithm>
@@ -31,6 +32,9 @@
 
 namespace meshrepair::internal {
 namespace {
+
+// More faults than these are not of a few places.
+constexpr std::size_t kMostInPlaces = 32;
 
 // More are counted but not mended in one round.
 constexpr std::size_t kPairsToMend = 1'000'000;
@@ -63,6 +67,16 @@ void forget_moved_points(Surface& surface, const std::vector<Vec3d>& before) {
     if (surface.mesh.points[p] != before[p]) surface.input_point[p] = 0;
   }
 }
+
+// Of a surface made again of another: the sources of that.
+void name_sources(const Surface& of, Surface& again) {
+  for (std::uint32_t& source : again.source) {
+    if (source != Surface::kNoSource) source = of.source[source];
+  }
+}
+
+// By enough to go on.
+bool are_fewer(std::size_t now, std::size_t before) { return now + before / 4 < before; }
 
 double snapped(double x, double step) { return std::nearbyint(x / step) * step; }
 
@@ -151,7 +165,7 @@ void Certification::start_again(Surface surface) {
 
 void Certification::mend_in_place() {
   if (may_move_points()) {
-    if (best_.misplaced() > 0) improve();
+    if (best_.misplaced() > 0) improve(current_);
   } else if (best_.joined > 0) {
     separate(best_);
   }
@@ -163,6 +177,28 @@ bool Certification::may_go_on() const {
          vain_rounds_ < kMostVain && current_.surface.mesh.triangles.size() <= most_triangles_;
 }
 
+// What is on a coarser grid may cross again where much was cut, and takes cells. In double
+// precision points are on the grid already.
+bool Certification::are_few_places() const {
+  return may_move_points() && options_.precision == Precision::float32 && best_.misplaced() > 0 &&
+         best_.misplaced() <= kMostInPlaces && are_fewer(best_.faults(), last_places_);
+}
+
+const Surface& Certification::begin_places() {
+  last_places_ = best_.faults();
+  return best_.surface;
+}
+
+void Certification::end_places(Surface again) {
+  name_sources(best_.surface, again);
+  Attempt attempt;
+  attempt.surface = std::move(again);
+  attempt.dropped_parts = best_.dropped_parts;
+  test(attempt);
+  keep_if_better(attempt);
+  improve(std::move(attempt));
+}
+
 const Surface& Certification::begin_round() {
   ++report_.rounds;
   faults_before_ = best_.faults();
@@ -172,14 +208,12 @@ const Surface& Certification::begin_round() {
 }
 
 void Certification::end_round(Surface again) {
-  for (std::uint32_t& source : again.source) {
-    if (source != Surface::kNoSource) source = current_.surface.source[source];
-  }
+  name_sources(current_.surface, again);
   current_.surface = std::move(again);
   test(current_);
   keep_if_better(current_);
   if (current_.surface.mesh.triangles.size() > most_triangles_) return;
-  improve();
+  improve(current_);
   vain_rounds_ = best_.faults() < faults_before_ ? 0 : vain_rounds_ + 1;
   round_step_ *= 4;
 }
@@ -235,15 +269,14 @@ double Certification::reach() const {
 
 // What needs no new repair, as long as it is of much use. Further rounds start from what was
 // before, on the grid.
-void Certification::improve() {
-  Attempt moved = current_;
+void Certification::improve(Attempt moved) {
   do {
     bool is_of_use = true;
     while (is_of_use) {
       const std::size_t faults = moved.faults();
       if (faults > 0) move_points(moved);
       keep_if_better(moved);
-      is_of_use = moved.faults() + faults / 4 < faults;
+      is_of_use = are_fewer(moved.faults(), faults);
     }
   } while (mend_places(moved));
 }

@@ -16,9 +16,10 @@ namespace meshrepair::internal {
 
 // Rounds coordinates to the precision and tests exactly for triangles that intersect or have no
 // area. Where it finds some, the caller may ask it, in this order, to bring their input corners
-// onto the working grid, where every decision was exact; to mend what is left place by place; and,
-// round by round, to bring all their corners onto this and coarser grids, for the caller to repair
-// what comes of that. result() is the best of all these.
+// onto the working grid, where every decision was exact; to mend what is left place by place; to
+// give the few places that are left to the caller, who repairs them; and, round by round, to bring
+// all their corners onto this and coarser grids, for the caller to repair what comes of that.
+// result() is the best of all these.
 //
 // Points of the input that are not concerned stay where they are. Parts that take part in faults
 // and are no thicker than two steps of the numbers are dropped, as are those so thin that rounding
@@ -41,6 +42,13 @@ class Certification {
 
   // Moves points, collapses and turns edges, as long as that is of use.
   void mend_in_place();
+
+  // Whether sheets cross in so few places that repairing the surface again may do, with its points
+  // where they are.
+  [[nodiscard]] bool are_few_places() const;
+  [[nodiscard]] const Surface& begin_places();
+  // With what that gave, whose sources are triangles of that surface.
+  void end_places(Surface again);
 
   // Whether another round may be of use.
   [[nodiscard]] bool may_go_on() const;
@@ -69,7 +77,7 @@ class Certification {
   std::size_t drop_thin_at_fault(Attempt& attempt) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
-  void improve();
+  void improve(Attempt moved);
   void move_points(Attempt& attempt);
   bool mend_places(Attempt& attempt);
   void separate(Attempt& attempt);
@@ -87,6 +95,8 @@ class Certification {
   double volume_ = 0;   // as given
   double area_ = 0;     // as given
   double most_lost_ = 0;
+
+  std::size_t last_places_ = ~std::size_t{0};  // faults when places were last begun
 
   // Of the rounds.
   double round_step_ = 0;           // of the next one's grid

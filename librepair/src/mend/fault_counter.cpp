@@ -55,7 +55,7 @@ void FaultCounter::add_changed(const std::vector<std::uint32_t>& triangles) {
 }
 
 std::ptrdiff_t FaultCounter::start(const EditableMesh& mesh,
-                                   const std::vector<std::uint32_t>& triangles,
+                                   std::span<const std::uint32_t> triangles,
                                    std::optional<double> moved) {
   find_others(mesh, triangles);
   std::vector<TriangleCorners> corners;
@@ -66,8 +66,7 @@ std::ptrdiff_t FaultCounter::start(const EditableMesh& mesh,
   return count(corners);
 }
 
-void FaultCounter::find_others(const EditableMesh& mesh,
-                               const std::vector<std::uint32_t>& triangles) {
+void FaultCounter::find_others(const EditableMesh& mesh, std::span<const std::uint32_t> triangles) {
   Box reach;
   for (const std::uint32_t t : triangles) {
     for (const std::uint32_t p : mesh.triangles()[t]) reach.add(points_[p]);

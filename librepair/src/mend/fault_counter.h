@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <check/box_tree.h>
@@ -27,7 +28,7 @@ class FaultCounter {
 
   // Faults of these triangles; finds the others that may meet them, or what becomes of them. With
   // `moved`, that is each of them with its corners moved by no more than this.
-  std::ptrdiff_t start(const EditableMesh& mesh, const std::vector<std::uint32_t>& triangles,
+  std::ptrdiff_t start(const EditableMesh& mesh, std::span<const std::uint32_t> triangles,
                        std::optional<double> moved = std::nullopt);
 
   // Of these triangles, in the order of those that start() was told of, among themselves and with
@@ -41,7 +42,7 @@ class FaultCounter {
     Box box;
   };
 
-  void find_others(const EditableMesh& mesh, const std::vector<std::uint32_t>& triangles);
+  void find_others(const EditableMesh& mesh, std::span<const std::uint32_t> triangles);
   void find_others_near(const std::vector<TriangleCorners>& triangles, double moved);
   bool add(const TriangleCorners& corners, std::vector<Placed>& to) const;
   static bool meet(const Placed& a, Placed& b);

@@ -147,7 +147,7 @@ class FaultMender {
   bool take_stars(const std::vector<std::uint32_t>& points, Edit& edit) const {
     std::vector<std::uint32_t>& triangles = edit.mesh.triangles;
     for (const std::uint32_t p : points) {
-      const auto& around = mesh_.triangles_of(p);
+      const auto around = mesh_.triangles_of(p);
       triangles.insert(triangles.end(), around.begin(), around.end());
       edit.input_points += surface_.input_point[p] != 0 ? 1 : 0;
     }

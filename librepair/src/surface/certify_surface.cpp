@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,21 +51,54 @@ std::vector<double> reach_of_triangles(const Surface& surface, const std::vector
 }
 
 // A surface that is a solid already but for places where its sheets cross.
-Surface repair_again(const Surface& surface, const RepairOptions& options) {
-  CancelOnly quiet(options.progress);
-  RepairOptions again = options_of_again(options, quiet);
-  again.reach = reach_of_triangles(surface, options.reach);
-  RepairReport report;
-  StageMeter meter(report.stages, again.progress);
-  CleanSoup clean = close_soup(surface.mesh, again, report, meter);
-  const Orientation orientation = orient_soup(clean, again, report, meter);
-  // In single precision slits have to be filled, or rounding makes sheets cross again and again.
-  if (again.keep_valid && again.slit_steps == 0) {
-    SavedStates none;
-    auto mended = surface_by_chambers(clean, orientation, again, none, report, meter);
-    if (mended) return std::move(*mended);
+class RepairAgain {
+ public:
+  RepairAgain(const Surface& surface, const RepairOptions& options)
+      : quiet_(options.progress),
+        options_(options_of_again(options, quiet_)),
+        meter_(report_.stages, &quiet_) {
+    options_.reach = reach_of_triangles(surface, options.reach);
+    clean_ = close_soup(surface.mesh, options_, report_, meter_);
+    orientation_ = orient_soup(clean_, options_, report_, meter_);
   }
-  return surface_by_cells(std::move(clean), orientation, again, report, meter);
+
+  std::optional<Surface> by_chambers() {
+    SavedStates none;
+    if (!options_.keep_valid) return std::nullopt;
+    return surface_by_chambers(clean_, orientation_, options_, none, report_, meter_);
+  }
+
+  // To be called last.
+  Surface by_cells() {
+    return surface_by_cells(std::move(clean_), orientation_, options_, report_, meter_);
+  }
+
+ private:
+  CancelOnly quiet_;
+  RepairOptions options_;
+  RepairReport report_;
+  StageMeter meter_;
+  CleanSoup clean_;
+  Orientation orientation_;
+};
+
+// In single precision slits have to be filled, or rounding makes sheets cross again and again.
+Surface repair_again(const Surface& surface, const RepairOptions& options) {
+  RepairAgain again(surface, options);
+  if (options.certify.precision == Precision::float64) {
+    if (auto mended = again.by_chambers()) return std::move(*mended);
+  }
+  return again.by_cells();
+}
+
+// Where they cross in a few places only, slits may stay, and all points where they are.
+std::optional<Surface> repair_places(const Surface& surface, RepairOptions options) {
+  options.slit_steps = 0;
+  try {
+    return RepairAgain(surface, options).by_chambers();
+  } catch (const NoSolidError&) {
+    return std::nullopt;
+  }
 }
 
 // With its input points where everything was decided, and simplified anew.
@@ -92,6 +126,11 @@ Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplif
     }
   }
   certification.mend_in_place();
+  while (certification.are_few_places()) {
+    std::optional<Surface> again = repair_places(certification.begin_places(), options);
+    if (!again) break;
+    certification.end_places(std::move(*again));
+  }
   while (certification.may_go_on()) {
     const Surface& coarser = certification.begin_round();
     try {

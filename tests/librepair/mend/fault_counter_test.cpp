@@ -1,5 +1,10 @@
 #include "mend/fault_counter.h"
 
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "shapes.h"
@@ -15,9 +20,10 @@ TEST(FaultCounter, CountsPairsThatMeet) {
   FaultCounter counter(mesh, 1);
   const EditableMesh editable(mesh.triangles, mesh.points.size());
   std::ptrdiff_t faults = 0;
-  for (std::uint32_t t = 0; t < 12; ++t) faults += counter.start(editable, {t});
+  for (std::uint32_t t = 0; t < 12; ++t) faults += counter.start(editable, std::array{t});
   EXPECT_GT(faults, 0);
-  EXPECT_EQ(counter.start(editable, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}), faults);
+  EXPECT_EQ(counter.start(editable, std::array{0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u}),
+            faults);
 }
 
 // Sheets of all distances, some of them less than what points are moved by.
@@ -33,7 +39,7 @@ TEST(FaultCounter, LeavesOutNothingThatMovingCanChange) {
     for (int i = 0; i < 100; ++i) {
       const auto p = static_cast<std::uint32_t>(
           random.integer(0, static_cast<std::int32_t>(mesh.points.size()) - 1));
-      const std::vector<std::uint32_t>& star = editable.triangles_of(p);
+      const std::span<const std::uint32_t> star = editable.triangles_of(p);
       std::vector<TriangleCorners> corners;
       for (const std::uint32_t t : star) corners.push_back(mesh.triangles[t]);
       const std::ptrdiff_t before = some.start(editable, star, 2 * step);

@@ -1,12 +1,12 @@
-#include "blocks/part_groups.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
-#include <base/disjoint_sets.h>
+#include <check/box_tree.h>
+#include <check/part_groups.h>
 #include <mesh/mesh_parts.h>
 
 namespace meshrepair {
@@ -45,24 +45,82 @@ Box widened(Box box, double by) {
   return box;
 }
 
-// Joins what the boxes of parts say. Those that are empty stay alone.
-DisjointSets joined_parts(const std::vector<Box>& boxes, double margin) {
+// Boxes that are in no group yet.
+class LooseBoxes {
+ public:
+  // `boxes` stay where they are.
+  explicit LooseBoxes(std::span<const Box> boxes)
+      : tree_(boxes), boxes_(boxes), left_(tree_.nodes().size()), is_taken_(boxes.size(), 0) {
+    for (std::size_t n = left_.size(); n-- > 0;) {
+      const BoxNode& node = tree_.nodes()[n];
+      left_[n] = node.is_leaf() ? node.count : left_[n + 1] + left_[node.right];
+    }
+  }
+
+  [[nodiscard]] bool is_taken(std::uint32_t box) const { return is_taken_[box] != 0; }
+  // Appends those that meet this box to `taken`, and does not find them again.
+  void take(const Box& box, std::vector<std::uint32_t>& taken) {
+    if (!left_.empty()) take(0, box, taken);
+  }
+
+ private:
+  // How many they were below this node.
+  std::uint32_t take(std::uint32_t n, const Box& box, std::vector<std::uint32_t>& taken) {
+    const BoxNode& node = tree_.nodes()[n];
+    if (left_[n] == 0 || !node.box.meets(box)) return 0;
+    std::uint32_t count = 0;
+    if (node.is_leaf()) {
+      for (const std::uint32_t i : tree_.order().subspan(node.first, node.count)) {
+        if (is_taken(i) || !boxes_[i].meets(box)) continue;
+        is_taken_[i] = 1;
+        taken.push_back(i);
+        ++count;
+      }
+    } else {
+      count = take(n + 1, box, taken) + take(node.right, box, taken);
+    }
+    left_[n] -= count;
+    return count;
+  }
+
+  BoxTree tree_;
+  std::span<const Box> boxes_;
+  std::vector<std::uint32_t> left_;  // of each node, how many boxes below it are not taken
+  std::vector<char> is_taken_;
+};
+
+// Of each box, the lowest of those that it meets, itself or by others.
+std::vector<std::uint32_t> lowest_connected(std::span<const Box> boxes) {
+  std::vector<std::uint32_t> lowest(boxes.size());
+  LooseBoxes loose(boxes);
+  std::vector<std::uint32_t> group;
+  for (std::uint32_t first = 0; first < boxes.size(); ++first) {
+    if (loose.is_taken(first)) continue;
+    group.clear();
+    loose.take(boxes[first], group);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      lowest[group[i]] = first;
+      loose.take(boxes[group[i]], group);
+    }
+  }
+  return lowest;
+}
+
+// Of each part, the lowest of those that it belongs together with. Those with an empty box stay
+// alone.
+std::vector<std::uint32_t> lowest_of_group(const std::vector<Box>& boxes, double margin) {
   std::vector<Box> wide;
   std::vector<std::uint32_t> part;
+  std::vector<std::uint32_t> lowest(boxes.size());
   for (std::uint32_t p = 0; p < boxes.size(); ++p) {
+    lowest[p] = p;
     if (is_empty(boxes[p])) continue;
     part.push_back(p);
     wide.push_back(widened(boxes[p], margin * diagonal_of(boxes[p])));
   }
-  DisjointSets sets(boxes.size());
-  const BoxTree tree(wide);
-  for (std::uint32_t i = 0; i < wide.size(); ++i) {
-    tree.visit([&](const Box& other) { return other.meets(wide[i]); },
-               [&](std::uint32_t k) {
-                 if (k < i && wide[k].meets(wide[i])) sets.join(part[i], part[k]);
-               });
-  }
-  return sets;
+  const std::vector<std::uint32_t> connected = lowest_connected(wide);
+  for (std::size_t i = 0; i < part.size(); ++i) lowest[part[i]] = part[connected[i]];
+  return lowest;
 }
 
 // The bits of three numbers of 21 bits by turns: near numbers are near along this curve, mostly.
@@ -91,12 +149,12 @@ std::uint64_t place_of(const Box& box, const Box& all) {
 PartGroups find_groups(const TriangleSoup& soup, double margin) {
   const MeshParts parts = find_parts(soup);
   const std::vector<Box> boxes = boxes_of(soup, parts);
-  DisjointSets sets = joined_parts(boxes, margin);
-  std::vector<std::uint32_t> group_of_root(parts.count, kNoGroup);
+  const std::vector<std::uint32_t> lowest = lowest_of_group(boxes, margin);
+  std::vector<std::uint32_t> group_of_lowest(parts.count, kNoGroup);
   PartGroups groups;
   groups.of_triangle.reserve(soup.triangles.size());
   for (const std::uint32_t part : parts.of_triangle) {
-    std::uint32_t& group = group_of_root[sets.root(part)];
+    std::uint32_t& group = group_of_lowest[lowest[part]];
     if (group == kNoGroup) {
       group = static_cast<std::uint32_t>(groups.size());
       groups.box.emplace_back();
@@ -106,7 +164,7 @@ PartGroups find_groups(const TriangleSoup& soup, double margin) {
     ++groups.triangles[group];
   }
   for (std::uint32_t p = 0; p < parts.count; ++p) {
-    groups.box[group_of_root[sets.root(p)]].add(boxes[p]);
+    groups.box[group_of_lowest[lowest[p]]].add(boxes[p]);
   }
   return groups;
 }

@@ -1,11 +1,12 @@
-#include "blocks/part_groups.h"
-
 #include <algorithm>
 #include <limits>
 #include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <check/box_tree.h>
+#include <check/part_groups.h>
 
 #include "random_geometry.h"
 #include "shapes.h"
@@ -94,6 +95,19 @@ TEST(PartGroups, AreThoseOfAllPairs) {
       }
     }
   }
+}
+
+// Each box meets all others: a pair of each would take hours.
+TEST(PartGroups, OfManyPartsInEachOther) {
+  constexpr std::uint32_t kParts = 300'000;
+  TriangleSoup soup;
+  for (std::uint32_t i = 0; i < kParts; ++i) {
+    const double size = 1 + 1e-6 * i;
+    soup.points.insert(soup.points.end(),
+                       {{-size, -size, -size}, {size, size, size}, {-size, size, -size}});
+    soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  EXPECT_EQ(find_groups(soup, 0).size(), 1u);
 }
 
 TEST(Blocks, HaveAtMostSoManyTriangles) {

@@ -21,7 +21,7 @@ struct PartGroups {
 
 // Parts are connected through points. Two are in one group if their boxes meet, each widened by
 // this share of its own diagonal, or both are with a third: then neither crosses the other, nor
-// lies in it, nor is near it. n log n and the number of pairs whose boxes meet.
+// lies in it, nor is near it. n log n, however many boxes meet.
 [[nodiscard]] PartGroups find_groups(const TriangleSoup& soup, double margin);
 
 // Of each group, its block: numbered from 0. Groups that are near each other are in one block, or
