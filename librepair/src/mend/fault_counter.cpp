@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -14,12 +15,6 @@ namespace {
 
 // Of a sum of three products, as a share of the largest coordinate.
 constexpr double kRounding = 1e-14;
-
-std::vector<Box> boxes_of(const TriangleSoup& mesh) {
-  std::vector<Box> boxes(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(mesh, t);
-  return boxes;
-}
 
 // Whether more than this lies between the two, along the normal of one of them. Any direction would
 // do for that, so it may be rounded.
@@ -47,8 +42,8 @@ bool are_apart(const CornerTriangle& a, const CornerTriangle& b, const CornerTri
 
 }  // namespace
 
-FaultCounter::FaultCounter(const TriangleSoup& mesh, double reach)
-    : points_(mesh.points), reach_(reach), boxes_(boxes_of(mesh)), tree_(boxes_) {}
+FaultCounter::FaultCounter(const TriangleSoup& mesh, double reach, std::vector<Box> places)
+    : points_(mesh.points), reach_(reach), at_first_(mesh, std::move(places)) {}
 
 void FaultCounter::add_changed(const std::vector<std::uint32_t>& triangles) {
   changed_.insert(changed_.end(), triangles.begin(), triangles.end());
@@ -73,10 +68,7 @@ void FaultCounter::find_others(const EditableMesh& mesh, std::span<const std::ui
   }
   reach.widen(reach_);
   near_.clear();
-  tree_.visit([&](const Box& box) { return box.meets(reach); },
-              [&](std::uint32_t t) {
-                if (boxes_[t].meets(reach)) near_.push_back(t);
-              });
+  at_first_.find(reach, near_);
   near_.insert(near_.end(), changed_.begin(), changed_.end());
   std::sort(near_.begin(), near_.end());
   near_.erase(std::unique(near_.begin(), near_.end()), near_.end());

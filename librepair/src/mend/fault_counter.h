@@ -14,14 +14,17 @@
 #include <mesh/editable_mesh.h>
 #include <mesh/soup.h>
 
+#include "boxes_around.h"
+
 namespace meshrepair::internal {
 
 // Counts the faults of a few triangles, which are pairs that meet beyond what they share and
 // triangles without area, while some points move and edges turn. Exact.
 class FaultCounter {
  public:
-  // `mesh` keeps its place, and its points may move, none by more than `reach` from where it is.
-  FaultCounter(const TriangleSoup& mesh, double reach);
+  // `mesh` keeps its place and its triangles, and its points may move, none by more than `reach`
+  // from where it is. `places` are where faults will be asked for, mostly.
+  FaultCounter(const TriangleSoup& mesh, double reach, std::vector<Box> places);
 
   // From now on these are not what they were at first.
   void add_changed(const std::vector<std::uint32_t>& triangles);
@@ -49,8 +52,7 @@ class FaultCounter {
 
   const std::vector<Vec3d>& points_;
   double reach_;
-  std::vector<Box> boxes_;  // of the triangles at first
-  BoxTree tree_;
+  BoxesAround at_first_;
   std::vector<std::uint32_t> changed_;  // triangles
   std::vector<std::uint32_t> near_;     // scratch
   std::vector<Placed> others_, asked_;

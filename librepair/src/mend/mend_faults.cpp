@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <check/box_tree.h>
 #include <check/star_distance.h>
 #include <exact/double_predicates.h>
 #include <mesh/editable_mesh.h>
@@ -35,15 +36,36 @@ constexpr std::size_t kMostAround = 48;
 // How far points are moved along a normal, in steps of the numbers.
 constexpr std::array<double, 8> kSteps{1, 2, 4, 8, 16, 32, 64, 128};
 
+// Around what edits of these pairs may change, and as far beyond it as it is large.
+std::vector<Box> places_of(const EditableMesh& mesh, const std::vector<Vec3d>& points,
+                           const std::vector<std::array<std::uint32_t, 2>>& pairs) {
+  std::vector<Box> places;
+  for (const auto& pair : pairs) {
+    Box& place = places.emplace_back();
+    for (const std::uint32_t t : pair) {
+      for (const std::uint32_t corner : mesh.triangles()[t]) {
+        for (const std::uint32_t around : mesh.triangles_of(corner)) {
+          for (const std::uint32_t p : mesh.triangles()[around]) place.add(points[p]);
+        }
+      }
+    }
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k) size = std::max(size, place.high[k] - place.low[k]);
+    place.widen(size);
+  }
+  return places;
+}
+
 class FaultMender {
  public:
-  FaultMender(Surface& surface, const MendOptions& options)
+  FaultMender(Surface& surface, const MendOptions& options,
+              const std::vector<std::array<std::uint32_t, 2>>& pairs)
       : surface_(surface),
         points_(surface.mesh.points),
         options_(options),
         cancel_(options.progress),
-        faults_(surface.mesh, 2 * kSteps.back() * options.step),
-        mesh_(surface.mesh.triangles, points_.size()) {}
+        mesh_(surface.mesh.triangles, points_.size()),
+        faults_(surface.mesh, 2 * kSteps.back() * options.step, places_of(mesh_, points_, pairs)) {}
 
   // Makes the edit around the two triangles that leaves the fewest faults, if it leaves fewer.
   bool improve(std::uint32_t t, std::uint32_t u) {
@@ -227,8 +249,8 @@ class FaultMender {
   std::vector<Vec3d>& points_;
   const MendOptions& options_;
   CancelCheck cancel_;
-  FaultCounter faults_;
   EditableMesh mesh_;
+  FaultCounter faults_;
   Edit best_;
   StarDistance star_distance_;
   std::vector<Vec3d> link_;
@@ -253,7 +275,7 @@ std::size_t mend_faults(Surface& surface, const SelfIntersections& found,
                         const MendOptions& options) {
   const auto pairs = pairs_at_fault(surface.mesh, found);
   if (pairs.empty() || pairs.size() > kMostFaultyPairs) return 0;
-  FaultMender mender(surface, options);
+  FaultMender mender(surface, options, pairs);
   std::size_t edits = 0;
   for (const auto& [t, u] : pairs) {
     while (mender.improve(t, u)) ++edits;
