@@ -31,6 +31,8 @@ void make_folder(const fs::path& folder) {
 
 // Nothing where it cannot be read or is no JSON.
 std::optional<Json> read_json(const fs::path& file) {
+  std::error_code failed;
+  if (!fs::is_regular_file(file, failed)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   Json json = Json::parse(std::istreambuf_iterator<char>(in), {}, nullptr, false);

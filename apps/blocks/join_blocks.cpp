@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cctype>
 #include <iostream>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -7,6 +10,7 @@
 
 #include <base/error.h>
 #include <check/part_groups.h>
+#include <check/part_orientation.h>
 #include <check/self_intersections.h>
 #include <mesh/append_soup.h>
 #include <mesh/float32.h>
@@ -24,6 +28,7 @@ namespace meshrepair {
 namespace {
 
 constexpr std::size_t kMostNamed = 10;
+constexpr std::size_t kLongestCommand = 1000;  // longer ones are left without the rest
 
 struct JoinOptions {
   std::string folder;
@@ -46,13 +51,32 @@ std::string named(const std::vector<std::size_t>& blocks) {
   return text;
 }
 
-// That does a block as the first of the others were done.
+// For a shell. Empty for a word that cannot be shown.
+std::string for_shell(const std::string& word) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("-_=.,:/%+@").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  const auto is_hidden = [](unsigned char c) { return std::iscntrl(c) != 0; };
+  if (std::any_of(word.begin(), word.end(), is_hidden)) return {};
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+// That does a block as the first of the others were done, whose options come from a file.
 std::string command_of(const JoinOptions& options, std::size_t block,
                        const std::vector<BlockResult>& results) {
-  std::string words = results.empty() ? "" : ' ' + results[0].options;
-  std::replace(words.begin(), words.end(), '\n', ' ');
-  while (words.ends_with(' ')) words.pop_back();
-  return fmt::format("meshrepair-blocks run {} --block {}{}", options.folder, block, words);
+  std::string command =
+      fmt::format("meshrepair-blocks run {} --block {}", for_shell(options.folder), block);
+  std::istringstream words(results.empty() ? "" : results[0].options);
+  for (std::string word; std::getline(words, word);) {
+    const std::string text = for_shell(word);
+    if (!word.starts_with("--") || text.size() > kLongestCommand - command.size()) break;
+    if (!text.empty()) command += ' ' + text;
+  }
+  return command;
 }
 
 void require_same(const JoinOptions& options, const std::vector<BlockResult>& results) {
@@ -60,7 +84,7 @@ void require_same(const JoinOptions& options, const std::vector<BlockResult>& re
     const bool has_same_options = results[b].options == results[0].options;
     if (has_same_options && results[b].program == results[0].program) continue;
     throw InputError(fmt::format(
-        "{}: block {} was repaired {} than block 1; do '{}'", options.folder, b + 1,
+        "{}: block {} was repaired {} than block 1; do: {}", options.folder, b + 1,
         has_same_options ? "by another build of meshrepair-blocks" : "with other options",
         command_of(options, b + 1, results)));
   }
@@ -78,7 +102,7 @@ std::vector<BlockResult> read_results(const JoinOptions& options, const BlockFol
     }
   }
   if (!missing.empty()) {
-    throw InputError(fmt::format("{}: not repaired: {} {}; do '{}'", options.folder,
+    throw InputError(fmt::format("{}: not repaired: {} {}; do: {}", options.folder,
                                  missing.size() == 1 ? "block" : "blocks", named(missing),
                                  command_of(options, missing[0], results)));
   }
@@ -150,11 +174,14 @@ std::vector<std::uint32_t> triangles_near_others(const Joined& joined) {
   return found;
 }
 
-// Pairs of triangles of different blocks that meet. Each block is certified for itself, and parts
-// whose boxes do not meet do not meet.
-std::size_t pairs_between_blocks(const Joined& joined, Run& run) {
-  const std::vector<std::uint32_t> near = triangles_near_others(joined);
-  if (near.empty()) return 0;
+// What is wrong between blocks. Each is certified for itself, and parts whose boxes do not meet
+// have nothing to do with each other.
+struct Between {
+  std::size_t pairs = 0;       // of triangles that meet
+  std::size_t inside_out = 0;  // parts that lie in the solid of another block
+};
+
+std::size_t pairs_between(const Joined& joined, const std::vector<std::uint32_t>& near, Run& run) {
   SelfIntersectionOptions options;
   options.most_pairs = joined.soup.triangles.size();
   options.progress = &run.progress;
@@ -164,15 +191,32 @@ std::size_t pairs_between_blocks(const Joined& joined, Run& run) {
       [&](const auto& pair) { return block_of(joined, pair[0]) != block_of(joined, pair[1]); }));
 }
 
-std::string faults_of(const Joined& joined, std::size_t pairs) {
+Between look_between(const Joined& joined, Run& run) {
+  Between between;
+  const std::vector<std::uint32_t> near = triangles_near_others(joined);
+  if (near.empty()) return between;
+  between.pairs = pairs_between(joined, near, run);
+  // What crosses has no inside.
+  if (between.pairs > 0 || !joined.uncertified.empty()) return between;
+  const PartOrientation parts = examine_part_orientation(joined.soup, &run.progress);
+  between.inside_out =
+      static_cast<std::size_t>(std::count(parts.inside_out.begin(), parts.inside_out.end(), 1));
+  return between;
+}
+
+std::string faults_of(const Joined& joined, const Between& between) {
   std::string faults;
   if (!joined.uncertified.empty()) {
     faults = "without all guarantees in block " + named(joined.uncertified);
   }
-  if (pairs > 0) {
+  if (between.pairs > 0) {
     faults += (faults.empty() ? "" : ", and ") +
               fmt::format("{} of triangles of different blocks meet: plan with a larger --margin",
-                          number_of(pairs, "pair"));
+                          number_of(between.pairs, "pair"));
+  }
+  if (between.inside_out > 0) {
+    faults += fmt::format("{} in the solid of another block: plan with a larger --margin",
+                          number_of(between.inside_out, "part"));
   }
   return faults;
 }
@@ -193,15 +237,16 @@ ExitCode join(JoinOptions& options, Run& run) {
     const Joined joined = read_all(options, folder, plan, *format.format, run);
     if (joined.soup.triangles.empty()) throw NoSolidError("no block encloses anything");
     meter.begin("check");
-    const std::size_t pairs = pairs_between_blocks(joined, run);
+    const Between between = look_between(joined, run);
     meter.end();
     run.report.set_section("blocks", {{"count", plan.blocks.size()},
                                       {"enclosing_nothing", joined.empty},
                                       {"not_certified", joined.uncertified},
-                                      {"pairs_between", pairs}});
+                                      {"pairs_between", between.pairs},
+                                      {"inside_out", between.inside_out}});
     write_soup_stage(joined.soup, format, run, findings);
     run.progress.finish();
-    const std::string faults = faults_of(joined, pairs);
+    const std::string faults = faults_of(joined, between);
     if (!faults.empty()) {
       run.report.set_error(options.step.output + ": written, but " + faults);
       logger().error("{}: written, but {}", options.step.output, faults);

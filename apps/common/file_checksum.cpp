@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <fstream>
 #include <ios>
+#include <system_error>
 #include <vector>
 #include <zlib.h>
 
@@ -16,6 +17,10 @@ constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;
 }  // namespace
 
 std::uint64_t file_checksum(const std::filesystem::path& file) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(file, failed)) {
+    throw InputError(file.string() + ": is no file that can be read");
+  }
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file.string() + ": cannot be opened");
   std::vector<char> block(kReadAtOnce);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 #include <base/error.h>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kOtherGroups = {"Running", "Reporting", "Picture",
                                                           "Page"};
+constexpr std::string_view kOutput = "OUT";
 constexpr std::array<std::string_view, 2> kOthers = {"IN", "--explain"};
 
 template <class Names>
@@ -22,6 +24,11 @@ bool names(const Names& all, const std::string& name) {
 
 bool changes_results(const CLI::Option& option) {
   return !names(kOtherGroups, option.get_group()) && !names(kOthers, option.get_name());
+}
+
+// Of the name of the output, what format it asks for.
+std::string that_matters(const CLI::Option& option, const std::string& value) {
+  return option.get_name() == kOutput ? std::filesystem::path(value).extension().string() : value;
 }
 
 }  // namespace
@@ -40,7 +47,7 @@ std::string options_of_results(const CLI::App& app, const std::vector<std::strin
     if (option->count() == 0 || !changes_results(*option)) continue;
     if (names(others, option->get_name())) continue;
     all += option->get_name();
-    for (const std::string& value : option->results()) all += '=' + value;
+    for (const std::string& value : option->results()) all += '=' + that_matters(*option, value);
     all += '\n';
   }
   return all;

@@ -80,11 +80,21 @@ int locked(const fs::path& folder) {
   }
 }
 
+// meshrepair-<state>-<number>.state, or .part
+bool has_our_name(const fs::path& file) {
+  const std::string extension = file.extension().string(), name = file.stem().string();
+  if (!name.starts_with(kPrefix)) return false;
+  if (extension != kExtension && extension != kUnfinished) return false;
+  const std::size_t dash = name.rfind('-');
+  return dash >= kPrefix.size() && dash + 1 < name.size() &&
+         name.find_first_not_of("0123456789", dash + 1) == std::string::npos;
+}
+
 bool is_ours(const fs::directory_entry& entry) {
   std::error_code failed;
-  const std::string name = entry.path().filename().string();
-  return entry.symlink_status(failed).type() == fs::file_type::regular &&
-         name.starts_with(kPrefix) && (name.ends_with(kExtension) || name.ends_with(kUnfinished));
+  const fs::path& file = entry.path();
+  return entry.symlink_status(failed).type() == fs::file_type::regular && has_our_name(file) &&
+         (file.extension() == kUnfinished || key_of_state(file));
 }
 
 template <class Act>
@@ -98,13 +108,7 @@ void for_each_of_ours(const fs::path& folder, const Act& act) {
 }  // namespace
 
 StateFolder::StateFolder(fs::path folder, const std::string& options)
-    : folder_(std::move(folder)), lock_(locked(folder_)), key_(key_of(options)) {
-  for_each_of_ours(folder_, [this](const fs::path& file) {
-    if (file.extension() == kExtension && key_of_state(file) == key_) return;
-    std::error_code failed;
-    fs::remove(file, failed);
-  });
-}
+    : folder_(std::move(folder)), lock_(locked(folder_)), key_(key_of(options)) {}
 
 // What nothing is kept in goes, also after an error.
 StateFolder::~StateFolder() {
@@ -118,7 +122,9 @@ fs::path StateFolder::path_of(const std::string& name, std::string_view extensio
 
 bool StateFolder::has(const std::string& name) const {
   std::error_code failed;
-  return fs::symlink_status(path_of(name, kExtension), failed).type() == fs::file_type::regular;
+  const fs::path file = path_of(name, kExtension);
+  return fs::symlink_status(file, failed).type() == fs::file_type::regular &&
+         key_of_state(file) == key_;
 }
 
 bool StateFolder::load(const std::string& name,
@@ -137,6 +143,7 @@ bool StateFolder::load(const std::string& name,
 
 void StateFolder::save(const std::string& name, const std::function<void(std::ostream&)>& write) {
   if (!may_save_) return;
+  if (saved_.empty()) remove_others();
   const fs::path unfinished = path_of(name, kUnfinished);
   try {
     write_state(unfinished, key_, write);
@@ -158,8 +165,23 @@ void StateFolder::drop(const std::string& name) {
 }
 
 void StateFolder::remove() noexcept {
+  remove_those([this](const fs::path& file) {
+    return file.extension() == kUnfinished || key_of_state(file) == key_;
+  });
+}
+
+// A run that gets nowhere, by a mistake of who calls it, leaves them.
+void StateFolder::remove_others() noexcept {
+  remove_those([this](const fs::path& file) {
+    return file.extension() == kUnfinished || key_of_state(file) != key_;
+  });
+}
+
+void StateFolder::remove_those(const std::function<bool(const fs::path&)>& are_meant) noexcept {
   std::error_code failed;
-  for_each_of_ours(folder_, [&](const fs::path& file) { fs::remove(file, failed); });
+  for_each_of_ours(folder_, [&](const fs::path& file) {
+    if (are_meant(file)) fs::remove(file, failed);
+  });
 }
 
 }  // namespace meshrepair

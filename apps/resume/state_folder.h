@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +12,7 @@
 namespace meshrepair {
 
 // One file for each state, whole or not there. Those of another program or of other options are of
-// no use and removed. One run at a time has the folder.
+// no use: they go once this run has a state of its own. One run at a time has the folder.
 class StateFolder : public StateStore {
  public:
   // Makes the folder if it is not there. `options`: all that results depend on, but for the input.
@@ -27,12 +28,15 @@ class StateFolder : public StateStore {
 
   // The states that were loaded, of an earlier run.
   [[nodiscard]] const std::vector<std::string>& loaded() const { return loaded_; }
-  // All states: the work is done. The folder goes with this object if it is empty then.
+  // The states of this run, and earlier ones like it: the work is done. The folder goes with this
+  // object if it is empty then.
   void remove() noexcept;
 
  private:
   [[nodiscard]] std::filesystem::path path_of(const std::string& name,
                                               std::string_view extension) const;
+  void remove_others() noexcept;
+  void remove_those(const std::function<bool(const std::filesystem::path&)>& are_meant) noexcept;
 
   std::filesystem::path folder_;
   int lock_ = -1;          // a descriptor of the folder

@@ -4,9 +4,12 @@
 Usage: blocks_test.py PROGRAMS
 """
 
+import itertools
 import json
+import os
 import pathlib
 import random
+import shlex
 import shutil
 import signal
 import struct
@@ -125,7 +128,7 @@ class Blocks(unittest.TestCase):
             file = self.blocks / "repaired" / name
             data = file.read_bytes()
             file.write_bytes(data[:-9] + b"x" + data[-8:])
-            self.assertIn("not repaired: block 2; do 'meshrepair-blocks run", self.join(code=3)[0])
+            self.assertIn("not repaired: block 2; do: meshrepair-blocks run", self.join(code=3)[0])
             self.run_all(order=[2])
             self.assertEqual(self.join()[1], whole)
 
@@ -185,10 +188,46 @@ class Blocks(unittest.TestCase):
     def test_join_says_with_which_options_a_block_is_to_be_done(self):
         self.plan_rings()
         self.run_all("--holes", "flat", "--always", order=[1, 3, 4, 5])
+        self.blocks = self.blocks.rename(self.folder / "it's $HOME")
         said = self.join(code=3)[0]
-        self.assertRegex(said, "; do 'meshrepair-blocks run .* --block 2 --holes=flat --always")
-        self.run_verb(*said.split("; do 'meshrepair-blocks ")[1].split("'")[0].split())
+        self.assertRegex(said, r"; do: meshrepair-blocks run \S.* --block 2 --holes=flat --always=true\n")
+        subprocess.run(f"{PROGRAMS}/" + said.split("; do: ")[1], shell=True, check=True, capture_output=True)
         self.join()
+
+    def test_a_file_that_lies_says_nothing_in_a_command(self):
+        self.plan_rings()
+        self.run_all(order=[1])
+        done = self.blocks / "repaired" / "1.done"
+        result = json.loads(done.read_text())
+        for options in ("--seal=1; touch x; $(touch y)\n", "x\n", "--seal=\u001b[31m\n", "--a\0b\n", "--seal=" + 5000 * "x" + "\n"):
+            done.write_text(json.dumps({**result, "options": options}))
+            said = self.join(code=3)[0]
+            self.assertLess(len(said), 1500)
+            words = shlex.split(said.split("; do: ")[1])
+            self.assertEqual(words[:2] + words[3:5], ["meshrepair-blocks", "run", "--block", "2"])
+            self.assertIn(words[5:], ([], [options[:-1]]))
+            self.assertTrue(said[:-1].isprintable())
+
+    def test_what_is_no_file_is_no_part_of_the_folder(self):
+        self.plan_rings()
+        self.run_all()
+        for name, make in itertools.product(("repaired/1.done", "repaired/1.ply", "plan.json"), (os.mkdir, os.mkfifo)):
+            file = self.blocks / name
+            kept = file.rename(self.folder / "kept")
+            make(file)
+            self.join(code=3)
+            os.rmdir(file) if make is os.mkdir else file.unlink()
+            kept.rename(file)
+        self.join()
+
+    def test_a_block_in_the_solid_of_another_is_told(self):
+        corners = [(x, y, z) for x in (4, 5) for y in (4, 5) for z in (1, 1.5)]
+        sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        box = [tuple(corners[i] for i in corner) for a, b, c, d in sides for corner in ((a, b, c), (a, c, d))]
+        write_stl(self.mesh, square(0, 10) + box)
+        self.assertEqual(len(self.plan("--triangles", "1")["blocks"]), 2)
+        self.run_all("--thicken", "4", "--holes", "none")
+        self.assertIn("1 part in the solid of another block", self.join(code=1)[0])
 
     def test_pictures_are_of_no_matter(self):
         self.plan_rings()

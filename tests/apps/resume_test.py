@@ -177,9 +177,25 @@ class Resume(unittest.TestCase):
         self.assertEqual(done.returncode, 4)
         self.assertTrue(self.state("prepared"))
 
+    def test_a_mistake_leaves_what_is_kept(self):
+        self.interrupt_at("chambers")
+        for code, mesh, *more in ((3, "gone.stl"), (4, "a.stl", "--inside", "parity", "--time-limit", "0.01"), (2, "a.stl", "--sew", "x")):
+            done = subprocess.run(self.command(mesh, "out.ply", *more), cwd=self.folder, capture_output=True)
+            self.assertEqual(done.returncode, code)
+            self.assertTrue(self.state("chambers"))
+        self.assertEqual(self.finish()[0], ["prepared", "chambers"])
+
+    def test_where_the_output_goes_makes_no_difference(self):
+        self.interrupt_at("chambers")
+        done = subprocess.run(self.command("a.stl", "./other.ply", "-q", "--report", "report.json"), cwd=self.folder)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(len(json.loads((self.folder / "report.json").read_text())["resumed"]["from"]), 2)
+        self.assertEqual((self.folder / "other.ply").read_bytes(), self.whole)
+
     def test_what_other_files_are_there_stays(self):
         self.states.mkdir()
-        mine = ["game.state", "meshrepair-notes.txt", "movie.part", "notes.txt"]
+        mine = ["game.state", "meshrepair-notes.state", "meshrepair-notes.txt", "meshrepair-prepared-1.state",
+                "meshrepair-the-end.part", "movie.part", "notes.txt"]
         for name in mine:
             (self.states / name).write_text("mine")
         (self.states / "meshrepair-folder.state").mkdir()
