@@ -13,7 +13,7 @@
 namespace meshrepair {
 namespace {
 
-constexpr long kBetweenLooks = 500'000;                 // nanoseconds; the system may take longer
+constexpr long kTickNanoseconds = 500'000;              // the system may take longer
 constexpr std::size_t kAtOnce = std::size_t{32} << 20;  // addresses; a look follows
 // Pages that are in the file's cache come back fast: what threads may take between two looks.
 constexpr double kSparedShare = 0.25;
@@ -86,7 +86,7 @@ void ResidentLimit::start() {
   sigevent event = {};
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGRTMIN;
-  const itimerspec times = {{0, kBetweenLooks}, {0, kBetweenLooks}};
+  const itimerspec times = {{0, kTickNanoseconds}, {0, kTickNanoseconds}};
   for (const clockid_t clock : kClocks) {
     timer_t timer = {};
     if (::timer_create(clock, &event, &timer) != 0) continue;
