@@ -131,7 +131,8 @@ void BlockFolder::require_outside(const std::string& option, const std::string& 
   for (const fs::path& ours : {folder / "blocks", folder / "repaired", folder / "plan.json"}) {
     if (at != ours && at.parent_path() != ours) continue;
     if (file == run.options.report) run.report.withhold();
-    throw UsageError(option + ": " + file + " lies among the files of " + folder_.string());
+    throw UsageError(
+        fmt::format("{}: {} lies among the files of {}", option, file, folder_.string()));
   }
 }
 
