@@ -62,9 +62,11 @@ class RepairAgain {
     orientation_ = orient_soup(clean_, options_, report_, meter_);
   }
 
+  // Not where slits are to be filled, as mostly in single precision: rounding would make sheets
+  // cross again and again.
   std::optional<Surface> by_chambers() {
     SavedStates none;
-    if (!options_.keep_valid) return std::nullopt;
+    if (!options_.keep_valid || options_.slit_steps > 0) return std::nullopt;
     return surface_by_chambers(clean_, orientation_, options_, none, report_, meter_);
   }
 
@@ -82,12 +84,9 @@ class RepairAgain {
   Orientation orientation_;
 };
 
-// In single precision slits have to be filled, or rounding makes sheets cross again and again.
 Surface repair_again(const Surface& surface, const RepairOptions& options) {
   RepairAgain again(surface, options);
-  if (options.certify.precision == Precision::float64) {
-    if (auto mended = again.by_chambers()) return std::move(*mended);
-  }
+  if (auto mended = again.by_chambers()) return std::move(*mended);
   return again.by_cells();
 }
 

@@ -80,6 +80,8 @@ TEST(Certify, SaysWhatItCannotMend) {
 
 class FewPlaces : public ::testing::Test {
  protected:
+  static constexpr CertifyOptions kSingle = {.precision = Precision::float32};
+
   static TriangleSoup crossing() {
     TriangleSoup soup = cube();
     append(soup, moved(cube(), {0.9375, 0.25, 0.125}));
@@ -96,9 +98,7 @@ class FewPlaces : public ::testing::Test {
 };
 
 TEST_F(FewPlaces, AreRepairedAgainWithPointsWhereTheyAre) {
-  CertifyOptions options;
-  options.precision = Precision::float32;
-  internal::Certification few = certification(options);
+  internal::Certification few = certification(kSingle);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
   const Surface& places = few.begin_places();
@@ -114,9 +114,7 @@ TEST_F(FewPlaces, AreRepairedAgainWithPointsWhereTheyAre) {
 }
 
 TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
-  CertifyOptions options;
-  options.precision = Precision::float32;
-  internal::Certification few = certification(options);
+  internal::Certification few = certification(kSingle);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
   few.end_places(Surface(few.begin_places()));
