@@ -93,6 +93,15 @@ class Blocks(unittest.TestCase):
                                              capture_output=True).stdout)["distance"]
         self.assertLess(distance["hausdorff"], 1e-4)
 
+    def test_reports_are_as_the_schema_says(self):
+        write_rings(self.mesh)
+        reports = [self.folder / f"{verb}.json" for verb in ("plan", "run", "join")]
+        self.plan("--triangles", "100000", "--report", reports[0])
+        self.run_all("--report", reports[1])
+        self.run_verb("join", self.blocks, self.out, "--report", reports[2])
+        schema = pathlib.Path(__file__).resolve().parent / "report_schema.py"
+        subprocess.run([sys.executable, schema, *reports], check=True)
+
     def test_the_same_bytes_wherever_and_however_often(self):
         results = []
         for threads, order in (("1", [3, 1, 5, 4, 2]), ("2", [1, 2, 2, 3, 5, 4, 1])):
