@@ -118,8 +118,8 @@ BlockPlan BlockFolder::read_plan() const try {
     throw InputError(plan_file().string() + ": is damaged: blocks are missing");
   }
   return plan;
-} catch (const Json::exception& error) {
-  throw InputError(plan_file().string() + ": is damaged: " + error.what());
+} catch (const Json::exception&) {
+  throw InputError(plan_file().string() + ": is damaged: meshrepair-blocks plan makes it anew");
 }
 
 void BlockFolder::require_outside(const std::string& option, const std::string& file,

@@ -137,7 +137,8 @@ ExitCode run_of_block(RunOptions& options, const CLI::App& app, Run& run) {
 int run_block(int argc, const char* const* argv) {
   RunOptions options;
   Program program("meshrepair-blocks run",
-                  "Repairs one block. What is done already is not done again.",
+                  "Repairs one block. What is done already is not done again. Options about the\n"
+                  "whole mesh, as --keep and --min-part, are about each block here.",
                   "  meshrepair-blocks run city.blocks --block 17\n"
                   "  meshrepair-blocks run city.blocks --block 17 --format stl --max-memory 4G\n");
   CLI::App& app = program.command_line();

@@ -3,9 +3,12 @@
 #include <array>
 #include <utility>
 
+#include <spdlog/logger.h>
+
 #include <base/error.h>
 
 #include "common/explanation_file.h"
+#include "common/logging.h"
 #include "common/picture_steps.h"
 #include "common/purposes.h"
 #include "common/repair_options.h"
@@ -33,11 +36,19 @@ void scale_lengths(double factor, RepairOptions& options) {
   if (!options.thicken.is_share) options.thicken.thickness *= factor;
 }
 
+// Of points, and of sheets that get walls, several soups are tried.
+void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
+  if (options.states == nullptr || !(input.cloud || options.thicken.wanted())) return;
+  logger().warn("--resume: keeps nothing where {}",
+                input.cloud ? "points become a mesh" : "sheets get walls");
+  options.states = nullptr;
+}
+
 void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
   keep_attributes(input.soup, input.attributes, options);
   options.keep_valid = !command.always && !input.cloud;
   const StepOptions& steps = command.steps;
-  if (input.cloud) options.states = nullptr;  // of points several soups are tried
+  drop_states_of_many_soups(input, options);
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 

@@ -37,6 +37,9 @@ void add_resume_option(CLI::App& app, std::string& folder) {
   app.add_option("--resume", folder,
                  "Keep in this folder what is done, and go on from what an interrupted run\n"
                  "left there; at the end it is removed")
+      ->check([](const std::string& name) {
+        return name.empty() ? std::string("needs the name of a folder") : std::string();
+      })
       ->type_name("DIR")
       ->group("Running");
 }

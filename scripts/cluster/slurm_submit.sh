@@ -21,17 +21,22 @@ Example:
 TEXT
 }
 
+fail() {
+  echo "slurm_submit.sh: $1" >&2
+  exit 2
+}
+
 shards=100 at_once= more=() folder=() given=()
 while [ $# -gt 0 ]; do
   case "$1" in
-    --shards | --at-once | --sbatch | --folder) [ $# -gt 1 ] || { echo "slurm_submit.sh: $1: needs a value" >&2; exit 2; } ;;&
+    --shards | --at-once | --sbatch | --folder) [ $# -gt 1 ] || fail "$1: needs a value" ;;&
     --shards) shards=$2; shift 2 ;;
     --at-once) at_once=%$2; shift 2 ;;
     --sbatch) read -ra more <<<"$2"; shift 2 ;;
     --folder) read -ra folder <<<"$2"; shift 2 ;;
     --html) given+=(--html); shift ;;
     -h | --help) usage; exit 0 ;;
-    -*) echo "slurm_submit.sh: $1 is unknown" >&2; exit 2 ;;
+    -*) fail "$1 is unknown" ;;
     *) break ;;
   esac
 done

@@ -5,8 +5,7 @@
 #include <base/ids.h>
 #include <check/nearby_intersections.h>
 #include <check/self_intersections.h>
-
-#include "nearby_part.h"
+#include <check/triangles_near.h>
 
 namespace meshrepair::internal {
 namespace {

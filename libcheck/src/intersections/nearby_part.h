@@ -6,16 +6,9 @@
 #include <span>
 #include <vector>
 
-#include <check/box_tree.h>
 #include <mesh/soup.h>
 
 namespace meshrepair::internal {
-
-// The triangles whose boxes, widened by `reach`, meet one of these, ascending; of two that are not
-// finite nothing is said. Linear in the soup, with a small factor. The same for any number of
-// threads.
-[[nodiscard]] std::vector<std::uint32_t> triangles_near(const TriangleSoup& soup,
-                                                        std::span<const Box> boxes, double reach);
 
 // Worth it for fewer than one in so many triangles.
 inline constexpr std::size_t kFew = 4;

@@ -5,14 +5,11 @@
 #include <numeric>
 #include <utility>
 
-#include <base/parallel.h>
 #include <check/triangle_list.h>
+#include <check/triangles_near.h>
 
 namespace meshrepair::internal {
 namespace {
-
-// Enough that looking up takes longer than handing out the task.
-constexpr std::size_t kTrianglesPerTask = 16384;
 
 bool covers(const Box& all, const Box& part) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -25,18 +22,7 @@ bool covers(const Box& all, const Box& part) {
 
 BoxesAround::BoxesAround(const TriangleSoup& mesh, std::vector<Box> places)
     : mesh_(mesh), places_(std::move(places)) {
-  const BoxTree tree(places_);
-  const auto near_places = [&](std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> near;
-    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      if (meets_any(tree, places_, box_of(mesh_, t))) near.push_back(t);
-    }
-    return near;
-  };
-  take(parallel_reduce(mesh_.triangles.size(), kTrianglesPerTask, near_places,
-                       [](std::vector<std::uint32_t>& all, std::vector<std::uint32_t> part) {
-                         all.insert(all.end(), part.begin(), part.end());
-                       }));
+  take(triangles_near(mesh_, places_, 0));
 }
 
 void BoxesAround::find(const Box& box, std::vector<std::uint32_t>& found) {
