@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <base/block_source.h>
 
@@ -35,6 +38,12 @@ void free_block(void* block) noexcept {
   } else {
     std::free(block);
   }
+}
+
+void return_free_memory() noexcept {
+#ifdef __GLIBC__
+  if (block_source() != nullptr) ::malloc_trim(0);
+#endif
 }
 
 }  // namespace meshrepair

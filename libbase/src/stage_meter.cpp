@@ -1,6 +1,7 @@
 #include <chrono>
 #include <sys/resource.h>
 
+#include <base/block_source.h>
 #include <base/error.h>
 #include <base/stage_meter.h>
 
@@ -31,6 +32,7 @@ std::size_t peak_bytes() {
 
 void StageMeter::begin(std::string_view name) {
   end();
+  return_free_memory();
   if (progress_ != nullptr) {
     if (progress_->cancelled()) throw Cancelled();
     progress_->stage(name);

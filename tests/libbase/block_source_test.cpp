@@ -1,6 +1,9 @@
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
+#include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -58,6 +61,36 @@ TEST(BlockSource, LargeBlocksComeFromIt) {
   EXPECT_EQ(shelf.taken, 1);
   EXPECT_EQ(shelf.given_back, 1);
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+
+std::size_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  statm >> all >> resident;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// Free, but below one that is not.
+std::unique_ptr<char[]> many_small_blocks(std::size_t bytes) {
+  constexpr std::size_t kSmall = 1 << 14;
+  std::vector<std::unique_ptr<char[]>> blocks;
+  for (std::size_t i = 0; i < bytes / kSmall; ++i) blocks.emplace_back(new char[kSmall]());
+  return std::move(blocks.back());
+}
+
+TEST(BlockSource, HasRoomWhereSmallBlocksWere) {
+  constexpr std::size_t kBytes = std::size_t{64} << 20;
+  const auto last = many_small_blocks(kBytes);
+  const std::size_t before = resident_bytes();
+  return_free_memory();
+  EXPECT_GT(resident_bytes() + kBytes / 8, before);
+  OneShelf shelf;
+  return_free_memory();
+  EXPECT_LT(resident_bytes() + kBytes / 2, before);
+}
+
+#endif
 
 TEST(BlockSource, TheSystemGivesWhatItHasNoRoomFor) {
   OneShelf shelf;

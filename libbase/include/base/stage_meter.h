@@ -17,7 +17,8 @@ struct StageReport {
   std::size_t peak_bytes = 0;  // the process's resident memory at most, up to the end of the stage
 };
 
-// Measures from begin() to the next begin() or end(). Tells the observer, if there is one.
+// Measures from begin() to the next begin() or end(). Tells the observer, if there is one, and
+// returns free memory.
 class StageMeter {
  public:
   StageMeter(std::vector<StageReport>& stages, ProgressObserver* progress)

@@ -186,6 +186,7 @@ bool Certification::are_few_places() const {
 
 const Surface& Certification::begin_places() {
   last_places_ = best_.faults();
+  set_sound_groups_aside();
   return best_.surface;
 }
 
@@ -200,6 +201,7 @@ void Certification::end_places(Surface again) {
 }
 
 const Surface& Certification::begin_round() {
+  bring_sound_groups_back();
   ++report_.rounds;
   faults_before_ = best_.faults();
   report_.snapped_points = snap_concerned(current_.surface.mesh, current_.found, round_step_);
@@ -219,6 +221,7 @@ void Certification::end_round(Surface again) {
 }
 
 Surface Certification::result() {
+  bring_sound_groups_back();
   report_.pairs = best_.found.count;
   report_.degenerate = best_.found.degenerate;
   report_.joined_points = best_.joined;
@@ -242,14 +245,17 @@ void Certification::test(Attempt& attempt, std::vector<Vec3d> before) {
     attempt.dropped_parts += dropped;
     attempt.found = known_.find(attempt.surface.mesh);
   }
-  attempt.inside_out_parts = 0;
-  if (attempt.found.count + attempt.found.degenerate == 0) {
-    const auto parts =
-        meshrepair::internal::drop_inside_out_parts(attempt.surface, reach(), progress_);
-    attempt.inside_out_parts = parts.left;
-    attempt.dropped_parts += parts.dropped;
-  }
+  drop_inside_out(attempt);
   attempt.joined = options_.welded ? count_copies(attempt.surface.mesh) : 0;
+}
+
+void Certification::drop_inside_out(Attempt& attempt) const {
+  attempt.inside_out_parts = 0;
+  if (attempt.found.count + attempt.found.degenerate > 0) return;
+  const auto parts =
+      meshrepair::internal::drop_inside_out_parts(attempt.surface, reach(), progress_);
+  attempt.inside_out_parts = parts.left;
+  attempt.dropped_parts += parts.dropped;
 }
 
 // Those at fault whose walls are no further apart than what rounding moves them by.
@@ -265,6 +271,30 @@ std::size_t Certification::drop_thin_at_fault(Attempt& attempt) const {
 // How far points may have been moved by now, with what nudge_points() and separate_copies() add.
 double Certification::reach() const {
   return 256 * spacing_ + std::ldexp(step_, 2 * static_cast<int>(report_.rounds));
+}
+
+// What is not at fault need not be repaired again, nor tested again and again. Where points are in
+// one place, or triangles have no area, there is more than pairs of triangles.
+void Certification::set_sound_groups_aside() {
+  if (!sound_.empty() || best_.found.count < best_.misplaced()) return;
+  std::vector<std::uint32_t> at_fault;
+  for (const auto& pair : best_.found.pairs) at_fault.push_back(pair[0]);
+  sound_.take_out(best_.surface, at_fault);
+  volume_ -= signed_volume(sound_.mesh());
+}
+
+void Certification::bring_sound_groups_back() {
+  if (sound_.empty()) return;
+  volume_ += signed_volume(sound_.mesh());
+  const auto before = static_cast<std::uint32_t>(sound_.mesh().triangles.size());
+  for (auto& pair : best_.found.pairs) {
+    for (std::uint32_t& t : pair) t += before;
+  }
+  if (sound_.bring_back(best_.surface)) {
+    drop_inside_out(best_);
+  } else {
+    test(best_);
+  }
 }
 
 // What needs no new repair, as long as it is of much use. Further rounds start from what was

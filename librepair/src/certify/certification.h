@@ -12,6 +12,8 @@
 #include <mesh/soup.h>
 #include <repair/certify.h>
 
+#include "sound_groups.h"
+
 namespace meshrepair::internal {
 
 // Rounds coordinates to the precision and tests exactly for triangles that intersect or have no
@@ -46,6 +48,7 @@ class Certification {
   // Whether sheets cross in so few places that repairing the surface again may do, with its points
   // where they are.
   [[nodiscard]] bool are_few_places() const;
+  // The surface, or what of it has to do with these places.
   [[nodiscard]] const Surface& begin_places();
   // With what that gave, whose sources are triangles of that surface.
   void end_places(Surface again);
@@ -74,9 +77,12 @@ class Certification {
 
   // `before`: where the points were before they were moved, if not just before rounding.
   void test(Attempt& attempt, std::vector<Vec3d> before = {});
+  void drop_inside_out(Attempt& attempt) const;
   std::size_t drop_thin_at_fault(Attempt& attempt) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
+  void set_sound_groups_aside();
+  void bring_sound_groups_back();
   void improve(Attempt moved);
   void move_points(Attempt& attempt);
   bool mend_places(Attempt& attempt);
@@ -105,6 +111,7 @@ class Certification {
   std::size_t faults_before_ = 0;   // of the best attempt, when the round began
 
   Attempt current_, best_;
+  SoundGroups sound_;  // that are not in best_ now
 };
 
 }  // namespace meshrepair::internal

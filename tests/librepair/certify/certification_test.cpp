@@ -113,6 +113,58 @@ TEST_F(FewPlaces, AreRepairedAgainWithPointsWhereTheyAre) {
   EXPECT_EQ(self_intersections(result.mesh).count, 0u);
 }
 
+// Of the three that are sound the smallest stays.
+TEST_F(FewPlaces, AreRepairedWithoutWhatIsSound) {
+  TriangleSoup soup = moved(sphere(300), {20, 0, 0});
+  append(soup, crossing());
+  append(soup, moved(cube(), {-20, 0, 0}));
+  append(soup, moved(sphere(200), {0, 20, 0}));
+  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  few.mend_in_place();
+  ASSERT_TRUE(few.are_few_places());
+  const TriangleSoup places = few.begin_places().mesh;
+  EXPECT_EQ(places.triangles.size(), crossing().triangles.size() + cube().triangles.size());
+  RepairReport repaired;
+  few.end_places(repair(places, {}, repaired));
+  const Surface result = few.result();
+  EXPECT_TRUE(report_.passed());
+  EXPECT_EQ(self_intersections(result.mesh).count, 0u);
+  EXPECT_EQ(find_parts(result.mesh).count, 4u);
+  EXPECT_NEAR(signed_volume(result.mesh),
+              signed_volume(soup) - signed_volume(crossing()) + 2 - 0.0625 * 0.75 * 0.875, 1e-3);
+}
+
+TEST_F(FewPlaces, AreCountedInTheWholeWhereThatWasInVain) {
+  TriangleSoup soup = crossing();
+  append(soup, moved(cube(), {-20, 0, 0}));
+  append(soup, moved(cube(), {20, 0, 0}));
+  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  few.mend_in_place();
+  ASSERT_TRUE(few.are_few_places());
+  few.end_places(Surface(few.begin_places()));
+  const Surface result = few.result();
+  EXPECT_FALSE(report_.passed());
+  EXPECT_EQ(result.mesh.triangles.size(), soup.triangles.size());
+  EXPECT_EQ(report_.pairs, self_intersections(result.mesh).count);
+  EXPECT_NEAR(signed_volume(result.mesh), signed_volume(soup), 1e-3);
+}
+
+// What is inside out is known where nothing crosses any more.
+TEST_F(FewPlaces, LeaveWhatIsInsideOutElsewhereToBeFound) {
+  TriangleSoup soup = crossing();
+  append(soup, moved(cube(), {-20, 0, 0}));
+  append(soup, moved(flipped(sphere(200)), {20, 0, 0}));
+  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  few.mend_in_place();
+  ASSERT_TRUE(few.are_few_places());
+  RepairReport repaired;
+  few.end_places(repair(few.begin_places().mesh, {}, repaired));
+  const Surface result = few.result();
+  EXPECT_EQ(report_.pairs, 0u);
+  EXPECT_EQ(report_.inside_out_parts, 1u);
+  EXPECT_FALSE(report_.passed());
+}
+
 TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
   internal::Certification few = certification(kSingle);
   few.mend_in_place();
