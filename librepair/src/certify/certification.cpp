@@ -33,9 +33,6 @@
 namespace meshrepair::internal {
 namespace {
 
-// More faults than these are not of a few places.
-constexpr std::size_t kMostInPlaces = 32;
-
 // More are counted but not mended in one round.
 constexpr std::size_t kPairsToMend = 1'000'000;
 
@@ -181,7 +178,8 @@ bool Certification::may_go_on() const {
 // precision points are on the grid already.
 bool Certification::are_few_places() const {
   return may_move_points() && options_.precision == Precision::float32 && best_.misplaced() > 0 &&
-         best_.misplaced() <= kMostInPlaces && are_fewer(best_.faults(), last_places_);
+         best_.misplaced() <= pairs_by_chance(best_.surface.mesh.triangles.size()) &&
+         are_fewer(best_.faults(), last_places_);
 }
 
 const Surface& Certification::begin_places() {
