@@ -174,6 +174,19 @@ TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
   EXPECT_TRUE(few.may_go_on());
 }
 
+// As many as are too many elsewhere.
+TEST_F(FewPlaces, AreMoreInALargeMesh) {
+  TriangleSoup soup;
+  for (int i = 0; i < 10; ++i) append(soup, moved(crossing(), {4.0 * i, 0, 0}));
+  internal::Certification small(surface_of(soup), grid_, kSingle, nullptr, report_);
+  small.mend_in_place();
+  EXPECT_FALSE(small.are_few_places());
+  append(soup, moved(sphere(300'000), {0, 10, 0}));
+  internal::Certification large(surface_of(soup), grid_, kSingle, nullptr, report_);
+  large.mend_in_place();
+  EXPECT_TRUE(large.are_few_places());
+}
+
 TEST_F(FewPlaces, AreOfSinglePrecisionAlone) {
   const CertifyOptions options;
   EXPECT_FALSE(certification(options).are_few_places());
