@@ -1,9 +1,8 @@
-#include <check/triangles_near.h>
-
 #include <cstddef>
 
 #include <base/parallel.h>
 #include <check/triangle_list.h>
+#include <check/triangles_near.h>
 
 namespace meshrepair::internal {
 namespace {

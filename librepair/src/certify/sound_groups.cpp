@@ -53,9 +53,8 @@ void SoundGroups::take_out(Surface& surface, std::span<const std::uint32_t> at_f
 bool SoundGroups::bring_back(Surface& surface) {
   const PartGroups others = find_groups(surface.mesh, 0);
   const BoxTree tree(boxes_);
-  const bool are_apart = std::none_of(others.box.begin(), others.box.end(), [&](const Box& box) {
-    return meets_any(tree, boxes_, box);
-  });
+  const bool are_apart = std::none_of(others.box.begin(), others.box.end(),
+                                      [&](const Box& box) { return meets_any(tree, boxes_, box); });
   append_surface(sound_, surface);
   surface = std::exchange(sound_, {});
   boxes_.clear();
