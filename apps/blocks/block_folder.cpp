@@ -103,7 +103,8 @@ void BlockFolder::write_plan(const BlockPlan& plan) const {
 BlockPlan BlockFolder::read_plan() const try {
   const auto json = read_json(plan_file());
   if (!json)
-    throw InputError(plan_file().string() + ": is no plan: meshrepair-blocks plan makes it");
+    throw InputError(plan_file().string() +
+                     ": is no plan: meshrepair-blocks plan makes one in a new folder");
   BlockPlan plan;
   plan.input = json->at("input");
   plan.triangles = count_of(*json, "triangles");
@@ -119,7 +120,7 @@ BlockPlan BlockFolder::read_plan() const try {
   }
   return plan;
 } catch (const Json::exception&) {
-  throw InputError(plan_file().string() + ": is damaged: meshrepair-blocks plan makes it anew");
+  throw InputError(plan_file().string() + ": is damaged: remove the folder, and plan again");
 }
 
 void BlockFolder::require_outside(const std::string& option, const std::string& file,

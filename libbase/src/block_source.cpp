@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #ifdef __GLIBC__
@@ -8,10 +9,20 @@
 #include <base/block_source.h>
 
 namespace meshrepair {
+namespace {
+
+std::atomic<bool> source_has_given = false;
+
+void* taken_from(BlockSource* source, std::size_t bytes) noexcept {
+  void* const block = source == nullptr ? nullptr : source->take(bytes);
+  if (block != nullptr) source_has_given.store(true, std::memory_order_relaxed);
+  return block;
+}
+
+}  // namespace
 
 void* take_block(std::size_t bytes) noexcept {
-  BlockSource* const source = block_source_for(bytes);
-  void* const block = source == nullptr ? nullptr : source->take(bytes);
+  void* const block = taken_from(block_source_for(bytes), bytes);
   return block != nullptr ? block : std::malloc(bytes);
 }
 
@@ -22,7 +33,7 @@ void* resize_block(void* block, std::size_t old_bytes, std::size_t bytes) noexce
   const bool is_owned = block != nullptr && source->owns(block);
   BlockSource* const next = block_source_for(bytes);
   if (is_owned && next != nullptr && bytes <= source->size_of(block)) return block;
-  void* moved = next == nullptr ? nullptr : next->take(bytes);
+  void* moved = taken_from(next, bytes);
   if (moved == nullptr && !is_owned) return std::realloc(block, bytes);
   if (moved == nullptr) moved = std::malloc(bytes);
   if (moved == nullptr) return nullptr;
@@ -42,7 +53,7 @@ void free_block(void* block) noexcept {
 
 void return_free_memory() noexcept {
 #ifdef __GLIBC__
-  if (block_source() != nullptr) ::malloc_trim(0);
+  if (source_has_given.load(std::memory_order_relaxed)) ::malloc_trim(0);
 #endif
 }
 

@@ -62,7 +62,17 @@ TEST(BlockSource, LargeBlocksComeFromIt) {
   EXPECT_EQ(shelf.given_back, 1);
 }
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+// Sanitizers have memory of their own.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define MESHREPAIR_OTHER_MALLOC
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define MESHREPAIR_OTHER_MALLOC
+#endif
+
+#ifndef MESHREPAIR_OTHER_MALLOC
 
 std::size_t resident_bytes() {
   std::ifstream statm("/proc/self/statm");
@@ -83,9 +93,8 @@ TEST(BlockSource, HasRoomWhereSmallBlocksWere) {
   constexpr std::size_t kBytes = std::size_t{64} << 20;
   const auto last = many_small_blocks(kBytes);
   const std::size_t before = resident_bytes();
-  return_free_memory();
-  EXPECT_GT(resident_bytes() + kBytes / 8, before);
   OneShelf shelf;
+  free_block(take_block(kLeastBlock));
   return_free_memory();
   EXPECT_LT(resident_bytes() + kBytes / 2, before);
 }

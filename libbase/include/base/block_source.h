@@ -72,8 +72,9 @@ inline void set_block_source(BlockSource* source, std::size_t least = kLeastBloc
 [[nodiscard]] void* resize_block(void* block, std::size_t old_bytes, std::size_t bytes) noexcept;
 void free_block(void* block) noexcept;
 
-// Where there is a source, what small blocks have left goes back to the system, which keeps pages
-// of large ones there: a stage with many small blocks would take that room from all that follow.
+// Once a source has given a block, what small ones have left goes back to the system, which keeps
+// pages of large ones there: a stage with many small blocks would take that room from all that
+// follow.
 void return_free_memory() noexcept;
 
 }  // namespace meshrepair

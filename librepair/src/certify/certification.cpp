@@ -198,8 +198,14 @@ void Certification::end_places(Surface again) {
   improve(std::move(attempt));
 }
 
+// Where the others have moved to the sound ones, what meets now is mended as at first.
+void Certification::leave_places() {
+  if (sound_.empty() || are_apart_from_sound_groups()) return;
+  test(best_);
+  improve(best_);
+}
+
 const Surface& Certification::begin_round() {
-  bring_sound_groups_back();
   ++report_.rounds;
   faults_before_ = best_.faults();
   report_.snapped_points = snap_concerned(current_.surface.mesh, current_.found, round_step_);
@@ -219,7 +225,6 @@ void Certification::end_round(Surface again) {
 }
 
 Surface Certification::result() {
-  bring_sound_groups_back();
   report_.pairs = best_.found.count;
   report_.degenerate = best_.found.degenerate;
   report_.joined_points = best_.joined;
@@ -281,18 +286,16 @@ void Certification::set_sound_groups_aside() {
   volume_ -= signed_volume(sound_.mesh());
 }
 
-void Certification::bring_sound_groups_back() {
-  if (sound_.empty()) return;
+// Brings them back. What is known of both is known of the whole if they are.
+bool Certification::are_apart_from_sound_groups() {
   volume_ += signed_volume(sound_.mesh());
   const auto before = static_cast<std::uint32_t>(sound_.mesh().triangles.size());
   for (auto& pair : best_.found.pairs) {
     for (std::uint32_t& t : pair) t += before;
   }
-  if (sound_.bring_back(best_.surface)) {
-    drop_inside_out(best_);
-  } else {
-    test(best_);
-  }
+  if (!sound_.bring_back(best_.surface)) return false;
+  drop_inside_out(best_);
+  return true;
 }
 
 // What needs no new repair, as long as it is of much use. Further rounds start from what was

@@ -52,6 +52,8 @@ class Certification {
   [[nodiscard]] const Surface& begin_places();
   // With what that gave, whose sources are triangles of that surface.
   void end_places(Surface again);
+  // Once after them: the surface is whole again.
+  void leave_places();
 
   // Whether another round may be of use.
   [[nodiscard]] bool may_go_on() const;
@@ -82,7 +84,7 @@ class Certification {
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
   void set_sound_groups_aside();
-  void bring_sound_groups_back();
+  [[nodiscard]] bool are_apart_from_sound_groups();
   void improve(Attempt moved);
   void move_points(Attempt& attempt);
   bool mend_places(Attempt& attempt);

@@ -130,6 +130,7 @@ Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplif
     if (!again) break;
     certification.end_places(std::move(*again));
   }
+  certification.leave_places();
   while (certification.may_go_on()) {
     const Surface& coarser = certification.begin_round();
     try {

@@ -106,6 +106,7 @@ TEST_F(FewPlaces, AreRepairedAgainWithPointsWhereTheyAre) {
   RepairReport repaired;
   few.end_places(repair(places.mesh, {}, repaired));
   EXPECT_FALSE(few.are_few_places());
+  few.leave_places();
   const Surface result = few.result();
   EXPECT_TRUE(report_.passed());
   EXPECT_EQ(report_.rounds, 0u);
@@ -126,6 +127,7 @@ TEST_F(FewPlaces, AreRepairedWithoutWhatIsSound) {
   EXPECT_EQ(places.triangles.size(), crossing().triangles.size() + cube().triangles.size());
   RepairReport repaired;
   few.end_places(repair(places, {}, repaired));
+  few.leave_places();
   const Surface result = few.result();
   EXPECT_TRUE(report_.passed());
   EXPECT_EQ(self_intersections(result.mesh).count, 0u);
@@ -142,6 +144,7 @@ TEST_F(FewPlaces, AreCountedInTheWholeWhereThatWasInVain) {
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
   few.end_places(Surface(few.begin_places()));
+  few.leave_places();
   const Surface result = few.result();
   EXPECT_FALSE(report_.passed());
   EXPECT_EQ(result.mesh.triangles.size(), soup.triangles.size());
@@ -159,6 +162,7 @@ TEST_F(FewPlaces, LeaveWhatIsInsideOutElsewhereToBeFound) {
   ASSERT_TRUE(few.are_few_places());
   RepairReport repaired;
   few.end_places(repair(few.begin_places().mesh, {}, repaired));
+  few.leave_places();
   const Surface result = few.result();
   EXPECT_EQ(report_.pairs, 0u);
   EXPECT_EQ(report_.inside_out_parts, 1u);
@@ -172,6 +176,26 @@ TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
   few.end_places(Surface(few.begin_places()));
   EXPECT_FALSE(few.are_few_places());
   EXPECT_TRUE(few.may_go_on());
+}
+
+// The cube at the end of the others, moved into a sound one.
+TEST_F(FewPlaces, MeetWhatIsSoundWhereTheyMoveToIt) {
+  TriangleSoup soup = moved(sphere(200), {20, 0, 0});
+  append(soup, crossing());
+  append(soup, moved(cube(), {-20, 0, 0}));
+  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  few.mend_in_place();
+  ASSERT_TRUE(few.are_few_places());
+  (void)few.begin_places();
+  const TriangleSoup moved_there = moved(cube(), {20.5, 0.25, 0.125});
+  few.end_places(surface_of(moved_there));
+  EXPECT_FALSE(few.are_few_places());
+  few.leave_places();
+  EXPECT_TRUE(few.may_go_on());
+  const Surface result = few.result();
+  EXPECT_FALSE(report_.passed());
+  EXPECT_EQ(report_.pairs, self_intersections(result.mesh).count);
+  EXPECT_GT(report_.pairs, 0u);
 }
 
 // As many as are too many elsewhere.
