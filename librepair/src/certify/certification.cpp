@@ -198,9 +198,16 @@ void Certification::end_places(Surface again) {
   improve(std::move(attempt));
 }
 
-// Where the others have moved to the sound ones, what meets now is mended as at first.
+// What is known of both is known of the whole where they are apart. Where the others have moved to
+// the sound ones, what meets now is mended as at first.
 void Certification::leave_places() {
-  if (sound_.empty() || are_apart_from_sound_groups()) return;
+  if (sound_.empty()) return;
+  volume_ += signed_volume(sound_.mesh());
+  const auto before = static_cast<std::uint32_t>(sound_.mesh().triangles.size());
+  for (auto& pair : best_.found.pairs) {
+    for (std::uint32_t& t : pair) t += before;
+  }
+  if (sound_.bring_back(best_.surface)) return drop_inside_out(best_);
   test(best_);
   improve(best_);
 }
@@ -284,18 +291,6 @@ void Certification::set_sound_groups_aside() {
   for (const auto& pair : best_.found.pairs) at_fault.push_back(pair[0]);
   sound_.take_out(best_.surface, at_fault);
   volume_ -= signed_volume(sound_.mesh());
-}
-
-// Brings them back. What is known of both is known of the whole if they are.
-bool Certification::are_apart_from_sound_groups() {
-  volume_ += signed_volume(sound_.mesh());
-  const auto before = static_cast<std::uint32_t>(sound_.mesh().triangles.size());
-  for (auto& pair : best_.found.pairs) {
-    for (std::uint32_t& t : pair) t += before;
-  }
-  if (!sound_.bring_back(best_.surface)) return false;
-  drop_inside_out(best_);
-  return true;
 }
 
 // What needs no new repair, as long as it is of much use. Further rounds start from what was

@@ -84,7 +84,6 @@ class Certification {
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
   void set_sound_groups_aside();
-  [[nodiscard]] bool are_apart_from_sound_groups();
   void improve(Attempt moved);
   void move_points(Attempt& attempt);
   bool mend_places(Attempt& attempt);

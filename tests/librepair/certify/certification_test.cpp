@@ -15,21 +15,14 @@
 #include "degenerate_soups.h"
 #include "shapes.h"
 #include "share_of_cases.h"
+#include "surfaces.h"
 
 namespace meshrepair {
 namespace {
 
 using namespace testing;
 
-Surface surface_of(const TriangleSoup& soup) {
-  Surface surface;
-  surface.mesh = soup;
-  surface.source.assign(soup.triangles.size(), 0);
-  surface.input_point.assign(soup.points.size(), 1);
-  return surface;
-}
-
-Surface no_repair(const TriangleSoup& soup) { return surface_of(soup); }
+Surface no_repair(const TriangleSoup& soup) { return as_surface(soup); }
 
 // All that can be asked of it, with another way to repair what comes of a round.
 template <class RepairAgain>
@@ -60,7 +53,7 @@ TEST(PairsByChance, GrowWithLargeMeshesAlone) {
 TEST(Certify, LeavesASoundSurfaceAsItIs) {
   CertifyReport report;
   const TriangleSoup soup = sphere(300);
-  const Surface result = certified(surface_of(soup), {}, report);
+  const Surface result = certified(as_surface(soup), {}, report);
   EXPECT_TRUE(report.passed());
   EXPECT_EQ(report.rounds, 0u);
   EXPECT_EQ(result.mesh.triangles, soup.triangles);
@@ -71,7 +64,7 @@ TEST(Certify, SaysWhatItCannotMend) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {0.5, 0.25, 0.125}));
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), {}, report);
+  const Surface result = certified(as_surface(soup), {}, report);
   EXPECT_TRUE(report.done);
   EXPECT_FALSE(report.passed());
   EXPECT_EQ(report.pairs_at_first, report.pairs);
@@ -89,7 +82,7 @@ class FewPlaces : public ::testing::Test {
   }
 
   internal::Certification certification(const CertifyOptions& options) {
-    return {surface_of(crossing()), grid_, options, nullptr, report_};
+    return {as_surface(crossing()), grid_, options, nullptr, report_};
   }
 
   CleanReport cleaned_;
@@ -120,7 +113,7 @@ TEST_F(FewPlaces, AreRepairedWithoutWhatIsSound) {
   append(soup, crossing());
   append(soup, moved(cube(), {-20, 0, 0}));
   append(soup, moved(sphere(200), {0, 20, 0}));
-  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
   const TriangleSoup places = few.begin_places().mesh;
@@ -140,7 +133,7 @@ TEST_F(FewPlaces, AreCountedInTheWholeWhereThatWasInVain) {
   TriangleSoup soup = crossing();
   append(soup, moved(cube(), {-20, 0, 0}));
   append(soup, moved(cube(), {20, 0, 0}));
-  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
   few.end_places(Surface(few.begin_places()));
@@ -157,7 +150,7 @@ TEST_F(FewPlaces, LeaveWhatIsInsideOutElsewhereToBeFound) {
   TriangleSoup soup = crossing();
   append(soup, moved(cube(), {-20, 0, 0}));
   append(soup, moved(flipped(sphere(200)), {20, 0, 0}));
-  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
   RepairReport repaired;
@@ -183,12 +176,12 @@ TEST_F(FewPlaces, MeetWhatIsSoundWhereTheyMoveToIt) {
   TriangleSoup soup = moved(sphere(200), {20, 0, 0});
   append(soup, crossing());
   append(soup, moved(cube(), {-20, 0, 0}));
-  internal::Certification few(surface_of(soup), grid_, kSingle, nullptr, report_);
+  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
   (void)few.begin_places();
   const TriangleSoup moved_there = moved(cube(), {20.5, 0.25, 0.125});
-  few.end_places(surface_of(moved_there));
+  few.end_places(as_surface(moved_there));
   EXPECT_FALSE(few.are_few_places());
   few.leave_places();
   EXPECT_TRUE(few.may_go_on());
@@ -202,11 +195,11 @@ TEST_F(FewPlaces, MeetWhatIsSoundWhereTheyMoveToIt) {
 TEST_F(FewPlaces, AreMoreInALargeMesh) {
   TriangleSoup soup;
   for (int i = 0; i < 10; ++i) append(soup, moved(crossing(), {4.0 * i, 0, 0}));
-  internal::Certification small(surface_of(soup), grid_, kSingle, nullptr, report_);
+  internal::Certification small(as_surface(soup), grid_, kSingle, nullptr, report_);
   small.mend_in_place();
   EXPECT_FALSE(small.are_few_places());
   append(soup, moved(sphere(300'000), {0, 10, 0}));
-  internal::Certification large(surface_of(soup), grid_, kSingle, nullptr, report_);
+  internal::Certification large(as_surface(soup), grid_, kSingle, nullptr, report_);
   large.mend_in_place();
   EXPECT_TRUE(large.are_few_places());
 }
@@ -220,8 +213,8 @@ TEST(Certify, LosesNoSolidToACoarserGrid) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {0.5, 0.25, 0.125}));
   CertifyReport report;
-  const auto scrap = [](const TriangleSoup&) { return surface_of(scaled(cube(), 0.01)); };
-  const Surface result = certified(surface_of(soup), {}, scrap, report);
+  const auto scrap = [](const TriangleSoup&) { return as_surface(scaled(cube(), 0.01)); };
+  const Surface result = certified(as_surface(soup), {}, scrap, report);
   EXPECT_FALSE(report.passed());
   EXPECT_NEAR(signed_volume(result.mesh), 2, 1e-6);
 }
@@ -232,7 +225,7 @@ TEST(Certify, MovesNothingWhenNoRoundsAreAllowed) {
   CertifyOptions options;
   options.most_rounds = 0;
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), options, report);
+  const Surface result = certified(as_surface(soup), options, report);
   EXPECT_FALSE(report.passed());
   EXPECT_GT(report.pairs, 0u);
   EXPECT_EQ(report.pairs, report.pairs_at_first);
@@ -247,10 +240,10 @@ TEST(Certify, MovesNothingWhereTooManyMeetAtFirst) {
   CertifyOptions options;
   options.precision = Precision::float32;
   CertifyReport report;
-  (void)certified(surface_of(soup), options, report);
+  (void)certified(as_surface(soup), options, report);
   ASSERT_GT(report.pairs_at_first, 0u);
   options.most_pairs_at_first = report.pairs_at_first - 1;
-  const Surface result = certified(surface_of(soup), options, report);
+  const Surface result = certified(as_surface(soup), options, report);
   EXPECT_EQ(report.pairs, report.pairs_at_first);
   EXPECT_EQ(report.rounds, 0u);
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
@@ -265,7 +258,7 @@ TEST(Certify, NudgesPointsOffTheFacesThatTheyFellOn) {
   tip.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
   const auto first = static_cast<std::uint32_t>(soup.points.size());
   append(soup, tip);
-  Surface surface = surface_of(soup);
+  Surface surface = as_surface(soup);
   surface.input_point[first] = 0;
   ASSERT_GT(self_intersections(soup).count, 0u);
   CertifyReport report;
@@ -286,7 +279,7 @@ TEST(Certify, DropsThinPartsThatFaceTheWrongWay) {
   TriangleSoup soup = moved(cube(), {2, 0, 0});
   append(soup, inverted_sliver());
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), {}, report);
+  const Surface result = certified(as_surface(soup), {}, report);
   EXPECT_TRUE(report.passed());
   EXPECT_EQ(report.dropped_parts, 1u);
   EXPECT_TRUE(check_surface(result.mesh).valid_solid());
@@ -298,7 +291,7 @@ TEST(Certify, DropsThinPartsThatFaceTheWrongWay) {
 void expect_dropped(const TriangleSoup& soup, std::size_t parts) {
   ASSERT_GT(self_intersections(soup).count, 0u);
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), {}, report);
+  const Surface result = certified(as_surface(soup), {}, report);
   EXPECT_TRUE(report.passed());
   EXPECT_EQ(report.dropped_parts, parts);
   EXPECT_NEAR(report.dropped_share, 1 - surface_area(result.mesh) / surface_area(soup), 1e-12);
@@ -326,7 +319,7 @@ TEST(Certify, DropsOnlyThinPartsThatAreAtFault) {
 
 TEST(Certify, TurnsThinPartsThatFaceTheWrongWayWhereThereIsNothingElse) {
   CertifyReport report;
-  const Surface result = certified(surface_of(inverted_sliver()), {}, report);
+  const Surface result = certified(as_surface(inverted_sliver()), {}, report);
   EXPECT_TRUE(report.passed());
   EXPECT_EQ(report.dropped_parts, 0u);
   EXPECT_TRUE(check_surface(result.mesh).valid_solid());
@@ -336,7 +329,7 @@ TEST(Certify, SaysThatAThickPartFacesTheWrongWay) {
   TriangleSoup soup = cube();
   append(soup, flipped(moved(cube(), {2, 0, 0})));
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), {}, report);
+  const Surface result = certified(as_surface(soup), {}, report);
   EXPECT_TRUE(report.done);
   EXPECT_FALSE(report.passed());
   EXPECT_EQ(report.inside_out_parts, 1u);
@@ -352,9 +345,9 @@ TEST(Certify, DoesNotRepairAgainBecauseAPartFacesTheWrongWay) {
   std::size_t repairs = 0;
   const auto count = [&](const TriangleSoup& again) {
     ++repairs;
-    return surface_of(again);
+    return as_surface(again);
   };
-  (void)certified(surface_of(soup), {}, count, report);
+  (void)certified(as_surface(soup), {}, count, report);
   EXPECT_EQ(repairs, 0u);
   EXPECT_EQ(report.inside_out_parts, 1u);
   EXPECT_FALSE(report.passed());
@@ -368,7 +361,7 @@ TEST(Certify, LooksAgainAtWhatIsInADroppedPart) {
   for (Vec3d& p : wall.points) p = Vec3d(0.3, 0.3, 0x1p-53) + p.cwiseProduct(Vec3d(0.1, 0.1, 0.01));
   append(soup, wall);
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), {}, report);
+  const Surface result = certified(as_surface(soup), {}, report);
   EXPECT_TRUE(report.passed());
   EXPECT_TRUE(check_surface(result.mesh).valid_solid());
 }
@@ -378,7 +371,7 @@ TEST(Certify, LosesNoPartToTheRangeOfDoubles) {
   append(soup, moved(scaled(sphere(100), 1e-3), {1.5, 0, 0}));
   for (const double scale : {1e104, 1e-106}) {
     CertifyReport report;
-    const Surface result = certified(surface_of(scaled(soup, scale)), {}, report);
+    const Surface result = certified(as_surface(scaled(soup, scale)), {}, report);
     EXPECT_TRUE(report.passed());
     EXPECT_EQ(report.dropped_parts, 0u);
     EXPECT_EQ(result.mesh.triangles.size(), soup.triangles.size());
@@ -389,9 +382,9 @@ TEST(Certify, KnowsCavitiesFromPartsThatFaceTheWrongWay) {
   TriangleSoup soup = cube();
   append(soup, flipped(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
   CertifyReport report;
-  (void)certified(surface_of(soup), {}, report);
+  (void)certified(as_surface(soup), {}, report);
   EXPECT_TRUE(report.passed());
-  (void)certified(surface_of(flipped(soup)), {}, report);
+  (void)certified(as_surface(flipped(soup)), {}, report);
   EXPECT_EQ(report.inside_out_parts, 2u);
 }
 
@@ -423,7 +416,7 @@ TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
   options.precision = Precision::float32;
   options.welded = true;
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), options, report);
+  const Surface result = certified(as_surface(soup), options, report);
   EXPECT_TRUE(report.passed());
   const TriangleSoup back = as_read_back(result.mesh, SoupFormat::stl_binary);
   expect_closed_manifold(back);
@@ -476,7 +469,7 @@ TEST(Certify, DropsPartsThatRoundingFlattens) {
   CertifyOptions options;
   options.precision = Precision::float32;
   CertifyReport report;
-  const Surface result = certified(surface_of(soup), options, report);
+  const Surface result = certified(as_surface(soup), options, report);
   EXPECT_EQ(report.dropped_parts, 1u);
   EXPECT_EQ(result.mesh.triangles.size(), 12u);
   EXPECT_EQ(result.mesh.points.size(), 8u);

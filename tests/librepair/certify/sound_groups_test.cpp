@@ -5,22 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "shapes.h"
+#include "surfaces.h"
 
 namespace meshrepair {
 namespace {
 
 using namespace testing;
 
-// Of the triangles, numbered.
-Surface numbered(const TriangleSoup& soup) {
-  Surface surface;
-  surface.mesh = soup;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) surface.source.push_back(t);
-  surface.input_point.assign(soup.points.size(), 1);
-  return surface;
-}
-
-// A cube, another one in a shell around it, and a third one.
+// A cube, a smaller one in it, one beside them, and a sphere.
 TriangleSoup three_cubes() {
   TriangleSoup soup = cube();
   append(soup, scaled(cube(), 0.5));
@@ -32,7 +24,7 @@ TriangleSoup three_cubes() {
 std::size_t size_of_cube() { return cube().triangles.size(); }
 
 TEST(SoundGroups, LeaveTheSmallestWithWhatIsAtFault) {
-  Surface surface = numbered(three_cubes());
+  Surface surface = as_surface(three_cubes());
   internal::SoundGroups sound;
   EXPECT_TRUE(sound.empty());
   sound.take_out(surface, std::array<std::uint32_t, 1>{0});
@@ -43,7 +35,7 @@ TEST(SoundGroups, LeaveTheSmallestWithWhatIsAtFault) {
 }
 
 TEST(SoundGroups, LieTogetherWhereOneIsInAnother) {
-  Surface surface = numbered(three_cubes());
+  Surface surface = as_surface(three_cubes());
   internal::SoundGroups sound;
   sound.take_out(surface, std::array{static_cast<std::uint32_t>(size_of_cube())});
   EXPECT_EQ(surface.source.front(), 0u);
@@ -52,7 +44,7 @@ TEST(SoundGroups, LieTogetherWhereOneIsInAnother) {
 
 TEST(SoundGroups, ComeBackBeforeTheOthers) {
   const TriangleSoup soup = three_cubes();
-  Surface surface = numbered(soup);
+  Surface surface = as_surface(soup);
   internal::SoundGroups sound;
   sound.take_out(surface, std::array<std::uint32_t, 1>{0});
   EXPECT_TRUE(sound.bring_back(surface));
@@ -68,7 +60,7 @@ TEST(SoundGroups, ComeBackBeforeTheOthers) {
 }
 
 TEST(SoundGroups, TellWhereTheOthersCameNear) {
-  Surface surface = numbered(three_cubes());
+  Surface surface = as_surface(three_cubes());
   internal::SoundGroups sound;
   sound.take_out(surface, std::array<std::uint32_t, 1>{0});
   for (Vec3d& p : surface.mesh.points) p.x() += 20;
@@ -78,7 +70,7 @@ TEST(SoundGroups, TellWhereTheOthersCameNear) {
 TEST(SoundGroups, AreNoneWhereAllHangsTogether) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {0.5, 0.5, 0.5}));
-  Surface surface = numbered(soup);
+  Surface surface = as_surface(soup);
   internal::SoundGroups sound;
   sound.take_out(surface, std::array<std::uint32_t, 1>{0});
   EXPECT_TRUE(sound.empty());
