@@ -4,10 +4,12 @@
 // What may fail is the rounding of those intersections, and that input points are written with
 // their own coordinates, not with those of the grid. So a point at fault goes onto the grid. What
 // still intersects is mended place by place, by moving points and collapsing and turning edges.
-// Where that does not do, but for a few places, the rounded mesh is a soup of its own: repairing it
-// again cuts, and rounds, at these places only. Else the mesh is a soup of grid points, and
-// repairing it again makes intersections only where the moves made some, fewer each time. A coarser
-// grid keeps points further apart, which is why it ends.
+// What is left is repaired again, each group of parts that have to do with each other by itself, so
+// that one bad place costs no more than its group. Where that does not do, but for a few places,
+// the rounded mesh is a soup of its own: repairing it again cuts, and rounds, at these places only.
+// Else the mesh is a soup of grid points, and repairing it again makes intersections only where the
+// moves made some, fewer each time. A coarser grid keeps points further apart, which is why it
+// ends.
 #include "certification.h"
 
 #include <algorithm>
@@ -25,6 +27,7 @@
 #include <repair/join_ends.h>
 #include <repair/mend_faults.h>
 
+#include "faulty_groups.h"
 #include "mend/drop_thin_parts.h"
 #include "nudge_points.h"
 #include "separate_copies.h"
@@ -169,6 +172,36 @@ void Certification::mend_in_place() {
   most_triangles_ = kMostGrowth * current_.surface.mesh.triangles.size();
 }
 
+std::vector<Surface> Certification::take_faulty_groups() {
+  const SelfIntersections& found = best_.found;
+  if (!may_move_points() || best_.misplaced() == 0 || found.pairs.size() < found.count) return {};
+  const PartGroups groups = groups_apart(best_.surface.mesh);
+  if (groups.size() < 2) return {};
+  current_ = {};
+  return take_groups(best_.surface, groups,
+                     triangles_at_fault(best_.surface.mesh, found, best_.joined > 0));
+}
+
+void Certification::give_back(Certification& group) {
+  report_.rounds = std::max(report_.rounds, group.report_.rounds);
+  report_.snapped_points += group.report_.snapped_points;
+  best_.dropped_parts += group.best_.dropped_parts;
+  faults_of_groups_ += group.best_.misplaced();
+  append_surface(best_.surface, group.best_.surface);
+}
+
+// Of the whole as it is now: groups may have moved to each other, and what is too thin goes.
+void Certification::end_groups() {
+  test(best_);
+  if (best_.misplaced() <= faults_of_groups_) {  // groups have had all repairs that may be of use
+    last_places_ = 0;
+    vain_rounds_ = kMostVain;
+    return;
+  }
+  current_ = best_;
+  mend_in_place();
+}
+
 bool Certification::may_go_on() const {
   return may_move_points() && best_.misplaced() > 0 && report_.rounds < options_.most_rounds &&
          vain_rounds_ < kMostVain && current_.surface.mesh.triangles.size() <= most_triangles_;
@@ -184,7 +217,6 @@ bool Certification::are_few_places() const {
 
 const Surface& Certification::begin_places() {
   last_places_ = best_.faults();
-  set_sound_groups_aside();
   return best_.surface;
 }
 
@@ -196,20 +228,6 @@ void Certification::end_places(Surface again) {
   test(attempt);
   keep_if_better(attempt);
   improve(std::move(attempt));
-}
-
-// What is known of both is known of the whole where they are apart. Where the others have moved to
-// the sound ones, what meets now is mended as at first.
-void Certification::leave_places() {
-  if (sound_.empty()) return;
-  volume_ += signed_volume(sound_.mesh());
-  const auto before = static_cast<std::uint32_t>(sound_.mesh().triangles.size());
-  for (auto& pair : best_.found.pairs) {
-    for (std::uint32_t& t : pair) t += before;
-  }
-  if (sound_.bring_back(best_.surface)) return drop_inside_out(best_);
-  test(best_);
-  improve(best_);
 }
 
 const Surface& Certification::begin_round() {
@@ -281,16 +299,6 @@ std::size_t Certification::drop_thin_at_fault(Attempt& attempt) const {
 // How far points may have been moved by now, with what nudge_points() and separate_copies() add.
 double Certification::reach() const {
   return 256 * spacing_ + std::ldexp(step_, 2 * static_cast<int>(report_.rounds));
-}
-
-// What is not at fault need not be repaired again, nor tested again and again. Where points are in
-// one place, or triangles have no area, there is more than pairs of triangles.
-void Certification::set_sound_groups_aside() {
-  if (!sound_.empty() || best_.found.count < best_.misplaced()) return;
-  std::vector<std::uint32_t> at_fault;
-  for (const auto& pair : best_.found.pairs) at_fault.push_back(pair[0]);
-  sound_.take_out(best_.surface, at_fault);
-  volume_ -= signed_volume(sound_.mesh());
 }
 
 // What needs no new repair, as long as it is of much use. Further rounds start from what was

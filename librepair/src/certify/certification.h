@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <base/progress.h>
@@ -12,16 +13,15 @@
 #include <mesh/soup.h>
 #include <repair/certify.h>
 
-#include "sound_groups.h"
-
 namespace meshrepair::internal {
 
 // Rounds coordinates to the precision and tests exactly for triangles that intersect or have no
 // area. Where it finds some, the caller may ask it, in this order, to bring their input corners
 // onto the working grid, where every decision was exact; to mend what is left place by place; to
-// give the few places that are left to the caller, who repairs them; and, round by round, to bring
-// all their corners onto this and coarser grids, for the caller to repair what comes of that.
-// result() is the best of all these.
+// give each group of parts that has faults to the caller, who certifies it by itself; to give the
+// few places that are left to the caller, who repairs them; and, round by round, to bring all their
+// corners onto this and coarser grids, for the caller to repair what comes of that. result() is the
+// best of all these.
 //
 // Points of the input that are not concerned stay where they are. Parts that take part in faults
 // and are no thicker than two steps of the numbers are dropped, as are those so thin that rounding
@@ -45,15 +45,20 @@ class Certification {
   // Moves points, collapses and turns edges, as long as that is of use.
   void mend_in_place();
 
+  // The groups that have faults, to be certified one by one and to be given back, all of them; then
+  // the rest of this is about what the groups have to do with each other. None if all of the
+  // surface is one group.
+  [[nodiscard]] std::vector<Surface> take_faulty_groups();
+  // `group` is of no use afterwards.
+  void give_back(Certification& group);
+  void end_groups();
+
   // Whether sheets cross in so few places that repairing the surface again may do, with its points
   // where they are.
   [[nodiscard]] bool are_few_places() const;
-  // The surface, or what of it has to do with these places.
   [[nodiscard]] const Surface& begin_places();
   // With what that gave, whose sources are triangles of that surface.
   void end_places(Surface again);
-  // Once after them: the surface is whole again.
-  void leave_places();
 
   // Whether another round may be of use.
   [[nodiscard]] bool may_go_on() const;
@@ -83,7 +88,6 @@ class Certification {
   std::size_t drop_thin_at_fault(Attempt& attempt) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
-  void set_sound_groups_aside();
   void improve(Attempt moved);
   void move_points(Attempt& attempt);
   bool mend_places(Attempt& attempt);
@@ -103,6 +107,8 @@ class Certification {
   double area_ = 0;     // as given
   double most_lost_ = 0;
 
+  std::size_t faults_of_groups_ = 0;  // that are left in those that were given back
+
   std::size_t last_places_ = ~std::size_t{0};  // faults when places were last begun
 
   // Of the rounds.
@@ -112,7 +118,6 @@ class Certification {
   std::size_t faults_before_ = 0;   // of the best attempt, when the round began
 
   Attempt current_, best_;
-  SoundGroups sound_;  // that are not in best_ now
 };
 
 }  // namespace meshrepair::internal

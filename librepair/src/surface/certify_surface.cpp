@@ -108,6 +108,39 @@ void settle_and_simplify(const Surface& original, Simplifier& simplifier,
   certification.start_again(again ? std::move(*again) : std::move(settled));
 }
 
+// What mending in place has left.
+void repair_faults(Certification& certification, const RepairOptions& options) {
+  while (certification.are_few_places()) {
+    std::optional<Surface> again = repair_places(certification.begin_places(), options);
+    if (!again) break;
+    certification.end_places(std::move(*again));
+  }
+  while (certification.may_go_on()) {
+    const Surface& coarser = certification.begin_round();
+    try {
+      certification.end_round(repair_again(coarser, options));
+    } catch (const NoSolidError&) {
+      break;  // the coarser grid leaves nothing
+    }
+  }
+}
+
+// One bad place costs no more than its group.
+void repair_groups(Certification& whole, const Grid& grid, const CertifyOptions& certify,
+                   const RepairOptions& options) {
+  std::vector<Surface> groups = whole.take_faulty_groups();
+  if (groups.empty()) return;
+  CancelOnly quiet(options.progress);
+  for (Surface& group : groups) {
+    CertifyReport report;
+    Certification one(std::move(group), grid, certify, &quiet, report);
+    one.mend_in_place();
+    repair_faults(one, options);
+    whole.give_back(one);
+  }
+  whole.end_groups();
+}
+
 }  // namespace
 
 Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplifier& simplifier,
@@ -125,20 +158,8 @@ Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplif
     }
   }
   certification.mend_in_place();
-  while (certification.are_few_places()) {
-    std::optional<Surface> again = repair_places(certification.begin_places(), options);
-    if (!again) break;
-    certification.end_places(std::move(*again));
-  }
-  certification.leave_places();
-  while (certification.may_go_on()) {
-    const Surface& coarser = certification.begin_round();
-    try {
-      certification.end_round(repair_again(coarser, options));
-    } catch (const NoSolidError&) {
-      break;  // the coarser grid leaves nothing
-    }
-  }
+  repair_groups(certification, grid, certify, options);
+  repair_faults(certification, options);
   return certification.result();
 }
 

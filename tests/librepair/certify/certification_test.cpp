@@ -99,67 +99,11 @@ TEST_F(FewPlaces, AreRepairedAgainWithPointsWhereTheyAre) {
   RepairReport repaired;
   few.end_places(repair(places.mesh, {}, repaired));
   EXPECT_FALSE(few.are_few_places());
-  few.leave_places();
   const Surface result = few.result();
   EXPECT_TRUE(report_.passed());
   EXPECT_EQ(report_.rounds, 0u);
   EXPECT_LT(signed_volume(result.mesh), signed_volume(crossing()));
   EXPECT_EQ(self_intersections(result.mesh).count, 0u);
-}
-
-// Of the three that are sound the smallest stays.
-TEST_F(FewPlaces, AreRepairedWithoutWhatIsSound) {
-  TriangleSoup soup = moved(sphere(300), {20, 0, 0});
-  append(soup, crossing());
-  append(soup, moved(cube(), {-20, 0, 0}));
-  append(soup, moved(sphere(200), {0, 20, 0}));
-  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
-  few.mend_in_place();
-  ASSERT_TRUE(few.are_few_places());
-  const TriangleSoup places = few.begin_places().mesh;
-  EXPECT_EQ(places.triangles.size(), crossing().triangles.size() + cube().triangles.size());
-  RepairReport repaired;
-  few.end_places(repair(places, {}, repaired));
-  few.leave_places();
-  const Surface result = few.result();
-  EXPECT_TRUE(report_.passed());
-  EXPECT_EQ(self_intersections(result.mesh).count, 0u);
-  EXPECT_EQ(find_parts(result.mesh).count, 4u);
-  EXPECT_NEAR(signed_volume(result.mesh),
-              signed_volume(soup) - signed_volume(crossing()) + 2 - 0.0625 * 0.75 * 0.875, 1e-3);
-}
-
-TEST_F(FewPlaces, AreCountedInTheWholeWhereThatWasInVain) {
-  TriangleSoup soup = crossing();
-  append(soup, moved(cube(), {-20, 0, 0}));
-  append(soup, moved(cube(), {20, 0, 0}));
-  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
-  few.mend_in_place();
-  ASSERT_TRUE(few.are_few_places());
-  few.end_places(Surface(few.begin_places()));
-  few.leave_places();
-  const Surface result = few.result();
-  EXPECT_FALSE(report_.passed());
-  EXPECT_EQ(result.mesh.triangles.size(), soup.triangles.size());
-  EXPECT_EQ(report_.pairs, self_intersections(result.mesh).count);
-  EXPECT_NEAR(signed_volume(result.mesh), signed_volume(soup), 1e-3);
-}
-
-// What is inside out is known where nothing crosses any more.
-TEST_F(FewPlaces, LeaveWhatIsInsideOutElsewhereToBeFound) {
-  TriangleSoup soup = crossing();
-  append(soup, moved(cube(), {-20, 0, 0}));
-  append(soup, moved(flipped(sphere(200)), {20, 0, 0}));
-  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
-  few.mend_in_place();
-  ASSERT_TRUE(few.are_few_places());
-  RepairReport repaired;
-  few.end_places(repair(few.begin_places().mesh, {}, repaired));
-  few.leave_places();
-  const Surface result = few.result();
-  EXPECT_EQ(report_.pairs, 0u);
-  EXPECT_EQ(report_.inside_out_parts, 1u);
-  EXPECT_FALSE(report_.passed());
 }
 
 TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
@@ -169,26 +113,6 @@ TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
   few.end_places(Surface(few.begin_places()));
   EXPECT_FALSE(few.are_few_places());
   EXPECT_TRUE(few.may_go_on());
-}
-
-// The cube at the end of the others, moved into a sound one.
-TEST_F(FewPlaces, MeetWhatIsSoundWhereTheyMoveToIt) {
-  TriangleSoup soup = moved(sphere(200), {20, 0, 0});
-  append(soup, crossing());
-  append(soup, moved(cube(), {-20, 0, 0}));
-  internal::Certification few(as_surface(soup), grid_, kSingle, nullptr, report_);
-  few.mend_in_place();
-  ASSERT_TRUE(few.are_few_places());
-  (void)few.begin_places();
-  const TriangleSoup moved_there = moved(cube(), {20.5, 0.25, 0.125});
-  few.end_places(as_surface(moved_there));
-  EXPECT_FALSE(few.are_few_places());
-  few.leave_places();
-  EXPECT_TRUE(few.may_go_on());
-  const Surface result = few.result();
-  EXPECT_FALSE(report_.passed());
-  EXPECT_EQ(report_.pairs, self_intersections(result.mesh).count);
-  EXPECT_GT(report_.pairs, 0u);
 }
 
 // As many as are too many elsewhere.
@@ -207,6 +131,121 @@ TEST_F(FewPlaces, AreMoreInALargeMesh) {
 TEST_F(FewPlaces, AreOfSinglePrecisionAlone) {
   const CertifyOptions options;
   EXPECT_FALSE(certification(options).are_few_places());
+}
+
+// Each place is repaired by itself, and counted for itself.
+class FaultyGroup : public FewPlaces {
+ protected:
+  template <class RepairAgain>
+  Surface certified_by_groups(const TriangleSoup& soup, RepairAgain repair_again) {
+    internal::Certification whole(as_surface(soup), grid_, kSingle, nullptr, report_);
+    whole.mend_in_place();
+    std::vector<Surface> groups = whole.take_faulty_groups();
+    groups_ = groups.size();
+    for (Surface& group : groups) {
+      CertifyReport report;
+      internal::Certification one(std::move(group), grid_, kSingle, nullptr, report);
+      one.mend_in_place();
+      while (one.are_few_places()) one.end_places(repair_again(one.begin_places().mesh));
+      whole.give_back(one);
+    }
+    if (groups_ > 0) whole.end_groups();
+    goes_on_ = whole.are_few_places() || whole.may_go_on();
+    return whole.result();
+  }
+
+  static Surface repaired(const TriangleSoup& soup) {
+    RepairReport report;
+    return repair(soup, {}, report);
+  }
+
+  std::size_t groups_ = 0;
+  bool goes_on_ = false;
+};
+
+TEST_F(FaultyGroup, IsRepairedWithoutTheOthers) {
+  TriangleSoup soup = moved(sphere(300), {20, 0, 0});
+  append(soup, crossing());
+  append(soup, moved(cube(), {-20, 0, 0}));
+  append(soup, moved(crossing(), {0, 20, 0}));
+  std::vector<std::size_t> sizes;
+  const auto note_size = [&](const TriangleSoup& group) {
+    sizes.push_back(group.triangles.size());
+    return repaired(group);
+  };
+  const Surface result = certified_by_groups(soup, note_size);
+  EXPECT_EQ(sizes, std::vector(2, crossing().triangles.size()));
+  EXPECT_TRUE(report_.passed());
+  EXPECT_EQ(report_.rounds, 0u);
+  EXPECT_EQ(self_intersections(result.mesh).count, 0u);
+  EXPECT_EQ(find_parts(result.mesh).count, 4u);
+  const double of_two = 2 - 0.0625 * 0.75 * 0.875;
+  EXPECT_NEAR(signed_volume(result.mesh),
+              signed_volume(soup) - 2 * signed_volume(crossing()) + 2 * of_two, 1e-3);
+  for (const std::uint32_t source : result.source) EXPECT_LT(source, soup.triangles.size());
+}
+
+TEST_F(FaultyGroup, SpoilsNoOtherWhereItsRepairIsInVain) {
+  TriangleSoup soup = crossing();
+  append(soup, moved(cube(), {-20, 0, 0}));
+  append(soup, moved(crossing(), {20, 0, 0}));
+  const auto first_in_vain = [](const TriangleSoup& group) {
+    return group.points.front().x() < 10 ? as_surface(group) : repaired(group);
+  };
+  const Surface result = certified_by_groups(soup, first_in_vain);
+  EXPECT_EQ(groups_, 2u);
+  EXPECT_FALSE(goes_on_);
+  EXPECT_FALSE(report_.passed());
+  EXPECT_EQ(report_.pairs, self_intersections(result.mesh).count);
+  EXPECT_GT(report_.pairs, 0u);
+  EXPECT_EQ(find_parts(result.mesh).count, 4u);
+}
+
+// What is inside out is known where nothing crosses any more.
+TEST_F(FaultyGroup, LeavesWhatIsInsideOutElsewhereToBeFound) {
+  TriangleSoup soup = crossing();
+  append(soup, moved(cube(), {-20, 0, 0}));
+  append(soup, moved(flipped(sphere(200)), {20, 0, 0}));
+  (void)certified_by_groups(soup, repaired);
+  EXPECT_EQ(report_.pairs, 0u);
+  EXPECT_EQ(report_.inside_out_parts, 1u);
+  EXPECT_FALSE(report_.passed());
+}
+
+// The cubes of the group, moved into a sound one: now it is about the whole.
+TEST_F(FaultyGroup, MeetsAnotherWhereItMovesToIt) {
+  TriangleSoup soup = moved(sphere(200), {20, 0, 0});
+  append(soup, crossing());
+  append(soup, moved(cube(), {-20, 0, 0}));
+  const auto moves = [](const TriangleSoup&) {
+    TriangleSoup there = moved(cube(), {20.5, 0.25, 0.125});
+    append(there, moved(cube(), {5, 5, 5}));
+    return as_surface(there);
+  };
+  CertifyReport report;
+  internal::Certification whole(as_surface(soup), grid_, kSingle, nullptr, report_);
+  whole.mend_in_place();
+  for (Surface& group : whole.take_faulty_groups()) {
+    internal::Certification one(std::move(group), grid_, kSingle, nullptr, report);
+    one.mend_in_place();
+    one.end_places(moves(one.begin_places().mesh));
+    whole.give_back(one);
+  }
+  whole.end_groups();
+  EXPECT_TRUE(report.pairs == 0);
+  EXPECT_TRUE(whole.are_few_places());
+  EXPECT_TRUE(whole.may_go_on());
+  const Surface result = whole.result();
+  EXPECT_GT(report_.pairs, 0u);
+  EXPECT_EQ(report_.pairs, self_intersections(result.mesh).count);
+}
+
+TEST_F(FaultyGroup, IsNoneWhereAllIsOneGroup) {
+  internal::Certification whole = certification(kSingle);
+  whole.mend_in_place();
+  EXPECT_TRUE(whole.take_faulty_groups().empty());
+  EXPECT_TRUE(whole.are_few_places());
+  EXPECT_TRUE(whole.may_go_on());
 }
 
 TEST(Certify, LosesNoSolidToACoarserGrid) {
@@ -478,7 +517,8 @@ TEST(Certify, DropsPartsThatRoundingFlattens) {
 
 // Rounded to float32 two boxes each have a common face. These are too many to be mended place by
 // place, so all is repaired again.
-TEST(Certify, SourcesAreThoseOfTheFirstInput) {
+// Pairs of cubes that cross: more than are few.
+TriangleSoup many_crossing_cubes() {
   TriangleSoup soup;
   const TriangleSoup small = box({0, 0, 0}, {1.0 / 32, 1.0 / 32, 1.0 / 32});
   for (int i = 0; i < 512; ++i) {
@@ -486,6 +526,23 @@ TEST(Certify, SourcesAreThoseOfTheFirstInput) {
     append(soup, moved(small, at));
     append(soup, moved(small, at + Vec3d(1.0 / 32 + 5e-8, 1.0 / 64, 1.0 / 128)));
   }
+  return soup;
+}
+
+TEST(Certify, TakesNoRoundsWhereEachGroupHasFewPlaces) {
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  const RepairResult result = repair(many_crossing_cubes(), options);
+  EXPECT_GT(result.report.certify.pairs_at_first, 0u);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_EQ(result.report.certify.rounds, 0u);
+}
+
+// In a shell they are one group.
+TEST(Certify, SourcesAreThoseOfTheFirstInput) {
+  TriangleSoup soup = many_crossing_cubes();
+  append(soup, box({0.5, -0.5, -0.5}, {2.5, 1.5, 1.5}));
+  append(soup, flipped(box({0.75, -0.25, -0.25}, {2.25, 1.25, 1.25})));
   RepairOptions options;
   options.certify.precision = Precision::float32;
   const RepairResult result = repair(soup, options);
