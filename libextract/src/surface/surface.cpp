@@ -34,18 +34,19 @@ void keep_triangles(Surface& surface, const std::vector<char>& keep) {
 std::vector<Surface> divide_surface(const Surface& surface, const MeshParts& groups) {
   std::vector<Surface> divided(groups.count);
   const TriangleSoup& mesh = surface.mesh;
-  std::vector<std::uint32_t> group_of(mesh.points.size(), kNone), place(mesh.points.size(), 0);
+  std::vector<std::uint32_t> group_of(mesh.points.size(), kNoGroup), place(mesh.points.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t p : mesh.triangles[t]) group_of[p] = groups.of_triangle[t];
   }
   for (std::size_t p = 0; p < place.size(); ++p) {
-    if (group_of[p] == kNone) continue;
+    if (group_of[p] == kNoGroup) continue;
     Surface& group = divided[group_of[p]];
     place[p] = static_cast<std::uint32_t>(group.mesh.points.size());
     group.mesh.points.push_back(mesh.points[p]);
     group.input_point.push_back(surface.input_point[p]);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (groups.of_triangle[t] == kNoGroup) continue;
     const auto& [a, b, c] = mesh.triangles[t];
     Surface& group = divided[groups.of_triangle[t]];
     group.mesh.triangles.push_back({place[a], place[b], place[c]});

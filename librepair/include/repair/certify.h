@@ -38,7 +38,7 @@ struct CertifyReport {
   std::size_t pairs = 0;             // that are left
   std::size_t degenerate = 0;        // triangles without area, in the end
   std::size_t rounds = 0;            // of mending
-  std::size_t snapped_points = 0;    // moved onto a grid in the last of them
+  std::size_t snapped_points = 0;    // moved onto a grid in the last of them, of each group
   std::size_t dropped_parts = 0;     // that rounding flattened or turned
   double dropped_share = 0;          // of the area at first, where parts were dropped
   std::size_t joined_points = 0;     // that a welding format still joins with others

@@ -133,6 +133,7 @@ Certification::Certification(Surface surface, const Grid& grid, const CertifyOpt
   current_.surface = std::move(surface);
   test(current_);
   report_.pairs_at_first = current_.found.count;
+  most_triangles_ = kMostGrowth * current_.surface.mesh.triangles.size();
   best_ = current_.faults() > 0 ? current_ : std::move(current_);
 }
 

@@ -11,8 +11,6 @@ namespace {
 // mostly.
 constexpr double kMargin = 1e-3;
 
-constexpr std::uint32_t kStays = ~std::uint32_t{0};
-
 void add_degenerate(const TriangleSoup& mesh, std::vector<std::uint32_t>& triangles) {
   const SoupCorners corners(mesh, false);
   CornerTriangle fetched;
@@ -32,30 +30,17 @@ void add_joined(const TriangleSoup& mesh, std::vector<std::uint32_t>& triangles)
   }
 }
 
-// Of each group its number among those that go, or kStays.
-std::vector<std::uint32_t> numbers_of(const PartGroups& groups,
-                                      std::span<const std::uint32_t> at_fault) {
-  std::vector<std::uint32_t> number(groups.size(), kStays);
+// The groups that go, numbered.
+MeshParts groups_that_go(const PartGroups& groups, std::span<const std::uint32_t> at_fault) {
+  std::vector<std::uint32_t> number(groups.size(), kNoGroup);
   for (const std::uint32_t t : at_fault) number[groups.of_triangle[t]] = 0;
-  std::uint32_t count = 0;
-  for (std::uint32_t& n : number) {
-    if (n != kStays) n = count++;
-  }
-  return number;
-}
-
-// The groups that have a number.
-std::vector<Surface> numbered_groups(const Surface& surface, const PartGroups& groups,
-                                     const std::vector<std::uint32_t>& number,
-                                     const std::vector<char>& goes) {
-  Surface all = surface;
-  keep_triangles(all, goes);
   MeshParts those;
-  for (const std::uint32_t group : groups.of_triangle) {
-    if (number[group] != kStays) those.of_triangle.push_back(number[group]);
+  for (std::uint32_t& n : number) {
+    if (n != kNoGroup) n = those.count++;
   }
-  for (const std::uint32_t n : number) those.count += n == kStays ? 0 : 1;
-  return divide_surface(all, those);
+  those.of_triangle.reserve(groups.of_triangle.size());
+  for (const std::uint32_t group : groups.of_triangle) those.of_triangle.push_back(number[group]);
+  return those;
 }
 
 }  // namespace
@@ -73,13 +58,12 @@ PartGroups groups_apart(const TriangleSoup& mesh) { return find_groups(mesh, kMa
 
 std::vector<Surface> take_groups(Surface& surface, const PartGroups& groups,
                                  std::span<const std::uint32_t> at_fault) {
-  const std::vector<std::uint32_t> number = numbers_of(groups, at_fault);
-  std::vector<char> flags;
-  flags.reserve(groups.of_triangle.size());
-  for (const std::uint32_t group : groups.of_triangle) flags.push_back(number[group] != kStays);
-  std::vector<Surface> taken = numbered_groups(surface, groups, number, flags);
-  for (char& flag : flags) flag = flag == 0 ? 1 : 0;
-  keep_triangles(surface, flags);
+  const MeshParts those = groups_that_go(groups, at_fault);
+  std::vector<Surface> taken = divide_surface(surface, those);
+  std::vector<char> stays;
+  stays.reserve(those.of_triangle.size());
+  for (const std::uint32_t group : those.of_triangle) stays.push_back(group == kNoGroup ? 1 : 0);
+  keep_triangles(surface, stays);
   return taken;
 }
 

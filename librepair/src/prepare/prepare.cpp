@@ -8,6 +8,7 @@
 #include <repair/hole_patches.h>
 
 #include "open/open_sheets.h"
+#include "sew/close_slits.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -79,7 +80,10 @@ CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, Rep
                            : report.input;
   if (now.open_edges > 0 || now.nonmanifold_edges > 0) {
     meter.begin("holes");
+    const std::size_t slits = close_slits(clean, options.progress);
     patch_holes(clean, options.holes, report.holes, options.progress);
+    report.holes.loops += slits;
+    report.holes.slits += slits;
   }
   return clean;
 }

@@ -134,7 +134,6 @@ void repair_groups(Certification& whole, const Grid& grid, const CertifyOptions&
   for (Surface& group : groups) {
     CertifyReport report;
     Certification one(std::move(group), grid, certify, &quiet, report);
-    one.mend_in_place();
     repair_faults(one, options);
     whole.give_back(one);
   }

@@ -25,6 +25,15 @@ TEST(Surface, GroupsAreDividedAndPutTogetherAgain) {
   EXPECT_EQ(groups[1].source.front(), 112u);
   EXPECT_EQ(groups[1].input_point[1], all.input_point[9]);
 
+  MeshParts second = find_parts(all.mesh);
+  second.count = 1;
+  for (std::uint32_t& group : second.of_triangle) group = group == 0 ? kNoGroup : 0;
+  const std::vector<Surface> one = divide_surface(all, second);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].mesh.points, groups[1].mesh.points);
+  EXPECT_EQ(one[0].mesh.triangles, groups[1].mesh.triangles);
+  EXPECT_EQ(one[0].source, groups[1].source);
+
   Surface again;
   for (const Surface& group : groups) append_surface(again, group);
   all.mesh.points.pop_back();

@@ -516,8 +516,7 @@ TEST(Certify, DropsPartsThatRoundingFlattens) {
 }
 
 // Rounded to float32 two boxes each have a common face. These are too many to be mended place by
-// place, so all is repaired again.
-// Pairs of cubes that cross: more than are few.
+// place.
 TriangleSoup many_crossing_cubes() {
   TriangleSoup soup;
   const TriangleSoup small = box({0, 0, 0}, {1.0 / 32, 1.0 / 32, 1.0 / 32});
@@ -538,7 +537,7 @@ TEST(Certify, TakesNoRoundsWhereEachGroupHasFewPlaces) {
   EXPECT_EQ(result.report.certify.rounds, 0u);
 }
 
-// In a shell they are one group.
+// In a shell they are one group, and all is repaired again.
 TEST(Certify, SourcesAreThoseOfTheFirstInput) {
   TriangleSoup soup = many_crossing_cubes();
   append(soup, box({0.5, -0.5, -0.5}, {2.5, 1.5, 1.5}));

@@ -1,0 +1,190 @@
+#include "sew/close_slits.h"
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <mesh/topology.h>
+#include <repair/orient_parts.h>
+#include <repair/repair.h>
+
+#include "shapes.h"
+#include "share_of_cases.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+using internal::close_slits;
+
+CleanSoup cleaned(const TriangleSoup& soup) {
+  CleanReport report;
+  return clean_soup(soup, report);
+}
+
+Topology topology_of(const CleanSoup& soup) {
+  return examine_topology(index_triangles(soup), soup.points.size());
+}
+
+double volume_of(const CleanSoup& soup) {
+  return signed_volume({{soup.points.begin(), soup.points.end()}, index_triangles(soup)});
+}
+
+// Triangle t becomes a fan, with points at these shares of the way along its first side.
+void split(TriangleSoup& soup, std::size_t t, const std::vector<double>& shares) {
+  const auto [a, b, c] = soup.triangles[t];
+  const Vec3d from = soup.points[a], way = soup.points[b] - from;
+  std::uint32_t last = a;
+  for (const double share : shares) {
+    const auto next = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.emplace_back(from + share * way);
+    soup.triangles.push_back({last, next, c});
+    last = next;
+  }
+  soup.triangles[t] = {last, b, c};
+}
+
+// All coordinates are multiples of 2^-8, so that a fourth of the way is on the grid.
+TriangleSoup coarse_sphere(std::size_t triangles) {
+  TriangleSoup soup = sphere(triangles);
+  for (Vec3d& p : soup.points) p = (p * 256).array().round() / 256;
+  return soup;
+}
+
+TEST(CloseSlits, GivesTheNeighbourOfADroppedTriangleItsCorner) {
+  TriangleSoup soup = cube();
+  const auto [a, b, c] = soup.triangles[0];
+  split(soup, 0, {0.25});
+  soup.triangles.push_back({a, b, 8});  // without area
+  CleanSoup clean = cleaned(soup);
+  ASSERT_EQ(clean.triangles.size(), 13u);
+  ASSERT_EQ(topology_of(clean).open_edges, 3u);
+  EXPECT_EQ(close_slits(clean), 1u);
+  EXPECT_EQ(clean.triangles.size(), 14u);
+  EXPECT_TRUE(topology_of(clean).closed());
+  EXPECT_TRUE(topology_of(clean).oriented());
+  EXPECT_NEAR(volume_of(clean), 1, 1e-12);
+}
+
+TEST(CloseSlits, ClosesThoseWithOtherCornersOnBothSides) {
+  TriangleSoup soup = coarse_sphere(200);
+  std::mt19937 random(7);
+  for (std::uint64_t seed = 0; seed < share_of_cases(20u); ++seed) {
+    TriangleSoup torn = soup;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      std::vector<double> shares;
+      for (const double share : {0.25, 0.5, 0.75}) {
+        if (random() % 3 == 0) shares.push_back(share);
+      }
+      std::rotate(torn.triangles[t].begin(), torn.triangles[t].begin() + random() % 3,
+                  torn.triangles[t].end());
+      split(torn, t, shares);
+    }
+    CleanSoup clean = cleaned(torn);
+    ASSERT_GT(topology_of(clean).open_edges, 0u);
+    EXPECT_GT(close_slits(clean), 0u);
+    EXPECT_TRUE(topology_of(clean).closed());
+    EXPECT_TRUE(topology_of(clean).manifold());
+    EXPECT_TRUE(topology_of(clean).oriented());
+    EXPECT_NEAR(volume_of(clean), signed_volume(soup), 1e-12);
+    EXPECT_TRUE(
+        std::is_sorted(clean.triangles.begin(), clean.triangles.end(),
+                       [](const Triangle& a, const Triangle& b) { return a.source < b.source; }));
+  }
+}
+
+// Below one edge a triangle is missing: what is open there is no slit.
+TEST(CloseSlits, LeavesHoles) {
+  TriangleSoup soup = coarse_sphere(200);
+  soup.triangles.erase(soup.triangles.begin() + 100);
+  CleanSoup clean = cleaned(soup);
+  EXPECT_EQ(close_slits(clean), 0u);
+  EXPECT_EQ(clean.triangles.size(), soup.triangles.size());
+  EXPECT_EQ(topology_of(clean).open_edges, 3u);
+}
+
+TEST(CloseSlits, LeavesThoseThatArePartOfAHole) {
+  TriangleSoup soup = cube();
+  split(soup, 0, {0.25, 0.5});
+  soup.triangles.pop_back();
+  CleanSoup clean = cleaned(soup);
+  const Topology before = topology_of(clean);
+  EXPECT_EQ(close_slits(clean), 0u);
+  EXPECT_EQ(topology_of(clean).open_edges, before.open_edges);
+}
+
+// One of the pieces is there already, as a fin.
+TEST(CloseSlits, MakesNoTriangleTwice) {
+  TriangleSoup soup = cube();
+  const auto [a, b, c] = soup.triangles[0];
+  split(soup, 0, {0.5});
+  std::uint32_t beside = 0;  // the fourth corner, beyond the side
+  for (std::size_t t = 1; t < cube().triangles.size(); ++t) {
+    const auto& other = soup.triangles[t];
+    const auto has = [&](std::uint32_t p) { return std::count(other.begin(), other.end(), p) > 0; };
+    if (!has(a) || !has(b)) continue;
+    for (const std::uint32_t p : other) {
+      if (p != a && p != b) beside = p;
+    }
+  }
+  soup.triangles.push_back({b, 8, beside});
+  soup.triangles.push_back({8, b, beside});
+  soup.triangles.push_back({b, 8, beside});
+  CleanSoup clean = cleaned(soup);
+  (void)close_slits(clean);
+  std::vector<std::array<PointId, 3>> corners;
+  for (const Triangle& t : clean.triangles) {
+    corners.push_back(t.corners);
+    std::sort(corners.back().begin(), corners.back().end());
+  }
+  std::sort(corners.begin(), corners.end());
+  EXPECT_EQ(std::adjacent_find(corners.begin(), corners.end()), corners.end());
+}
+
+// Fans of many triangles with one long edge in common, and many corners on it.
+TEST(CloseSlits, LeavesThoseThatTakeVeryManyPieces) {
+  constexpr std::uint32_t kMany = 3000;
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {kMany, 0, 0}};
+  for (std::uint32_t i = 0; i < kMany; ++i) {
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.emplace_back(i + 1, 0, 0);
+    soup.points.emplace_back(i, 1 + i, 0);
+    soup.points.emplace_back(i, 1 + i, 1 + i);
+    soup.points.emplace_back(kMany, 1, 1 + i);
+    if (i + 1 == kMany) soup.triangles.push_back({0, 1, first + 1});
+    soup.triangles.push_back({i == 0 ? 0 : first - 4, first, first + 2});
+    soup.triangles.push_back({0, first, first + 3});
+  }
+  CleanSoup clean = cleaned(soup);
+  const std::size_t before = clean.triangles.size();
+  EXPECT_EQ(close_slits(clean), 0u);
+  EXPECT_EQ(clean.triangles.size(), before);
+}
+
+TEST(CloseSlits, SparesTheCellsOfAWholeMesh) {
+  TriangleSoup soup = coarse_sphere(500);
+  append(soup, moved(coarse_sphere(500), {0.75, 0.125, 0.25}));
+  const auto [a, b, c] = soup.triangles[3];
+  const auto fresh = static_cast<std::uint32_t>(soup.points.size());
+  split(soup, 3, {0.5});
+  soup.triangles.push_back({a, b, fresh});
+  RepairOptions options;
+  options.keep_valid = true;
+  RepairReport report;
+  const Surface surface = repair(soup, options, report);
+  EXPECT_EQ(report.clean.dropped_degenerate, 1u);
+  EXPECT_EQ(report.holes.slits, 1u);
+  EXPECT_GT(report.arrange.chambers, 0u);
+  EXPECT_EQ(report.cells, 0u);
+  EXPECT_TRUE(report.certify.passed());
+  RepairReport of_whole;
+  TriangleSoup whole = coarse_sphere(500);
+  append(whole, moved(coarse_sphere(500), {0.75, 0.125, 0.25}));
+  EXPECT_NEAR(signed_volume(surface.mesh), signed_volume(repair(whole, {}, of_whole).mesh), 1e-9);
+}
+
+}  // namespace
+}  // namespace meshrepair
