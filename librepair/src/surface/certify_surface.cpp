@@ -109,12 +109,15 @@ void settle_and_simplify(const Surface& original, Simplifier& simplifier,
 }
 
 // What mending in place has left.
-void repair_faults(Certification& certification, const RepairOptions& options) {
+void repair_few_places(Certification& certification, const RepairOptions& options) {
   while (certification.are_few_places()) {
     std::optional<Surface> again = repair_places(certification.begin_places(), options);
     if (!again) break;
     certification.end_places(std::move(*again));
   }
+}
+
+void repair_in_rounds(Certification& certification, const RepairOptions& options) {
   while (certification.may_go_on()) {
     const Surface& coarser = certification.begin_round();
     try {
@@ -134,7 +137,9 @@ void repair_groups(Certification& whole, const Grid& grid, const CertifyOptions&
   for (Surface& group : groups) {
     CertifyReport report;
     Certification one(std::move(group), grid, certify, &quiet, report);
-    repair_faults(one, options);
+    repair_few_places(one, options);
+    if (one.may_go_on()) one.mend_in_place();
+    repair_in_rounds(one, options);
     whole.give_back(one);
   }
   whole.end_groups();
@@ -158,7 +163,8 @@ Surface certify_surface(Surface surface, std::optional<Surface> simpler, Simplif
   }
   certification.mend_in_place();
   repair_groups(certification, grid, certify, options);
-  repair_faults(certification, options);
+  repair_few_places(certification, options);
+  repair_in_rounds(certification, options);
   return certification.result();
 }
 
