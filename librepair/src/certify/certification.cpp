@@ -176,11 +176,11 @@ void Certification::mend_in_place() {
 std::vector<Surface> Certification::take_faulty_groups() {
   const SelfIntersections& found = best_.found;
   if (!may_move_points() || best_.misplaced() == 0 || found.pairs.size() < found.count) return {};
+  const auto at_fault = triangles_at_fault(best_.surface.mesh, found, best_.joined > 0);
   const PartGroups groups = groups_apart(best_.surface.mesh);
-  if (groups.size() < 2) return {};
+  if (at_fault.empty() || groups.size() < 2) return {};
   current_ = {};
-  return take_groups(best_.surface, groups,
-                     triangles_at_fault(best_.surface.mesh, found, best_.joined > 0));
+  return take_groups(best_.surface, groups, at_fault);
 }
 
 void Certification::give_back(Certification& group) {
