@@ -51,6 +51,9 @@ constexpr double kMendSteps = 16;
 // Rounds of mending that bring nothing in a row, before it ends.
 constexpr std::size_t kMostVain = 2;
 
+// How often corners of few places go onto a grid, each one four times as coarse as the last.
+constexpr std::size_t kMostSnaps = 3;
+
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
 constexpr std::size_t kMostGrowth = 4;
@@ -196,6 +199,7 @@ void Certification::end_groups() {
   test(best_);
   if (best_.misplaced() <= faults_of_groups_) {  // groups have had all repairs that may be of use
     last_places_ = 0;
+    snaps_ = kMostSnaps;
     vain_rounds_ = kMostVain;
     return;
   }
@@ -210,15 +214,27 @@ bool Certification::may_go_on() const {
 
 // What is on a coarser grid may cross again where much was cut, and takes cells. In double
 // precision points are on the grid already.
-bool Certification::are_few_places() const {
+bool Certification::has_few_places() const {
   return may_move_points() && options_.precision == Precision::float32 && best_.misplaced() > 0 &&
-         best_.misplaced() <= pairs_by_chance(best_.surface.mesh.triangles.size()) &&
-         are_fewer(best_.faults(), last_places_);
+         best_.misplaced() <= pairs_by_chance(best_.surface.mesh.triangles.size());
 }
+
+bool Certification::are_few_places() const {
+  return has_few_places() && best_.faults() < last_places_;
+}
+
+bool Certification::may_snap_places() const { return has_few_places() && snaps_ < kMostSnaps; }
 
 const Surface& Certification::begin_places() {
   last_places_ = best_.faults();
   return best_.surface;
+}
+
+const Surface& Certification::begin_snapped_places() {
+  current_ = best_;
+  report_.snapped_points = snap_concerned(current_.surface.mesh, current_.found,
+                                          std::ldexp(step_, 2 * static_cast<int>(snaps_++)));
+  return current_.surface;
 }
 
 void Certification::end_places(Surface again) {
@@ -229,6 +245,7 @@ void Certification::end_places(Surface again) {
   test(attempt);
   keep_if_better(attempt);
   improve(std::move(attempt));
+  if (snaps_ > 0) current_ = best_;
 }
 
 const Surface& Certification::begin_round() {

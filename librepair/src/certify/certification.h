@@ -57,6 +57,10 @@ class Certification {
   // where they are.
   [[nodiscard]] bool are_few_places() const;
   [[nodiscard]] const Surface& begin_places();
+  // The same with the corners at fault on a grid, which gets coarser each time: where they are, it
+  // was in vain.
+  [[nodiscard]] bool may_snap_places() const;
+  [[nodiscard]] const Surface& begin_snapped_places();
   // With what that gave, whose sources are triangles of that surface.
   void end_places(Surface again);
 
@@ -88,6 +92,7 @@ class Certification {
   std::size_t drop_thin_at_fault(Attempt& attempt) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
+  [[nodiscard]] bool has_few_places() const;
   void improve(Attempt moved);
   void move_points(Attempt& attempt);
   bool mend_places(Attempt& attempt);
@@ -109,6 +114,7 @@ class Certification {
 
   std::size_t faults_of_groups_ = 0;  // that are left in those that were given back
 
+  std::size_t snaps_ = 0;                      // of few places
   std::size_t last_places_ = ~std::size_t{0};  // faults when places were last begun
 
   // Of the rounds.

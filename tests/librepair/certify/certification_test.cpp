@@ -115,6 +115,34 @@ TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
   EXPECT_TRUE(few.may_go_on());
 }
 
+TEST_F(FewPlaces, GoOntoAGridWhereThatWasInVain) {
+  internal::Certification few = certification(kSingle);
+  few.mend_in_place();
+  ASSERT_TRUE(few.are_few_places());
+  few.end_places(Surface(few.begin_places()));
+  EXPECT_FALSE(few.are_few_places());
+  ASSERT_TRUE(few.may_snap_places());
+  RepairReport repaired;
+  few.end_places(repair(few.begin_snapped_places().mesh, {}, repaired));
+  EXPECT_FALSE(few.may_snap_places());
+  const Surface result = few.result();
+  EXPECT_TRUE(report_.passed());
+  EXPECT_EQ(report_.rounds, 0u);
+  EXPECT_EQ(self_intersections(result.mesh).count, 0u);
+}
+
+TEST_F(FewPlaces, AreLeftToRoundsWhereNoGridIsOfUse) {
+  internal::Certification few = certification(kSingle);
+  few.mend_in_place();
+  std::size_t grids = 0;
+  while (few.may_snap_places() && grids < 100) {
+    few.end_places(Surface(few.begin_snapped_places()));
+    ++grids;
+  }
+  EXPECT_EQ(grids, 3u);
+  EXPECT_TRUE(few.may_go_on());
+}
+
 // As many as are too many elsewhere.
 TEST_F(FewPlaces, AreMoreInALargeMesh) {
   TriangleSoup soup;
