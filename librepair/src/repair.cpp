@@ -38,7 +38,6 @@
 #include "sew/moved_corners.h"
 #include "solid/find_solid.h"
 #include "surface/make_surface.h"
-#include "tangles/cut_tangles.h"
 #include "thicken/unite_walls.h"
 #include "valid/keep_valid.h"
 
@@ -120,8 +119,8 @@ std::optional<Surface> by_chambers(Job& job) {
 
 std::optional<Surface> around_tangles(Job& job) {
   job.prepare();
-  return internal::cut_tangles(job.clean, job.orientation, job.options, job.states, job.report,
-                               job.meter);
+  return internal::surface_around_tangles(job.clean, job.orientation, job.options, job.states,
+                                          job.report, job.meter);
 }
 
 std::optional<Surface> cells_everywhere(Job& job) {

@@ -5,10 +5,10 @@
 
 #include <base/error.h>
 #include <mesh/topology.h>
+#include <repair/close_slits.h>
 #include <repair/hole_patches.h>
 
 #include "open/open_sheets.h"
-#include "sew/close_slits.h"
 
 namespace meshrepair::internal {
 namespace {

@@ -1,5 +1,3 @@
-#include "close_slits.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,12 +9,15 @@
 #include <vector>
 
 #include <mesh/edge_table.h>
+#include <repair/close_slits.h>
 #include <repair/orient_parts.h>
 
 #include "split_edges.h"
 
-namespace meshrepair::internal {
+namespace meshrepair {
 namespace {
+
+using internal::EdgeSplit;
 
 // Where more corners are on an edge, on average, edges and corners are many, and pieces would be
 // the product of both.
@@ -202,9 +203,9 @@ class SlitCloser {
       std::size_t end = first;
       while (end < at.size() && at[end].side / 3 == t.value) ++end;
       const auto& [a, b, c] = soup_.triangles[t].corners;
-      pieces_.push_back(
-          {t, first, end,
-           split_triangle({a.value, b.value, c.value}, &at[first], &at[first] + (end - first))});
+      pieces_.push_back({t, first, end,
+                         internal::split_triangle({a.value, b.value, c.value}, &at[first],
+                                                  &at[first] + (end - first))});
       first = end;
     }
   }
@@ -278,4 +279,4 @@ std::size_t close_slits(CleanSoup& soup, ProgressObserver* progress) {
   return SlitCloser(soup, progress).run();
 }
 
-}  // namespace meshrepair::internal
+}  // namespace meshrepair

@@ -12,7 +12,6 @@
 #include "certify/certification.h"
 #include "make_surface.h"
 #include "prepare/prepare.h"
-#include "tangles/cut_tangles.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -74,7 +73,7 @@ class RepairAgain {
   // With cells only where sheets cross.
   std::optional<Surface> around_tangles() {
     SavedStates none;
-    return cut_tangles(clean_, orientation_, options_, none, report_, meter_);
+    return surface_around_tangles(clean_, orientation_, options_, none, report_, meter_);
   }
 
   // To be called last.

@@ -14,6 +14,7 @@
 #include "arrange/chamber_surface.h"
 #include "sheets/fill_slits.h"
 #include "solid/find_solid.h"
+#include "tangles/cut_tangles.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -34,9 +35,9 @@ struct Attempt {
 
 constexpr std::size_t kFewFaults = 32;
 
-// In single precision, what moving points does not mend soon is left to cells, which fill slits;
-// and so are more pairs of triangles that rounding makes meet than may be chance.
-constexpr std::size_t kRoundsOfChambers = 1;
+// What moving points does not mend soon is left to a repair that may cut otherwise; and so are more
+// pairs of triangles that rounding makes meet than may be chance.
+constexpr std::size_t kRoundsBeforeCells = 1;
 
 // In this order, until one is certified.
 constexpr std::array<Attempt, 5> kAttempts = {{
@@ -145,6 +146,25 @@ class SurfaceMaker {
   Surface surface_;             // the best so far
 };
 
+// Certified as it was asked for, or nothing. Does it give up soon?
+std::optional<Surface> finish_attempt(const CleanSoup& soup, Surface surface,
+                                      const RepairOptions& options, bool gives_up,
+                                      RepairReport attempt, RepairReport& report,
+                                      StageMeter& meter) {
+  RepairOptions finishing = options;
+  finishing.examine = nullptr;
+  if (gives_up) {
+    finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kRoundsBeforeCells);
+    finishing.certify.most_pairs_at_first = pairs_by_chance(surface.mesh.triangles.size());
+  }
+  surface = finish_surface(soup, std::move(surface), finishing, attempt, meter);
+  if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
+  attempt.stages = std::move(report.stages);
+  report = std::move(attempt);
+  if (options.examine) options.examine(report);
+  return surface;
+}
+
 }  // namespace
 
 Surface make_surface(CoveredCells covered, const std::vector<char>& solid,
@@ -172,18 +192,22 @@ std::optional<Surface> surface_by_chambers(const CleanSoup& soup, const Orientat
       made_once(states, kChambersState, attempt, report.stages, meter,
                 [&] { return surface_of_chambers(soup, orientation, options, attempt, meter); });
   if (!surface) return std::nullopt;
-  RepairOptions finishing = options;
-  finishing.examine = nullptr;
-  if (options.certify.precision == Precision::float32) {
-    finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kRoundsOfChambers);
-    finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
-  }
-  surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
-  if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
-  attempt.stages = std::move(report.stages);
-  report = std::move(attempt);
-  if (options.examine) options.examine(report);
-  return surface;
+  // In single precision cells fill slits.
+  const bool gives_up = options.certify.precision == Precision::float32;
+  return finish_attempt(soup, std::move(*surface), options, gives_up, std::move(attempt), report,
+                        meter);
+}
+
+std::optional<Surface> surface_around_tangles(const CleanSoup& soup, const Orientation& orientation,
+                                              const RepairOptions& options, SavedStates& states,
+                                              RepairReport& report, StageMeter& meter) {
+  RepairReport attempt = report;
+  std::optional<Surface> surface =
+      made_once(states, kTanglesState, attempt, report.stages, meter,
+                [&] { return cut_tangles(soup, orientation, options, attempt, meter); });
+  if (!surface) return std::nullopt;
+  return finish_attempt(soup, std::move(*surface), options, true, std::move(attempt), report,
+                        meter);
 }
 
 }  // namespace meshrepair::internal

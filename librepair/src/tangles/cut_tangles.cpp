@@ -16,7 +16,6 @@
 #include "cells/covered_cells.h"
 #include "sew_pieces.h"
 #include "sheets/fill_slits.h"
-#include "surface/make_surface.h"
 #include "tangle_labels.h"
 #include "tangles.h"
 #include "valid/keep_valid.h"
@@ -41,10 +40,6 @@ constexpr std::size_t kMostAttempts = 3;
 // Of the surface, the share that may go with slits and fins in single precision: with more, a
 // format is too coarse for the mesh, and where slits end depends on cells farther away.
 constexpr double kMostFilled = 0.01;
-
-// What moving points does not mend soon is left to a repair that may cut otherwise; and so are more
-// pairs of triangles that rounding makes meet than may be chance.
-constexpr std::size_t kMostRounds = 1;
 
 bool is_wanted(const Orientation& orientation, const RepairOptions& options) {
   if (!may_spare_cells(options) || may_fill(options.inside)) return false;
@@ -209,37 +204,16 @@ class TangleCutter {
   StageMeter& meter_;
 };
 
-// The boundary, not finished yet.
-std::optional<Surface> try_to_cut(const CleanSoup& soup, const Orientation& orientation,
-                                  const RepairOptions& options, RepairReport& report,
-                                  StageMeter& meter) {
+}  // namespace
+
+std::optional<Surface> cut_tangles(const CleanSoup& soup, const Orientation& orientation,
+                                   const RepairOptions& options, RepairReport& report,
+                                   StageMeter& meter) {
+  if (!is_wanted(orientation, options)) return std::nullopt;
   meter.begin("tangles");
   std::optional<Tangles> tangles = find_tangles(soup, orientation.winding, options.progress);
   if (!tangles) return std::nullopt;
   return TangleCutter(soup, orientation, std::move(*tangles), options, report, meter).run();
-}
-
-}  // namespace
-
-std::optional<Surface> cut_tangles(const CleanSoup& soup, const Orientation& orientation,
-                                   const RepairOptions& options, SavedStates& states,
-                                   RepairReport& report, StageMeter& meter) {
-  if (!is_wanted(orientation, options)) return std::nullopt;
-  RepairReport attempt = report;
-  std::optional<Surface> surface =
-      made_once(states, kTanglesState, attempt, report.stages, meter,
-                [&] { return try_to_cut(soup, orientation, options, attempt, meter); });
-  if (!surface) return std::nullopt;
-  RepairOptions finishing = options;
-  finishing.examine = nullptr;
-  finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kMostRounds);
-  finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
-  surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
-  if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
-  attempt.stages = std::move(report.stages);
-  report = std::move(attempt);
-  if (options.examine) options.examine(report);
-  return surface;
 }
 
 }  // namespace meshrepair::internal

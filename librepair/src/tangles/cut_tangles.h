@@ -10,19 +10,15 @@
 #include <repair/repair_options.h>
 #include <repair/repair_report.h>
 
-#include "resume/saved_states.h"
-
 namespace meshrepair::internal {
 
-// The surface of the solid that all cells would give, if the soup is closed and turned
-// consistently, and meets itself in few triangles: those that nothing meets are kept as they are,
-// or left out. Only under RepairOptions::keep_valid, only if the result is certified, and only
-// where the places that are cut tell all that there is to decide (label_tangles()); else nothing,
-// and the report says only which stages there were. Otherwise it is complete. What came of it
-// before it was finished is kept.
+// The boundary, not finished yet, of the solid that all cells would give, if the soup is closed and
+// turned consistently, and meets itself in few triangles: those that nothing meets are kept as they
+// are, or left out. Only under RepairOptions::keep_valid, and only where the places that are cut
+// tell all that there is to decide (label_tangles()); else nothing.
 [[nodiscard]] std::optional<Surface> cut_tangles(const CleanSoup& soup,
                                                  const Orientation& orientation,
-                                                 const RepairOptions& options, SavedStates& states,
-                                                 RepairReport& report, StageMeter& meter);
+                                                 const RepairOptions& options, RepairReport& report,
+                                                 StageMeter& meter);
 
 }  // namespace meshrepair::internal

@@ -1,5 +1,3 @@
-#include "sew/close_slits.h"
-
 #include <algorithm>
 #include <random>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <mesh/topology.h>
+#include <repair/close_slits.h>
 #include <repair/orient_parts.h>
 #include <repair/repair.h>
 
@@ -17,7 +16,6 @@ namespace meshrepair {
 namespace {
 
 using namespace testing;
-using internal::close_slits;
 
 CleanSoup cleaned(const TriangleSoup& soup) {
   CleanReport report;

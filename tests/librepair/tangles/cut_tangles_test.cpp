@@ -1,7 +1,5 @@
 // Meshes of which few triangles meet: cells are made around these alone, and what comes out is what
 // the cells of all would have given.
-#include "tangles/cut_tangles.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +19,7 @@
 #include "random_solids.h"
 #include "shapes.h"
 #include "share_of_cases.h"
+#include "surface/make_surface.h"
 #include "triangles_by_place.h"
 
 namespace meshrepair {
@@ -82,7 +81,7 @@ std::optional<RepairResult> repair_around_tangles(const TriangleSoup& soup, Repa
     const CleanSoup clean = internal::close_soup(soup, options, report, meter);
     const Orientation orientation = internal::orient_soup(clean, options, report, meter);
     internal::SavedStates states;
-    surface = internal::cut_tangles(clean, orientation, options, states, report, meter);
+    surface = internal::surface_around_tangles(clean, orientation, options, states, report, meter);
   }
   if (!surface) return std::nullopt;
   return RepairResult{std::move(*surface), std::move(report)};

@@ -6,7 +6,7 @@
 #include <base/progress.h>
 #include <bsp/clean_soup.h>
 
-namespace meshrepair::internal {
+namespace meshrepair {
 
 // Where a triangle without area was dropped, its neighbour has the long edge and the others have
 // the two short ones: a slit, without a gap. Triangles with such an edge get the corners on it, so
@@ -16,4 +16,4 @@ namespace meshrepair::internal {
 // n log n in the open edges, besides passes over all. Throws Cancelled.
 std::size_t close_slits(CleanSoup& soup, ProgressObserver* progress = nullptr);
 
-}  // namespace meshrepair::internal
+}  // namespace meshrepair
