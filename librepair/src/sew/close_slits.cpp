@@ -29,7 +29,7 @@ using Vector = std::array<std::int64_t, 3>;
 struct Line {
   Vector direction{};  // without a common divisor; the first number that is not 0 is above 0
   Vector moment{};
-  auto operator<=>(const Line&) const = default;
+  auto operator<=>(const Line&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct OpenEdge {
