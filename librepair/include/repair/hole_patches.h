@@ -35,7 +35,7 @@ struct HoleReport {
   std::size_t closed = 0;        // of these
   std::size_t curved = 0;        // of the closed ones: by patches with points of their own
   std::size_t rings = 0;         // between two of these
-  std::size_t slits = 0;         // all points in a line: there is no gap
+  std::size_t slits = 0;         // open edges that lie on each other: there is no gap
   std::size_t too_large = 0;     // left open, as the options say, or because
                                  // the patch would lie on the surface
   std::size_t stray_edges = 0;   // such edges on no loop

@@ -51,6 +51,9 @@ constexpr double kMendSteps = 16;
 // Rounds of mending that bring nothing in a row, before it ends.
 constexpr std::size_t kMostVain = 2;
 
+// How often few places are repaired where they are, as long as they get fewer.
+constexpr std::size_t kMostPlaces = 16;
+
 // How often corners of few places go onto a grid, each one four times as coarse as the last.
 constexpr std::size_t kMostSnaps = 3;
 
@@ -220,21 +223,21 @@ bool Certification::has_few_places() const {
 }
 
 bool Certification::are_few_places() const {
-  return has_few_places() && best_.faults() < last_places_;
+  return has_few_places() && best_.faults() < last_places_ && places_repaired_ < kMostPlaces;
 }
 
 bool Certification::may_snap_places() const { return has_few_places() && snaps_ < kMostSnaps; }
 
 const Surface& Certification::begin_places() {
+  ++places_repaired_;
   last_places_ = best_.faults();
   return best_.surface;
 }
 
-const Surface& Certification::begin_snapped_places() {
-  current_ = best_;
-  report_.snapped_points = snap_concerned(current_.surface.mesh, current_.found,
-                                          std::ldexp(step_, 2 * static_cast<int>(snaps_++)));
-  return current_.surface;
+Surface Certification::begin_snapped_places() {
+  Surface snapped = best_.surface;
+  snap_concerned(snapped.mesh, best_.found, std::ldexp(step_, 2 * static_cast<int>(snaps_++)));
+  return snapped;
 }
 
 void Certification::end_places(Surface again) {
@@ -245,7 +248,6 @@ void Certification::end_places(Surface again) {
   test(attempt);
   keep_if_better(attempt);
   improve(std::move(attempt));
-  if (snaps_ > 0) current_ = best_;
 }
 
 const Surface& Certification::begin_round() {
@@ -319,8 +321,7 @@ double Certification::reach() const {
   return 256 * spacing_ + std::ldexp(step_, 2 * static_cast<int>(report_.rounds));
 }
 
-// What needs no new repair, as long as it is of much use. Further rounds start from what was
-// before, on the grid.
+// What needs no new repair, as long as it is of much use.
 void Certification::improve(Attempt moved) {
   do {
     bool is_of_use = true;

@@ -60,7 +60,7 @@ class Certification {
   // The same with the corners at fault on a grid, which gets coarser each time: where they are, it
   // was in vain.
   [[nodiscard]] bool may_snap_places() const;
-  [[nodiscard]] const Surface& begin_snapped_places();
+  [[nodiscard]] Surface begin_snapped_places();
   // With what that gave, whose sources are triangles of that surface.
   void end_places(Surface again);
 
@@ -114,8 +114,8 @@ class Certification {
 
   std::size_t faults_of_groups_ = 0;  // that are left in those that were given back
 
-  std::size_t snaps_ = 0;                      // of few places
-  std::size_t last_places_ = ~std::size_t{0};  // faults when places were last begun
+  std::size_t places_repaired_ = 0, snaps_ = 0;  // how often few places were
+  std::size_t last_places_ = ~std::size_t{0};    // faults when places were last begun
 
   // Of the rounds.
   double round_step_ = 0;           // of the next one's grid

@@ -19,7 +19,7 @@ namespace meshrepair::internal {
                                                             bool joins_points);
 
 // Parts whose boxes do not meet have nothing to do with each other: what crosses, or lies in,
-// something else is in one group with it. Nor do they once points have moved a little.
+// something else is in one group with it. Nor, mostly, do they once points have moved a little.
 [[nodiscard]] PartGroups groups_apart(const TriangleSoup& mesh);
 
 // Takes those of its groups out of the surface that have one of these triangles, in their order.

@@ -69,11 +69,13 @@ std::vector<char> find_whole_triangles(const CleanSoup& input, const Surface& su
   std::vector<char> whole(surface.mesh.triangles.size(), 0);
   const auto is_whole = [&](std::size_t t) {
     if (surface.source[t] == Surface::kNoSource) return false;
-    // Sources ascend.
+    // Sources ascend; of a triangle that was split beforehand, several have the same one.
     const auto found = std::lower_bound(
         input.triangles.begin(), input.triangles.end(), surface.source[t],
         [](const Triangle& triangle, std::uint32_t source) { return triangle.source < source; });
     if (found == input.triangles.end() || found->source != surface.source[t]) return false;
+    const auto next = std::next(found);
+    if (next != input.triangles.end() && next->source == found->source) return false;
     const auto& to = surface.mesh.triangles[t];
     return std::all_of(found->corners.begin(), found->corners.end(), [&](PointId p) {
       return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {

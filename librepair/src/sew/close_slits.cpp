@@ -23,6 +23,9 @@ using internal::EdgeSplit;
 // the product of both.
 constexpr std::size_t kMostPieces = 16;
 
+// Without a slit that would make a triangle twice, the next one may.
+constexpr int kMostPasses = 8;
+
 using Vector = std::array<std::int64_t, 3>;
 
 // The same for all edges on one line. Grid coordinates have 27 bits, so moments have less than 60.
@@ -141,21 +144,48 @@ class Slit {
   std::vector<std::pair<std::int64_t, PointId>> corners_;  // along the line
 };
 
-// By sides, and along these. Slits are numbered from 0.
-std::vector<Split> find_slit_splits(const std::vector<OpenEdge>& edges, std::uint32_t& slits) {
-  std::vector<Split> splits;
+// That may be closed. `edges` are sorted, and stay where they are.
+std::vector<std::span<const OpenEdge>> find_slits(const std::vector<OpenEdge>& edges) {
+  std::vector<std::span<const OpenEdge>> slits;
   for (std::size_t first = 0; first < edges.size();) {
     std::size_t end = first + 1;
     std::int64_t high = edges[first].high;
     while (end < edges.size() && edges[end].line == edges[first].line && edges[end].low < high) {
       high = std::max(high, edges[end++].high);
     }
-    if (end - first > 1) {
-      const Slit slit{std::span(edges).subspan(first, end - first)};
-      if (slit.may_be_closed()) slit.add_splits(slits++, splits);
-    }
+    const auto slit = std::span(edges).subspan(first, end - first);
+    if (slit.size() > 1 && Slit(slit).may_be_closed()) slits.push_back(slit);
     first = end;
   }
+  return slits;
+}
+
+// A sheet that stands on a rim is none: at its corners other edges are open, too.
+void leave_out_rims(const std::vector<OpenEdge>& edges, std::size_t points,
+                    std::vector<std::span<const OpenEdge>>& slits) {
+  if (slits.empty()) return;
+  std::vector<std::uint32_t> others(points, 0);  // open edges at each point that are of no slit
+  for (const OpenEdge& edge : edges) {
+    ++others[edge.at_low.index()];
+    ++others[edge.at_high.index()];
+  }
+  for (const auto& slit : slits) {
+    for (const OpenEdge& edge : slit) {
+      --others[edge.at_low.index()];
+      --others[edge.at_high.index()];
+    }
+  }
+  std::erase_if(slits, [&](const auto& slit) {
+    return std::any_of(slit.begin(), slit.end(), [&](const OpenEdge& edge) {
+      return others[edge.at_low.index()] + others[edge.at_high.index()] > 0;
+    });
+  });
+}
+
+// By sides, and along these.
+std::vector<Split> splits_of(const std::vector<std::span<const OpenEdge>>& slits) {
+  std::vector<Split> splits;
+  for (std::uint32_t i = 0; i < slits.size(); ++i) Slit(slits[i]).add_splits(i, splits);
   std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
     return std::tie(a.at.side, a.at.share) < std::tie(b.at.side, b.at.share);
   });
@@ -179,10 +209,13 @@ class SlitCloser {
   SlitCloser(CleanSoup& soup, ProgressObserver* progress) : soup_(soup), check_(progress) {}
 
   std::size_t run() {
-    std::uint32_t slits = 0;
-    splits_ = find_slit_splits(find_open_edges(soup_), slits);
-    std::vector<char> refused(slits, 0);
-    while (!splits_.empty()) {
+    const std::vector<OpenEdge> edges = find_open_edges(soup_);
+    std::vector<std::span<const OpenEdge>> slits = find_slits(edges);
+    leave_out_rims(edges, soup_.points.size(), slits);
+    splits_ = splits_of(slits);
+    std::vector<char> refused(slits.size(), 0);
+    for (int pass = 0; !splits_.empty(); ++pass) {
+      if (pass == kMostPasses) return 0;
       check_.ask();
       make_pieces();
       if (!refuse_copies(refused)) break;

@@ -117,14 +117,14 @@ void settle_and_simplify(const Surface& original, Simplifier& simplifier,
 
 // What mending in place has left.
 void repair_few_places(Certification& certification, const RepairOptions& options) {
+  if (!options.keep_valid) return;  // cells are to be made
   for (;;) {
     const bool as_they_are = certification.are_few_places();
     if (!as_they_are && !certification.may_snap_places()) return;
-    const Surface& places =
-        as_they_are ? certification.begin_places() : certification.begin_snapped_places();
-    if (std::optional<Surface> again = repair_places(places, options)) {
-      certification.end_places(std::move(*again));
-    }
+    std::optional<Surface> again =
+        as_they_are ? repair_places(certification.begin_places(), options)
+                    : repair_places(certification.begin_snapped_places(), options);
+    if (again) certification.end_places(std::move(*again));
   }
 }
 

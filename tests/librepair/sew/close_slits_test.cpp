@@ -113,6 +113,26 @@ TEST(CloseSlits, LeavesThoseThatArePartOfAHole) {
   EXPECT_EQ(topology_of(clean).open_edges, before.open_edges);
 }
 
+// A sheet stands on the rim of an open box, with a corner in the middle of an edge.
+TEST(CloseSlits, LeavesSheetsOnARim) {
+  TriangleSoup soup = cube();
+  const auto [a, b, c] = soup.triangles[0];
+  std::erase_if(soup.triangles, [&, from = a, to = b, apex = c](const auto& t) {
+    const auto has = [&](std::uint32_t p) { return std::count(t.begin(), t.end(), p) > 0; };
+    return has(from) && has(to) && !has(apex);
+  });
+  const Vec3d up(1, 2, 4);
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  soup.points.emplace_back((soup.points[a] + soup.points[b]) / 2);
+  soup.points.emplace_back(soup.points[a] + up);
+  soup.points.emplace_back(soup.points[b] + up);
+  soup.triangles.push_back({b, first, first + 2});
+  soup.triangles.push_back({first, a, first + 1});
+  soup.triangles.push_back({first, first + 1, first + 2});
+  CleanSoup clean = cleaned(soup);
+  EXPECT_EQ(close_slits(clean), 0u);
+}
+
 // One of the pieces is there already, as a fin.
 TEST(CloseSlits, MakesNoTriangleTwice) {
   TriangleSoup soup = cube();
