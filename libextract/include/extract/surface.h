@@ -26,9 +26,11 @@ struct Surface {
 // Those with a flag, one for each, and the points that they have, all in their order.
 void keep_triangles(Surface& surface, const std::vector<char>& keep);
 
-// The triangles of each group, and the points that they have, all in their order; not those whose
-// group is kNoGroup. No two groups have a point in common.
+// Of a triangle that is in no group.
 inline constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
+
+// The triangles of each group, and the points that they have, all in their order. No two groups
+// have a point in common.
 [[nodiscard]] std::vector<Surface> divide_surface(const Surface& surface, const MeshParts& groups);
 
 // The triangles and points of another one behind those that are there.

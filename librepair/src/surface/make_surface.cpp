@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -146,18 +147,27 @@ class SurfaceMaker {
   Surface surface_;             // the best so far
 };
 
-// Certified as it was asked for, or nothing. Does it give up soon?
-std::optional<Surface> finish_attempt(const CleanSoup& soup, Surface surface,
-                                      const RepairOptions& options, bool gives_up,
-                                      RepairReport attempt, RepairReport& report,
-                                      StageMeter& meter) {
+// A way to make the surface without all cells. It may give up soon, as others follow.
+struct Shortcut {
+  const char* state;  // of a run that can be resumed
+  bool gives_up;
+  std::function<std::optional<Surface>(RepairReport&)> make;
+};
+
+std::optional<Surface> by_shortcut(const Shortcut& way, const CleanSoup& soup,
+                                   const RepairOptions& options, SavedStates& states,
+                                   RepairReport& report, StageMeter& meter) {
+  RepairReport attempt = report;
+  std::optional<Surface> surface = made_once(states, way.state, attempt, report.stages, meter,
+                                             [&] { return way.make(attempt); });
+  if (!surface) return std::nullopt;
   RepairOptions finishing = options;
   finishing.examine = nullptr;
-  if (gives_up) {
+  if (way.gives_up) {
     finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kRoundsBeforeCells);
-    finishing.certify.most_pairs_at_first = pairs_by_chance(surface.mesh.triangles.size());
+    finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
   }
-  surface = finish_surface(soup, std::move(surface), finishing, attempt, meter);
+  surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
   if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
   attempt.stages = std::move(report.stages);
   report = std::move(attempt);
@@ -187,27 +197,21 @@ Surface surface_by_cells(CleanSoup soup, const Orientation& orientation,
 std::optional<Surface> surface_by_chambers(const CleanSoup& soup, const Orientation& orientation,
                                            const RepairOptions& options, SavedStates& states,
                                            RepairReport& report, StageMeter& meter) {
-  RepairReport attempt = report;
-  std::optional<Surface> surface =
-      made_once(states, kChambersState, attempt, report.stages, meter,
-                [&] { return surface_of_chambers(soup, orientation, options, attempt, meter); });
-  if (!surface) return std::nullopt;
+  const auto make = [&](RepairReport& attempt) {
+    return surface_of_chambers(soup, orientation, options, attempt, meter);
+  };
   // In single precision cells fill slits.
   const bool gives_up = options.certify.precision == Precision::float32;
-  return finish_attempt(soup, std::move(*surface), options, gives_up, std::move(attempt), report,
-                        meter);
+  return by_shortcut({kChambersState, gives_up, make}, soup, options, states, report, meter);
 }
 
 std::optional<Surface> surface_around_tangles(const CleanSoup& soup, const Orientation& orientation,
                                               const RepairOptions& options, SavedStates& states,
                                               RepairReport& report, StageMeter& meter) {
-  RepairReport attempt = report;
-  std::optional<Surface> surface =
-      made_once(states, kTanglesState, attempt, report.stages, meter,
-                [&] { return cut_tangles(soup, orientation, options, attempt, meter); });
-  if (!surface) return std::nullopt;
-  return finish_attempt(soup, std::move(*surface), options, true, std::move(attempt), report,
-                        meter);
+  const auto make = [&](RepairReport& attempt) {
+    return cut_tangles(soup, orientation, options, attempt, meter);
+  };
+  return by_shortcut({kTanglesState, true, make}, soup, options, states, report, meter);
 }
 
 }  // namespace meshrepair::internal

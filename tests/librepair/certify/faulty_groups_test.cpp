@@ -78,8 +78,10 @@ TEST(TrianglesAtFault, AreThoseOfAllKindsOfFaults) {
   for (const std::uint32_t t : triangles_at_fault(soup, found, false)) is_listed[t] = 1;
   EXPECT_EQ(is_listed[flat], 1);
   EXPECT_EQ(is_listed[flat + 1], 0);
-  for (const auto& pair : found.pairs)
-    EXPECT_TRUE(is_listed[pair[0]] == 1 && is_listed[pair[1]] == 1);
+  for (const auto& pair : found.pairs) {
+    EXPECT_EQ(is_listed[pair[0]], 1);
+    EXPECT_EQ(is_listed[pair[1]], 1);
+  }
   for (const std::uint32_t t : triangles_at_fault(soup, found, true)) is_listed[t] = 1;
   EXPECT_EQ(is_listed[flat + 1], 1);
 }
