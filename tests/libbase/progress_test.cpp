@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <base/error.h>
@@ -32,6 +34,32 @@ TEST(CancelCheck, NeedsNoObserver) {
   EXPECT_NO_THROW({
     for (int i = 0; i < 10000; ++i) check.tick();
   });
+}
+
+class Shares : public ProgressObserver {
+ public:
+  void advance(double share) override { shares.push_back(share); }
+  std::vector<double> shares;
+};
+
+TEST(HalvedStage, LeavesHalfOfTheRestToNextSteps) {
+  Shares told;
+  HalvedStage stage(&told);
+  stage.begin_step();
+  stage.advance(0.5);
+  stage.advance(1);
+  stage.advance(0.25);  // begins anew within the step
+  stage.begin_step();
+  stage.advance(0);
+  stage.advance(1);
+  EXPECT_EQ(told.shares, (std::vector{0.25, 0.5, 0.75}));
+}
+
+TEST(HalvedStage, PassesOnThatItIsToEnd) {
+  Canceller canceller;
+  EXPECT_TRUE(HalvedStage(&canceller).cancelled());
+  EXPECT_FALSE(HalvedStage(nullptr).cancelled());
+  EXPECT_NO_THROW(HalvedStage(nullptr).advance(1));
 }
 
 }  // namespace

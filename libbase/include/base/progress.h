@@ -52,6 +52,31 @@ class PartOfStage : public ProgressObserver {
   double from_, to_;
 };
 
+// For work in steps whose number is not known: each is half of what is left of the observer's
+// stage.
+class HalvedStage : public ProgressObserver {
+ public:
+  // `observer` may be null.
+  explicit HalvedStage(ProgressObserver* observer) : observer_(observer) {}
+  // The next step. Of what a step tells, only what is more than before is passed on.
+  void begin_step() {
+    from_ = to_;
+    to_ = (from_ + 1) / 2;
+  }
+  void advance(double share) override {
+    const double at = from_ + share * (to_ - from_);
+    if (observer_ == nullptr || at <= at_) return;
+    at_ = at;
+    observer_->advance(at);
+  }
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  ProgressObserver* observer_;
+  double from_ = 0, to_ = 0;  // of the step
+  double at_ = 0;
+};
+
 // For loops whose turns are too short to ask in each: asks in one of a thousand.
 class CancelCheck {
  public:

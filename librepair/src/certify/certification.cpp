@@ -128,7 +128,7 @@ Certification::Certification(Surface surface, const Grid& grid, const CertifyOpt
       options_(options),
       progress_(progress),
       report_(report),
-      known_(kPairsToMend, progress) {
+      known_(kPairsToMend, &progress_) {
   report_ = {};
   spacing_ = number_spacing(surface.mesh, options.precision);
   step_ = options.precision == Precision::float32 ? std::max(grid.unit, spacing_) : grid.unit;
@@ -186,6 +186,7 @@ std::vector<Surface> Certification::take_faulty_groups() {
   const PartGroups groups = groups_apart(best_.surface.mesh);
   if (at_fault.empty() || groups.size() < 2) return {};
   current_ = {};
+  progress_.begin_step();
   return take_groups(best_.surface, groups, at_fault);
 }
 
@@ -284,6 +285,7 @@ Surface Certification::result() {
 
 // `before`: where the points were before they were moved, if not just before rounding.
 void Certification::test(Attempt& attempt, std::vector<Vec3d> before) {
+  progress_.begin_step();
   if (before.empty()) before = attempt.surface.mesh.points;
   round_points(attempt.surface.mesh, options_.precision);
   attempt.dropped_parts += meshrepair::internal::drop_turned_parts(attempt.surface, before);
@@ -297,11 +299,11 @@ void Certification::test(Attempt& attempt, std::vector<Vec3d> before) {
   attempt.joined = options_.welded ? count_copies(attempt.surface.mesh) : 0;
 }
 
-void Certification::drop_inside_out(Attempt& attempt) const {
+void Certification::drop_inside_out(Attempt& attempt) {
   attempt.inside_out_parts = 0;
   if (attempt.found.count + attempt.found.degenerate > 0) return;
   const auto parts =
-      meshrepair::internal::drop_inside_out_parts(attempt.surface, reach(), progress_);
+      meshrepair::internal::drop_inside_out_parts(attempt.surface, reach(), &progress_);
   attempt.inside_out_parts = parts.left;
   attempt.dropped_parts += parts.dropped;
 }
@@ -337,7 +339,7 @@ void Certification::improve(Attempt moved) {
 void Certification::move_points(Attempt& attempt) {
   if (attempt.joined > 0) separate(attempt);
   if (attempt.found.count + attempt.found.degenerate == 0) return;
-  nudge_points(attempt.surface, attempt.found, options_.precision, progress_);
+  nudge_points(attempt.surface, attempt.found, options_.precision, &progress_);
   test(attempt);
 }
 
@@ -348,7 +350,7 @@ bool Certification::mend_places(Attempt& attempt) {
   options.step = spacing_;
   options.reach = std::max(step_, kMendSteps * spacing_);
   options.rounded = [&](const Vec3d& p) { return rounded_to(p, options_.precision); };
-  options.progress = progress_;
+  options.progress = &progress_;
   Attempt mended = attempt;
   if (mend_faults(mended.surface, mended.found, options) == 0) return false;
   test(mended);
@@ -360,7 +362,7 @@ bool Certification::mend_places(Attempt& attempt) {
 
 void Certification::separate(Attempt& attempt) {
   Attempt apart = attempt;
-  separate_copies(apart.surface.mesh, spacing_, options_.precision, options_.touching, progress_);
+  separate_copies(apart.surface.mesh, spacing_, options_.precision, options_.touching, &progress_);
   forget_moved_points(apart.surface, attempt.surface.mesh.points);
   test(apart, attempt.surface.mesh.points);
   if (apart.faults() < attempt.faults()) attempt = std::move(apart);

@@ -49,6 +49,8 @@ class Certification {
   // the rest of this is about what the groups have to do with each other. None if all of the
   // surface is one group.
   [[nodiscard]] std::vector<Surface> take_faulty_groups();
+  // Of the work on all groups.
+  [[nodiscard]] ProgressObserver* groups_progress() { return &progress_; }
   // `group` is of no use afterwards.
   void give_back(Certification& group);
   void end_groups();
@@ -88,7 +90,7 @@ class Certification {
 
   // `before`: where the points were before they were moved, if not just before rounding.
   void test(Attempt& attempt, std::vector<Vec3d> before = {});
-  void drop_inside_out(Attempt& attempt) const;
+  void drop_inside_out(Attempt& attempt);
   std::size_t drop_thin_at_fault(Attempt& attempt) const;
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool may_move_points() const;
@@ -103,7 +105,7 @@ class Certification {
 
   const Grid& grid_;
   const CertifyOptions& options_;
-  ProgressObserver* progress_;
+  HalvedStage progress_;
   CertifyReport& report_;
   KnownIntersections known_;
   double spacing_ = 0;  // of the numbers that can be written

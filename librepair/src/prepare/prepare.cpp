@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include <base/error.h>
 #include <mesh/topology.h>
 #include <repair/close_slits.h>
 #include <repair/hole_patches.h>
 
+#include "drop_cancelled.h"
 #include "open/open_sheets.h"
 
 namespace meshrepair::internal {
@@ -50,13 +52,9 @@ CleanSoup clean_sewn(const SewnSoup& sewn, const RepairOptions& options, RepairR
   return clean;
 }
 
-}  // namespace
-
-CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
-                     StageMeter& meter) {
-  meter.begin("clean");
+CleanSoup close_clean(CleanSoup clean, const TriangleSoup& soup, const RepairOptions& options,
+                      RepairReport& report, StageMeter& meter) {
   report.sew = {};
-  CleanSoup clean = clean_soup(soup, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
   if (report.input.open_edges > 0 && options.sew.mode != SewMode::none) {
     meter.begin("sew");
@@ -86,6 +84,23 @@ CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, Rep
     report.holes.slits += slits;
   }
   return clean;
+}
+
+}  // namespace
+
+CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report,
+                     StageMeter& meter) {
+  meter.begin("clean");
+  CleanSoup clean = clean_soup(soup, report.clean, options.progress);
+  return close_clean(std::move(clean), soup, options, report, meter);
+}
+
+CleanSoup close_surface(const TriangleSoup& mesh, const RepairOptions& options,
+                        RepairReport& report, StageMeter& meter) {
+  meter.begin("clean");
+  CleanSoup clean = clean_soup(mesh, report.clean, options.progress);
+  drop_cancelled(clean);
+  return close_clean(std::move(clean), mesh, options, report, meter);
 }
 
 Orientation orient_soup(const CleanSoup& soup, const RepairOptions& options, RepairReport& report,

@@ -14,6 +14,11 @@ namespace meshrepair::internal {
 [[nodiscard]] CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options,
                                    RepairReport& report, StageMeter& meter);
 
+// The same of a surface that is closed and turned rightly already: what of it cancels out on the
+// grid makes no holes.
+[[nodiscard]] CleanSoup close_surface(const TriangleSoup& mesh, const RepairOptions& options,
+                                      RepairReport& report, StageMeter& meter);
+
 // The parts of the soup: oriented for `automatic`, else as they are connected through edges, which
 // does not depend on how their triangles are turned. Throws NoSolidError where all triangles lie in
 // one plane, which is worth asking first: overlaps in one plane fall into very many pieces.

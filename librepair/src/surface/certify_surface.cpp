@@ -1,5 +1,6 @@
 #include "certify_surface.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <base/progress.h>
 #include <base/stage_meter.h>
 
 #include "certify/certification.h"
@@ -58,7 +60,7 @@ class RepairAgain {
         options_(options_of_again(options, quiet_)),
         meter_(report_.stages, &quiet_) {
     options_.reach = reach_of_triangles(surface, options.reach);
-    clean_ = close_soup(surface.mesh, options_, report_, meter_);
+    clean_ = close_surface(surface.mesh, options_, report_, meter_);
     orientation_ = orient_soup(clean_, options_, report_, meter_);
   }
 
@@ -144,10 +146,16 @@ void repair_groups(Certification& whole, const Grid& grid, const CertifyOptions&
                    const RepairOptions& options) {
   std::vector<Surface> groups = whole.take_faulty_groups();
   if (groups.empty()) return;
-  CancelOnly quiet(options.progress);
+  std::size_t triangles = 0;
+  for (const Surface& group : groups) triangles += group.mesh.triangles.size();
+  double from = 0;
   for (Surface& group : groups) {
+    const double to =
+        from + static_cast<double>(group.mesh.triangles.size()) / static_cast<double>(triangles);
+    PartOfStage part(whole.groups_progress(), from, to);
+    from = to;
     CertifyReport report;
-    Certification one(std::move(group), grid, certify, &quiet, report);
+    Certification one(std::move(group), grid, certify, &part, report);
     repair_few_places(one, options);
     if (one.may_go_on()) one.mend_in_place();
     repair_in_rounds(one, options);

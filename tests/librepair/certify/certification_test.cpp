@@ -1,6 +1,9 @@
 #include "certify/certification.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -358,6 +361,31 @@ TEST(Certify, TakesNoRoundsWhereEachGroupHasFewPlaces) {
   EXPECT_GT(result.report.certify.pairs_at_first, 0u);
   EXPECT_TRUE(result.report.certify.passed());
   EXPECT_EQ(result.report.certify.rounds, 0u);
+}
+
+// Shares of the stage that certifies.
+class SharesOfCertify : public ProgressObserver {
+ public:
+  void stage(std::string_view name) override { is_certify_ = name == "certify"; }
+  void advance(double share) override {
+    if (is_certify_) shares.push_back(share);
+  }
+  std::vector<double> shares;
+
+ private:
+  bool is_certify_ = false;
+};
+
+TEST(Certify, TellsOfEachGroupHowFarItIs) {
+  SharesOfCertify observer;
+  RepairOptions options;
+  options.certify.precision = Precision::float32;
+  options.progress = &observer;
+  ASSERT_TRUE(repair(many_crossing_cubes(), options).report.certify.passed());
+  const std::vector<double>& shares = observer.shares;
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GT(shares.size(), 512u);
+  EXPECT_LT(shares.back(), 1);
 }
 
 // In a shell they are one group, and all is repaired again.
