@@ -22,20 +22,6 @@ constexpr std::size_t kMostSamples = 50'000;
 // Sums of areas of pieces are exact to some 1e-13; what lacks a millionth was cut off.
 constexpr double kMissingShare = 1e-6;
 
-// Shows two measurements as the halves of one stage.
-class HalfStage : public ProgressObserver {
- public:
-  HalfStage(ProgressObserver* observer, double begin) : observer_(observer), begin_(begin) {}
-  void advance(double share) override {
-    if (observer_ != nullptr) observer_->advance(begin_ + 0.5 * share);
-  }
-  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
-
- private:
-  ProgressObserver* observer_;
-  double begin_;
-};
-
 struct Triangle3d {
   Vec3d a, b, c;
   [[nodiscard]] double area() const { return internal::triangle_area(a, b, c); }
@@ -81,7 +67,7 @@ std::vector<std::uint32_t> find_pieces(const TriangleSoup& input, const Surface&
 OneSidedDistance measure(const TriangleSoup& from, const TriangleSoup& to,
                          std::span<const std::uint32_t> twins, ProgressObserver* progress,
                          double begin) {
-  HalfStage half(progress, begin);
+  PartOfStage half(progress, begin, begin + 0.5);
   DistanceOptions options;
   options.samples = fidelity_samples(from.triangles.size());
   options.progress = &half;

@@ -16,10 +16,11 @@ namespace {
 
 using namespace testing;
 
-// Two triangles, turned against each other, at an edge and a point of their own.
+// Two triangles, turned against each other, at an edge of the last triangle and a point of their
+// own.
 void append_fin(const Vec3d& tip, TriangleSoup& soup) {
   const auto point = static_cast<std::uint32_t>(soup.points.size());
-  const auto [a, b, c] = soup.triangles.front();
+  const auto [a, b, c] = soup.triangles.back();
   soup.points.push_back(tip);
   soup.triangles.insert(soup.triangles.begin() + 5, {a, b, point});
   soup.triangles.push_back({b, a, point});
@@ -71,11 +72,7 @@ TEST(CloseSurface, MakesNoHolesOfFins) {
   TriangleSoup soup = cube();
   append_fin({0.5, -1, 0.25}, soup);
   append(soup, moved(cube(), {50, 0, 0}));
-  const auto edge = soup.triangles.back();
-  soup.points.push_back({50.5, 0.25, 3});
-  const auto tip = static_cast<std::uint32_t>(soup.points.size() - 1);
-  soup.triangles.push_back({edge[0], edge[1], tip});
-  soup.triangles.push_back({edge[1], edge[0], tip});
+  append_fin({50.5, 0.25, 3}, soup);
   RepairReport report;
   StageMeter meter(report.stages, nullptr);
   const CleanSoup closed = internal::close_surface(soup, {}, report, meter);
