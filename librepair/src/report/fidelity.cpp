@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <base/ids.h>
+#include <base/progress.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <mesh/triangle_measures.h>
