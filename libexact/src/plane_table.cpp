@@ -71,6 +71,7 @@ std::vector<PlaneTable::Interned> PlaneTable::intern(std::vector<Plane> planes) 
   const auto known = static_cast<std::uint32_t>(planes_.size());
   const std::vector<std::uint32_t> first =
       first_known(known, static_cast<std::uint32_t>(planes.size()), PlaneKeys{planes_, planes});
+  planes_.reserve(known + count_fresh(first, known));
   for (std::uint32_t i = 0; i < planes.size(); ++i) {
     if (first[i] != known + i) {
       interned[i].id = first[i] < known ? PlaneId(first[i]) : interned[first[i] - known].id;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <base/hash_index.h>
@@ -44,6 +45,14 @@ std::vector<std::uint32_t> first_known(std::uint32_t known, std::uint32_t fresh,
   });
   for (std::uint32_t& item : first) item = place[item - known];
   return first;
+}
+
+// How many of the new items are not in the list yet, equal ones counted once.
+[[nodiscard]] inline std::size_t count_fresh(std::span<const std::uint32_t> first,
+                                             std::uint32_t known) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) count += first[i] == known + i ? 1 : 0;
+  return count;
 }
 
 }  // namespace meshrepair

@@ -46,7 +46,7 @@ struct CornerRay {
 };
 
 // The triangles that each ray passes, ascending, but for its own, exactly. None of their own is
-// parallel to z. Few rays do without a tree.
+// parallel to z. Each triangle is looked at once; memory is for the rays alone.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> triangles_above(
     const TriangleSoup& soup, std::span<const CornerRay> rays);
 

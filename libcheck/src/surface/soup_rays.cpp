@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
 
+#include <base/parallel.h>
 #include <check/soup_rays.h>
 #include <check/triangle_list.h>
 #include <exact/double_predicates.h>
@@ -16,6 +18,8 @@ namespace {
 
 using internal::RayStart;
 
+constexpr std::size_t kTrianglesPerTask = 16384;
+
 std::vector<Box> boxes_of(const TriangleSoup& soup) {
   std::vector<Box> boxes;
   boxes.reserve(soup.triangles.size());
@@ -23,6 +27,35 @@ std::vector<Box> boxes_of(const TriangleSoup& soup) {
     boxes.push_back(internal::box_of(soup, t));
   }
   return boxes;
+}
+
+// Each is its corner alone.
+std::vector<Box> boxes_of(std::span<const RayStart> starts) {
+  std::vector<Box> boxes(starts.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].add(starts[i].corner);
+  return boxes;
+}
+
+std::vector<RayStart> starts_of(const TriangleSoup& soup, std::span<const CornerRay> rays) {
+  std::vector<RayStart> starts;
+  starts.reserve(rays.size());
+  for (const CornerRay& ray : rays) {
+    IndexTriangle corners = soup.triangles[ray.triangle];
+    std::rotate(corners.begin(), corners.begin() + ray.corner, corners.end());
+    starts.push_back(RayStart::in(soup, corners));
+  }
+  return starts;
+}
+
+struct Passage {
+  std::uint32_t ray = 0, triangle = 0;
+};
+
+// Of a tree of starts, calls visit(item) for all whose rays may reach the box.
+template <class Visit>
+void visit_below(const BoxTree& tree, Box box, Visit visit) {
+  box.low[2] = -std::numeric_limits<double>::infinity();
+  tree.visit([&](const Box& starts) { return starts.meets(box); }, visit);
 }
 
 // A segment against boxes: says no only if they do not meet.
@@ -128,29 +161,27 @@ bool SoupRays::sees(const Vec3d& from, const Vec3d& to, std::uint32_t but) const
 
 std::vector<std::vector<std::uint32_t>> triangles_above(const TriangleSoup& soup,
                                                         std::span<const CornerRay> rays) {
-  constexpr std::size_t kFew = 12;  // so often all are looked at sooner than a tree is built
-  std::optional<BoxTree> tree;
-  if (rays.size() > kFew) tree.emplace(boxes_of(soup));
-  std::vector<std::vector<std::uint32_t>> above;
-  above.reserve(rays.size());
-  for (const CornerRay& ray : rays) {
-    IndexTriangle corners = soup.triangles[ray.triangle];
-    std::rotate(corners.begin(), corners.begin() + ray.corner, corners.end());
-    const RayStart start = RayStart::in(soup, corners);
-    std::vector<std::uint32_t>& passed = above.emplace_back();
-    const auto look_at = [&](std::uint32_t t) {
+  const std::vector<RayStart> starts = starts_of(soup, rays);
+  const BoxTree tree(boxes_of(starts));
+  const auto pass = [&](std::size_t first, std::size_t last) {
+    std::vector<Passage> passages;
+    for (std::size_t i = first; i < last; ++i) {
+      const auto t = static_cast<std::uint32_t>(i);
       const auto& c = soup.triangles[t];
       const Vec3d &p = soup.points[c[0]], &q = soup.points[c[1]], &r = soup.points[c[2]];
-      if (t == ray.triangle || !internal::may_reach(start.corner, p, q, r)) return;
-      if (internal::passed_upward(p, q, r, start) != 0) passed.push_back(t);
-    };
-    if (tree) {
-      internal::visit_column(*tree, start.corner, look_at);
-      std::sort(passed.begin(), passed.end());
-    } else {
-      for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) look_at(t);
+      visit_below(tree, internal::box_of(soup, t), [&](std::uint32_t ray) {
+        const RayStart& start = starts[ray];
+        if (t == rays[ray].triangle || !internal::may_reach(start.corner, p, q, r)) return;
+        if (internal::passed_upward(p, q, r, start) != 0) passages.push_back({ray, t});
+      });
     }
-  }
+    return passages;
+  };
+  std::vector<std::vector<std::uint32_t>> above(rays.size());
+  parallel_reduce(soup.triangles.size(), kTrianglesPerTask, pass,
+                  [&](std::vector<Passage>& /*all*/, const std::vector<Passage>& passages) {
+                    for (const Passage& p : passages) above[p.ray].push_back(p.triangle);
+                  });
   return above;
 }
 

@@ -108,6 +108,7 @@ class HolePatcher {
     if (!rings_.empty()) judge_openings();
     curve();
     add_points_of_curved();
+    make_room();
     for (std::size_t l = 0; l < patches_.size(); ++l) close_hole(l);
     find_planes();
     drop_copies();
@@ -305,6 +306,16 @@ class HolePatcher {
       for (std::size_t i = rims_[l].size(); i < points.size(); ++i) places.push_back(points[i]);
     }
     new_points_ = internal::add_points(soup_, places);
+  }
+
+  // For what is added at most: growing step by step would take room for half of the soup again.
+  void make_room() {
+    std::size_t added = 0;
+    for (std::size_t l = 0; l < patches_.size(); ++l) {
+      if (closed_[l] != 0) continue;
+      added += curved_[l] ? curved_[l]->triangles.size() : patches_[l].triangles.size();
+    }
+    soup_.triangles.reserve(soup_.triangles.size() + added);
   }
 
   void close_hole(std::size_t loop) {

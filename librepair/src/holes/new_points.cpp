@@ -38,6 +38,9 @@ std::vector<PointId> add_points(CleanSoup& soup, const std::vector<Vec3d>& place
   const auto known = static_cast<std::uint32_t>(soup.grid_points.size());
   const std::vector<std::uint32_t> first = first_known(
       known, static_cast<std::uint32_t>(fresh.size()), PointKeys{soup.grid_points, fresh});
+  const std::size_t all = known + count_fresh(first, known);
+  soup.grid_points.reserve(all);
+  soup.points.reserve(all);
   std::vector<PointId> ids(fresh.size());
   for (std::uint32_t i = 0; i < ids.size(); ++i) {
     if (first[i] != known + i) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -65,6 +66,49 @@ TEST(SoupRays, KnowsWhatIsAboveATriangle) {
     EXPECT_EQ(*above, (inner ? 1 : 0) + (rays.facing(t) > 0 ? 0 : 1));
   }
   EXPECT_GT(asked, soup.triangles.size() / 2);
+}
+
+// Of the rays from the first corners of all triangles that are not upright.
+std::vector<CornerRay> rays_of_first_corners(const TriangleSoup& soup, const SoupRays& rays) {
+  std::vector<CornerRay> first;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    if (rays.facing(t) != 0) first.push_back({t, 0});
+  }
+  return first;
+}
+
+void expect_above_tells_winding(const TriangleSoup& soup) {
+  const std::vector<std::int32_t> winding = once(soup);
+  const SoupRays rays(soup, winding);
+  const std::vector<CornerRay> asked = rays_of_first_corners(soup, rays);
+  const auto above = triangles_above(soup, asked);
+  ASSERT_EQ(above.size(), asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    std::int32_t sum = 0;
+    for (const std::uint32_t t : above[i]) sum += rays.facing(t);
+    EXPECT_EQ(sum, rays.winding_above(asked[i].triangle)) << "ray " << i;
+    EXPECT_TRUE(std::is_sorted(above[i].begin(), above[i].end()));
+    EXPECT_EQ(std::count(above[i].begin(), above[i].end(), asked[i].triangle), 0);
+  }
+}
+
+TEST(TrianglesAbove, AreThoseThatTellTheWinding) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_above_tells_winding(random_soup(10 + 3 * seed, seed % 2 == 0 ? 4 : 1 << 12, seed));
+  }
+  expect_above_tells_winding(sphere(50'000, 2));  // by several threads
+}
+
+// Each corner has its own ray, beside the other ones of its triangle.
+TEST(TrianglesAbove, AreOfTheCornerThatIsAskedFor) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {5, -1, 1}, {9, -1, 1}, {9, 3, 1}};
+  soup.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const std::vector<CornerRay> asked = {{0, 0}, {0, 1}, {0, 2}, {1, 0}};
+  const std::vector<std::vector<std::uint32_t>> expected = {{}, {1}, {}, {}};
+  EXPECT_EQ(triangles_above(soup, asked), expected);
+  EXPECT_TRUE(triangles_above(soup, {}).empty());
 }
 
 TEST(SoupRays, SeesOnlyWhatIsCertainlyFree) {
