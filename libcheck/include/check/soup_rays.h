@@ -46,7 +46,8 @@ struct CornerRay {
 };
 
 // The triangles that each ray passes, ascending, but for its own, exactly. None of their own is
-// parallel to z. Each triangle is looked at once; memory is for the rays alone.
+// parallel to z. Each of the n triangles is looked at once, against a tree of the r rays: n log r,
+// and memory for the rays and the result alone.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> triangles_above(
     const TriangleSoup& soup, std::span<const CornerRay> rays);
 

@@ -312,7 +312,7 @@ class HolePatcher {
   void make_room() {
     std::size_t added = 0;
     for (std::size_t l = 0; l < patches_.size(); ++l) {
-      if (closed_[l] != 0) continue;
+      if (closed_[l] != 0 || !is_patched(l)) continue;
       added += curved_[l] ? curved_[l]->triangles.size() : patches_[l].triangles.size();
     }
     soup_.triangles.reserve(soup_.triangles.size() + added);
