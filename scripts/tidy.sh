@@ -6,9 +6,8 @@ usage() {
   cat <<TEXT
 Usage: scripts/tidy.sh [--all]
 
-Runs clang-tidy on the libraries and programs. They are looked at a dozen sources at a time, as the build under
-sanitizers joins them, for most of the time goes into headers that all have in common. Left out is the one
-check that takes as long as all others together.
+Runs clang-tidy on the libraries and programs. They are looked at 40 sources at a time, joined into one, for most of the time
+goes into headers that all have in common. Left out is the one check that takes as long as all others together.
 
   --all   all checks and clang's static analyzer, on each source alone: samples and benchmarks, too, but for those that
           need other libraries; takes about an hour. The tests' macros cost more time than they find.
@@ -34,9 +33,9 @@ if [ "$all" = yes ]; then
   cmake --preset asan-ubsan -B "$folder" -DCMAKE_UNITY_BUILD=OFF -DMESHREPAIR_PRECOMPILE=OFF \
     -DMESHREPAIR_BUILD_BENCH=ON -DMESHREPAIR_BUILD_SAMPLES=ON >/dev/null
 else
-  folder=build/asan-ubsan
+  folder=build/tidy-joined
   checks+=,-performance-unnecessary-value-param
-  cmake --preset asan-ubsan >/dev/null
+  cmake --preset asan-ubsan -B "$folder" -DCMAKE_UNITY_BUILD_BATCH_SIZE=40 -DMESHREPAIR_BUILD_TESTS=OFF >/dev/null
   # The headers that are compiled before all others have to be there.
   cmake --build "$folder" --target meshrepair_precompiled_common meshrepair_precompiled_apps >/dev/null
 fi

@@ -23,14 +23,15 @@ constexpr std::size_t kLongestAnswer = 4096;
 // is, which all of them answer, and after the first answer.
 constexpr std::string_view kQuestion = "\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[c";
 constexpr std::string_view kKittyAnswer = "\x1b_Gi=31;OK";
-constexpr std::string_view kAttributes = "\x1b[?";  // of the terminal, up to "c": "\x1b[?62;4;22c"
+constexpr std::string_view kTerminalAttributes =
+    "\x1b[?";  // of the terminal, up to "c": "\x1b[?62;4;22c"
 constexpr std::string_view kSixelAttribute = "4";
 
 // The list between "\x1b[?" and "c"; empty: it has not come.
 std::string_view attributes_in(std::string_view answer) {
-  const std::size_t begin = answer.find(kAttributes);
+  const std::size_t begin = answer.find(kTerminalAttributes);
   if (begin == std::string_view::npos) return {};
-  const std::string_view rest = answer.substr(begin + kAttributes.size());
+  const std::string_view rest = answer.substr(begin + kTerminalAttributes.size());
   const std::size_t end = rest.find('c');
   return end == std::string_view::npos ? std::string_view() : rest.substr(0, end);
 }

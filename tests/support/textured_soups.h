@@ -14,12 +14,11 @@
 #include <mesh/float32.h>
 #include <mesh/soup.h>
 
+#include "textured.h"
+
 namespace meshrepair {
 
-struct TexturedSoup {
-  TriangleSoup soup;
-  Attributes attributes;
-};
+using testing::TexturedSoup;
 
 inline CornerAttribute random_attribute(CornerAttribute::Kind kind, std::size_t components,
                                         std::size_t corners, std::mt19937& random) {

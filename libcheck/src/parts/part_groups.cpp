@@ -31,7 +31,7 @@ std::vector<Box> boxes_of(const TriangleSoup& soup, const MeshParts& parts) {
   return boxes;
 }
 
-double diagonal_of(const Box& box) {
+double length_across(const Box& box) {
   const double across = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
   return std::hypot(across, box.high[2] - box.low[2]);  // three at a time make NaN of infinity
 }
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> lowest_of_group(const std::vector<Box>& boxes, double
     lowest[p] = p;
     if (is_empty(boxes[p])) continue;
     part.push_back(p);
-    wide.push_back(widened(boxes[p], margin * diagonal_of(boxes[p])));
+    wide.push_back(widened(boxes[p], margin * length_across(boxes[p])));
   }
   const std::vector<std::uint32_t> connected = lowest_connected(wide);
   for (std::size_t i = 0; i < part.size(); ++i) lowest[part[i]] = part[connected[i]];

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <base/hash_index.h>
+#include <base/ids.h>
 #include <mesh/cluster_points.h>
 
 namespace meshrepair {
@@ -15,7 +16,6 @@ namespace {
 using internal::hash_mix;
 using internal::HashIndex;
 
-constexpr std::uint32_t kNone = HashIndex::kNone;
 constexpr double kMostCells = 1 << 20;  // along a side
 constexpr int kTries = 5;
 constexpr double kFullEnough = 0.8;  // of what is allowed: no smaller cells are tried

@@ -4,6 +4,7 @@
 #include <base/assert.h>
 #include <base/error.h>
 #include <base/first_equal.h>
+#include <mesh/mesh_limits.h>
 #include <mesh/weld_points.h>
 
 namespace meshrepair {
@@ -12,8 +13,7 @@ namespace {
 using internal::hash_mix;
 using internal::HashIndex;
 
-// Every position must stay below HashIndex::kNone.
-constexpr std::size_t kMostPoints = HashIndex::kNone - 1;
+static_assert(kMostPoints <= HashIndex::kNone);  // which every position is below
 
 std::uint64_t hash(const Vec3d& point) {
   std::uint64_t h = hash_mix(0, std::bit_cast<std::uint64_t>(point.x()));

@@ -81,7 +81,7 @@ constexpr std::uint32_t kOrderlyTries = 6;
 constexpr std::uint32_t kEitherWayTries = 18;
 constexpr std::uint32_t kCopyTries = 30;
 // Beyond this there are too many faults for chance to be a remedy.
-constexpr std::size_t kMostNear = 20'000;
+constexpr std::size_t kMostTrianglesNear = 20'000;
 
 // How far and where to for try k.
 Vec3d move_of(const Vec3d& way_out, std::uint32_t point, std::uint32_t k) {
@@ -133,7 +133,7 @@ void separate_copies(TriangleSoup& mesh, double spacing, Precision precision, To
   }
   keep_those_at_fault(mesh, copies, group, progress);
   PointMover mover(mesh, copies, group, kCopyReach * spacing, progress);
-  const std::uint32_t tries = mover.triangles() <= kMostNear ? kCopyTries : kOrderlyTries;
+  const std::uint32_t tries = mover.triangles() <= kMostTrianglesNear ? kCopyTries : kOrderlyTries;
   for (std::uint32_t k = 1; k < tries && mover.faults() > 0; ++k) {
     mover.try_moves([&](std::size_t i) { return moved(copies[i], k); });
   }

@@ -11,8 +11,8 @@ namespace meshrepair::internal {
 namespace {
 
 std::int32_t nearest_step(double x) {
-  constexpr double kReach = kGridRadius;
-  return static_cast<std::int32_t>(std::clamp(std::nearbyint(x), -kReach, kReach));
+  constexpr double kRadius = kGridRadius;
+  return static_cast<std::int32_t>(std::clamp(std::nearbyint(x), -kRadius, kRadius));
 }
 
 // The points of a soup, and behind them those that may be new.

@@ -18,7 +18,7 @@ constexpr double kRounding = 1e-14;
 
 // Whether more than this lies between the two, along the normal of one of them. Any direction would
 // do for that, so it may be rounded.
-bool are_apart(const CornerTriangle& a, const CornerTriangle& b, const CornerTriangle& of,
+bool lie_apart(const CornerTriangle& a, const CornerTriangle& b, const CornerTriangle& of,
                double distance) {
   const Vec3d normal = (of.at[1] - of.at[0]).cross(of.at[2] - of.at[0]).stableNormalized();
   if (!normal.allFinite()) return false;
@@ -96,7 +96,7 @@ void FaultCounter::find_others_near(const std::vector<TriangleCorners>& triangle
     for (const std::uint32_t i : all_others_) {
       if (!reach.meets(others_[i].box)) continue;
       const CornerTriangle& b = others_[i].triangle;
-      if (!are_apart(a, b, a, moved) && !are_apart(a, b, b, moved)) near.push_back(i);
+      if (!lie_apart(a, b, a, moved) && !lie_apart(a, b, b, moved)) near.push_back(i);
     }
   }
 }

@@ -182,7 +182,7 @@ TEST(HeldBy, FormatsDropWhatTheyCannotHold) {
   EXPECT_EQ(held_by(SoupFormat::ply_ascii, all).materials.names.size(), 3u);
 }
 
-constexpr const char* kObj = R"(mtllib lib/cube.mtl
+constexpr const char* kCubeAsObj = R"(mtllib lib/cube.mtl
 o Thing
 v 0 0 0
 v 1 0 0
@@ -205,7 +205,7 @@ f -4//-1 -1//-1 -2//-1
 )";
 
 TEST(ObjAttributes, AreReadAsTheFileSays) {
-  const ReadResult result = parse_with_attributes(kObj);
+  const ReadResult result = parse_with_attributes(kCubeAsObj);
   ASSERT_EQ(result.soup.triangles.size(), 4u);
   const Attributes& attributes = result.attributes;
   ASSERT_EQ(attributes.corners.size(), 3u);

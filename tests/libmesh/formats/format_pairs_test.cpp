@@ -95,7 +95,8 @@ void expect_corners(const ReadResult& made, const TriangleSoup& soup,
   }
 }
 
-using Kinds = std::set<CornerAttribute::Kind>;
+using Kind = CornerAttribute::Kind;
+using Kinds = std::set<Kind>;
 
 void expect_sets(const Attributes& made, const ExpectedMesh& expected, Kinds& compared) {
   for (const ExpectedSet& set : expected.sets) {
@@ -159,7 +160,6 @@ void expect_held(const ReadResult& made, const TriangleSoup& soup, const Attribu
 
 // Those that both formats can hold.
 Kinds kinds_of(SoupFormat first, SoupFormat second) {
-  using Kind = CornerAttribute::Kind;
   Attributes all;
   for (const Kind kind : {Kind::texture, Kind::normal, Kind::tangent, Kind::colour, Kind::other}) {
     all.corners.emplace_back().kind = kind;

@@ -15,18 +15,18 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-ReadResult read_package(const std::string& bytes, bool attributes = false) {
+ReadResult read_bytes(const std::string& bytes, bool attributes = false) {
   ReadOptions options;
   options.attributes = attributes;
   return read_soup(std::string_view(bytes), "a.3mf", options);
 }
 
 TriangleSoup soup_of(const std::string& resources, const std::string& items) {
-  return read_package(package_of(model_of(resources, items))).soup;
+  return read_bytes(package_of(model_of(resources, items))).soup;
 }
 
 TEST(ReadThreemf, ObjectAsItIs) {
-  const ReadResult result = read_package(package_of(model_of(tetrahedron_object(1), item_of(1))));
+  const ReadResult result = read_bytes(package_of(model_of(tetrahedron_object(1), item_of(1))));
   EXPECT_EQ(result.soup.points, tetrahedron().points);
   EXPECT_EQ(result.soup.triangles, tetrahedron().triangles);
   EXPECT_EQ(result.report.format, SoupFormat::threemf);
@@ -83,13 +83,13 @@ TEST(ReadThreemf, WithoutItemsAllObjectsThatAreNoComponents) {
 
 TEST(ReadThreemf, WhatTheBuildDoesNotNameIsLeftOut) {
   const ReadResult result =
-      read_package(package_of(model_of(tetrahedron_object(1) + tetrahedron_object(2), item_of(2))));
+      read_bytes(package_of(model_of(tetrahedron_object(1) + tetrahedron_object(2), item_of(2))));
   EXPECT_EQ(result.soup.triangles.size(), 4u);
   EXPECT_THAT(result.report.warnings, ElementsAre());
 }
 
 TEST(ReadThreemf, SupportsAndOtherObjectsAreLeftOutWithAWarning) {
-  const ReadResult result = read_package(
+  const ReadResult result = read_bytes(
       package_of(model_of(tetrahedron_object(1) + tetrahedron_object(2, "type=\"other\"") +
                               tetrahedron_object(3, "type=\"support\"") +
                               tetrahedron_object(4, "type=\"solidsupport\"") +
@@ -104,7 +104,7 @@ TEST(ReadThreemf, ObjectsInOtherPartsAreFound) {
   const std::string model =
       model_of(assembly_of(2, component_of(1, path)), item_of(2), "requiredextensions=\"p\"");
   const std::string other = model_of(tetrahedron_object(1));
-  const ReadResult result = read_package(package_of(model, {{"3D/Objects/object_1.model", other}}));
+  const ReadResult result = read_bytes(package_of(model, {{"3D/Objects/object_1.model", other}}));
   EXPECT_EQ(result.soup.triangles, tetrahedron().triangles);
   EXPECT_THAT(result.report.warnings, ElementsAre());
 }
@@ -113,7 +113,7 @@ TEST(ReadThreemf, OtherPartsMayHaveOtherUnits) {
   const std::string path = "p:path=\"/3D/b.model\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"";
   const std::string model = model_of("", item_of(1, path), "unit=\"centimeter\"");
   const std::string other = model_of(tetrahedron_object(1), "", "unit=\"meter\"");
-  const ReadResult result = read_package(package_of(model, {{"3D/b.model", other}}));
+  const ReadResult result = read_bytes(package_of(model, {{"3D/b.model", other}}));
   EXPECT_EQ(result.soup.points[0], Vec3d(5, 0, 0));
   EXPECT_EQ(result.soup.points[1], Vec3d(105, 0, 0));
 }
@@ -124,7 +124,7 @@ TEST(ReadThreemf, PartsThatNameEachOtherAreReadOnce) {
   const std::string b =
       model_of(tetrahedron_object(2) + assembly_of(1, component_of(1, path("c"))));
   const std::string c = model_of(assembly_of(1, component_of(2, path("b"))));
-  const ReadResult result = read_package(package_of(model, {{"3D/b.model", b}, {"3D/c.model", c}}));
+  const ReadResult result = read_bytes(package_of(model, {{"3D/b.model", b}, {"3D/c.model", c}}));
   EXPECT_EQ(result.soup.triangles.size(), 4u);
 }
 
@@ -132,7 +132,7 @@ TEST(ReadThreemf, NamesOfPartsMayBeWrittenInOtherWays) {
   const std::string model = model_of(tetrahedron_object(1), item_of(1));
   const std::string relationships =
       replaced(kRelationships, "/3D/3dmodel.model", "3D/./x/../My%20Model.MODEL");
-  EXPECT_EQ(read_package(zip_of({{"_RELS/.rels", relationships}, {"3d\\my model.model", model}}))
+  EXPECT_EQ(read_bytes(zip_of({{"_RELS/.rels", relationships}, {"3d\\my model.model", model}}))
                 .soup.triangles.size(),
             4u);
 }
@@ -142,7 +142,7 @@ TEST(ReadThreemf, NamesOfObjectsAreLabels) {
                                 "<object id=\"3\" name=\"all\"><components>" + component_of(1) +
                                 component_of(2) + "</components></object>";
   const ReadResult result =
-      read_package(package_of(model_of(resources, item_of(3) + item_of(2))), true);
+      read_bytes(package_of(model_of(resources, item_of(3) + item_of(2))), true);
   const TriangleLabels& objects = result.attributes.objects;
   EXPECT_THAT(objects.names, ElementsAre("inner", "all"));
   ASSERT_EQ(objects.of_triangle.size(), 12u);
@@ -156,7 +156,7 @@ TEST(ReadThreemf, MirroredTrianglesTakeTheirPropertiesAlong) {
       "<m:colorgroup id=\"9\"><m:color color=\"#000000\"/><m:color color=\"#FF0000\"/>"
       "<m:color color=\"#00FF00\"/></m:colorgroup>" +
       object_of(1, "<triangle v1=\"0\" v2=\"1\" v3=\"2\" pid=\"9\" p1=\"0\" p2=\"1\" p3=\"2\"/>");
-  const ReadResult result = read_package(
+  const ReadResult result = read_bytes(
       package_of(model_of(resources, item_of(1, "transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\""))), true);
   ASSERT_EQ(result.attributes.corners.size(), 1u);
   EXPECT_EQ(result.soup.triangles[0], (Triangle{0, 2, 1}));
