@@ -167,6 +167,9 @@ std::vector<std::uint32_t> find_triangles(const TriangleSoup& soup, const GridCo
   return all;
 }
 
+// Which of the copies of a triangle count.
+enum class Copies { as_edges_tell, all };
+
 // Each triangle once, with its plane.
 class TriangleCollector {
  public:
@@ -195,7 +198,7 @@ class TriangleCollector {
   }
 
   // Says how those with copies are turned.
-  void finish() {
+  void finish(Copies count) {
     std::vector<internal::CopiedTriangle> copied;
     std::stable_sort(copies_.begin(), copies_.end(),
                      [](const Copy& a, const Copy& b) { return a.of < b.of; });
@@ -208,7 +211,8 @@ class TriangleCollector {
         all += copy->facing;
       }
       const int sum = sum_of_layers();
-      copied.push_back({t, sum > 0 ? 1 : sum < 0 ? -1 : 0, all});
+      const int facing = sum > 0 ? 1 : sum < 0 ? -1 : 0;
+      copied.push_back({t, count == Copies::all ? all : facing, all});
     }
     internal::count_layers(clean_, copied);
   }
@@ -282,6 +286,26 @@ class TriangleCollector {
   std::vector<Layer> layers_;
 };
 
+CleanSoup clean(const TriangleSoup& soup, const Grid& grid, Copies copies, CleanReport& report,
+                ProgressObserver* progress) {
+  CancelCheck check(progress);
+  report = {};
+  report.triangles_in = soup.triangles.size();
+  std::vector<char> finite;
+  const std::vector<char> used = used_points(soup, finite);
+  CleanSoup result;
+  result.grid = grid;
+  report.grid_unit = result.grid.unit;
+  const std::vector<PointId> id_of = join_points(soup, used, result, report);
+  check.ask();
+  const GridCorners corners(soup, id_of);
+  TriangleCollector collector(soup, result, report);
+  collector.add(find_triangles(soup, corners, finite, result, report), corners);
+  check.ask();
+  collector.finish(copies);
+  return result;
+}
+
 }  // namespace
 
 Grid make_grid(std::span<const TriangleSoup* const> soups) {
@@ -306,22 +330,12 @@ CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report, ProgressObse
 
 CleanSoup clean_soup(const TriangleSoup& soup, const Grid& grid, CleanReport& report,
                      ProgressObserver* progress) {
-  CancelCheck check(progress);
-  report = {};
-  report.triangles_in = soup.triangles.size();
-  std::vector<char> finite;
-  const std::vector<char> used = used_points(soup, finite);
-  CleanSoup clean;
-  clean.grid = grid;
-  report.grid_unit = clean.grid.unit;
-  const std::vector<PointId> id_of = join_points(soup, used, clean, report);
-  check.ask();
-  const GridCorners corners(soup, id_of);
-  TriangleCollector collector(soup, clean, report);
-  collector.add(find_triangles(soup, corners, finite, clean, report), corners);
-  check.ask();
-  collector.finish();
-  return clean;
+  return clean(soup, grid, Copies::as_edges_tell, report, progress);
+}
+
+CleanSoup clean_surface(const TriangleSoup& mesh, CleanReport& report, ProgressObserver* progress) {
+  const TriangleSoup* const all[] = {&mesh};
+  return clean(mesh, make_grid(all), Copies::all, report, progress);
 }
 
 double area_of(const CleanSoup& soup, const Triangle& triangle) {

@@ -56,6 +56,11 @@ struct CleanReport {
 [[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report,
                                    ProgressObserver* progress = nullptr);
 
+// The same of a surface that is closed, and turned rightly, as a result of extraction is: all
+// copies of a triangle count, so that it stays closed but for triangles that become lines.
+[[nodiscard]] CleanSoup clean_surface(const TriangleSoup& mesh, CleanReport& report,
+                                      ProgressObserver* progress = nullptr);
+
 // In the input's units.
 [[nodiscard]] double area_of(const CleanSoup& soup, const Triangle& triangle);
 

@@ -8,8 +8,8 @@
 #include <mesh/topology.h>
 #include <repair/close_slits.h>
 #include <repair/hole_patches.h>
+#include <repair/zip_edges.h>
 
-#include "drop_cancelled.h"
 #include "open/open_sheets.h"
 
 namespace meshrepair::internal {
@@ -52,6 +52,17 @@ CleanSoup clean_sewn(const SewnSoup& sewn, const RepairOptions& options, RepairR
   return clean;
 }
 
+void measure(const CleanSoup& clean, RepairReport& report) {
+  report.input_area = 0;
+  for (const Triangle& t : clean.triangles) report.input_area += area_of(clean, t);
+  if (clean.triangles.empty()) {
+    throw NoSolidError(
+        "no triangle is left: all are degenerate, or smaller than the working grid of 2^26 steps "
+        "over "
+        "their bounding box, or have coordinates that are not finite");
+  }
+}
+
 CleanSoup close_clean(CleanSoup clean, const TriangleSoup& soup, const RepairOptions& options,
                       RepairReport& report, StageMeter& meter) {
   report.sew = {};
@@ -64,15 +75,8 @@ CleanSoup close_clean(CleanSoup clean, const TriangleSoup& soup, const RepairOpt
       clean = clean_sewn(*sewn, options, report, meter);
     }
   }
-  report.input_area = 0;
-  for (const Triangle& t : clean.triangles) report.input_area += area_of(clean, t);
+  measure(clean, report);
   report.holes = {};
-  if (clean.triangles.empty()) {
-    throw NoSolidError(
-        "no triangle is left: all are degenerate, or smaller than the working grid of 2^26 steps "
-        "over "
-        "their bounding box, or have coordinates that are not finite");
-  }
   const Topology now = report.sew.distance > 0
                            ? examine_topology(index_triangles(clean), clean.points.size())
                            : report.input;
@@ -98,9 +102,15 @@ CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, Rep
 CleanSoup close_surface(const TriangleSoup& mesh, const RepairOptions& options,
                         RepairReport& report, StageMeter& meter) {
   meter.begin("clean");
-  CleanSoup clean = clean_soup(mesh, report.clean, options.progress);
-  drop_cancelled(clean);
-  return close_clean(std::move(clean), mesh, options, report, meter);
+  CleanSoup clean = clean_surface(mesh, report.clean, options.progress);
+  if (!zip_edges(clean, options.progress)) {
+    return close_clean(std::move(clean), mesh, options, report, meter);
+  }
+  report.input = examine_topology(index_triangles(clean), clean.points.size());
+  report.sew = {};
+  report.holes = {};
+  measure(clean, report);
+  return clean;
 }
 
 Orientation orient_soup(const CleanSoup& soup, const RepairOptions& options, RepairReport& report,

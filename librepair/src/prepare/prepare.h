@@ -14,8 +14,8 @@ namespace meshrepair::internal {
 [[nodiscard]] CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options,
                                    RepairReport& report, StageMeter& meter);
 
-// The same of a surface that is closed and turned rightly already: what of it cancels out on the
-// grid makes no holes.
+// The same of a surface that is closed and turned rightly already: it stays closed on the grid, and
+// there are no holes.
 [[nodiscard]] CleanSoup close_surface(const TriangleSoup& mesh, const RepairOptions& options,
                                       RepairReport& report, StageMeter& meter);
 

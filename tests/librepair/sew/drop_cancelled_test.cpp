@@ -1,4 +1,4 @@
-#include "prepare/drop_cancelled.h"
+#include "sew/drop_cancelled.h"
 
 #include <algorithm>
 
@@ -26,7 +26,7 @@ void append_fin(const Vec3d& tip, TriangleSoup& soup) {
   soup.triangles.push_back({b, a, point});
 }
 
-CleanSoup cleaned(const TriangleSoup& soup) {
+CleanSoup on_its_grid(const TriangleSoup& soup) {
   CleanReport report;
   return clean_soup(soup, report);
 }
@@ -34,10 +34,10 @@ CleanSoup cleaned(const TriangleSoup& soup) {
 TEST(DropCancelled, TakesAWallWithoutInsideAndItsPoints) {
   TriangleSoup soup = cube();
   append_fin({0.5, -1, 0.25}, soup);
-  CleanSoup clean = cleaned(soup);
+  CleanSoup clean = on_its_grid(soup);
   ASSERT_EQ(clean.triangles.size(), 13u);
   EXPECT_EQ(internal::drop_cancelled(clean), 1u);
-  const CleanSoup expected = cleaned(cube());
+  const CleanSoup expected = on_its_grid(cube());
   ASSERT_EQ(clean.triangles.size(), 12u);
   EXPECT_EQ(clean.points.raw(), expected.points.raw());
   EXPECT_EQ(clean.grid_points.size(), 8u);
@@ -56,7 +56,7 @@ TEST(DropCancelled, LeavesWhatHasMoreCopiesOneWay) {
   append_fin({0.5, -1, 0.25}, soup);
   append(soup, moved(cube(), {0, 0, 1}));  // cubes with a face in common
   soup.triangles.push_back(soup.triangles.front());
-  CleanSoup clean = cleaned(soup);
+  CleanSoup clean = on_its_grid(soup);
   const auto as_often = [](const Triangle& t) { return t.winding == 0; };
   const auto cancelled = std::count_if(clean.triangles.begin(), clean.triangles.end(), as_often);
   ASSERT_GT(cancelled, 1);
