@@ -34,15 +34,16 @@ ReadResult read_opened(const OpenedFile& file) {
 }
 
 // What comes last, which is the mesh.
-void pack_as_named(SideFile& mesh, const std::filesystem::path& path, ProgressObserver* progress) {
+void pack_as_named(BundledFile& mesh, const std::filesystem::path& path,
+                   ProgressObserver* progress) {
   const Packing packing = packing_of_extension(path);
   if (packing != Packing::none) mesh.bytes = pack_bytes(mesh.bytes, packing, progress);
   mesh.path = path;
 }
 
 // What lies beside the mesh is not looked for names that are free there.
-void stage(const std::filesystem::path& folder, std::vector<SideFile>& files) {
-  for (SideFile& file : files) {
+void stage(const std::filesystem::path& folder, std::vector<BundledFile>& files) {
+  for (BundledFile& file : files) {
     file.path = folder / file.path.filename();
     if (&file != &files.back() && std::filesystem::exists(file.path)) {
       throw OutputError(file.path.string() + ": is there already, and is not written over");
@@ -52,10 +53,10 @@ void stage(const std::filesystem::path& folder, std::vector<SideFile>& files) {
 
 // In this order, so that what the last names is there. Files that are new go again if one cannot be
 // written.
-void write_together(const std::vector<SideFile>& files, ProgressObserver* progress) {
+void write_together(const std::vector<BundledFile>& files, ProgressObserver* progress) {
   std::vector<std::filesystem::path> fresh;
   try {
-    for (const SideFile& file : files) {
+    for (const BundledFile& file : files) {
       const bool is_fresh = !std::filesystem::exists(file.path);
       write_file_atomically(file.path, file.bytes, progress);
       if (is_fresh) fresh.push_back(file.path);
@@ -112,7 +113,7 @@ void write_soup(const TriangleSoup& soup, const std::filesystem::path& path,
   }
   SoupExtras extras = options.extras;
   extras.folder = options.names_from.value_or(path.parent_path());
-  std::vector<SideFile> files;
+  std::vector<BundledFile> files;
   if (*format == SoupFormat::obj && extras.attributes != nullptr && path != "-") {
     files = obj_files(soup, PlainExtras(*format, extras).get(), without_packing(path));
   } else {

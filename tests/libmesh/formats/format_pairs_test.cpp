@@ -41,13 +41,13 @@ std::string write_mesh(const fs::path& path, SoupFormat format, const TriangleSo
   SoupExtras extras;
   extras.attributes = &attributes;
   extras.folder = path.parent_path();
-  std::vector<SideFile> files;
+  std::vector<BundledFile> files;
   if (format == SoupFormat::obj) {
     files = obj_files(soup, extras, path);
   } else {
     files.push_back({path, format_soup(soup, format, extras)});
   }
-  for (const SideFile& file : files) {
+  for (const BundledFile& file : files) {
     fs::remove(file.path);  // some systems wait for the disk where a file is written over
     std::ofstream out(file.path, std::ios::binary);
     out << file.bytes;

@@ -116,7 +116,7 @@ class MaterialFiles {
   MaterialFiles(const fs::path& path, const fs::path& names_from, const Attributes& attributes)
       : path_(path), names_from_(names_from), attributes_(attributes) {}
 
-  std::vector<SideFile> run() {
+  std::vector<BundledFile> run() {
     const auto* const known = dynamic_cast<const MaterialLibraries*>(attributes_.keepsake.get());
     std::string text;
     if (known != nullptr) {
@@ -217,15 +217,15 @@ class MaterialFiles {
 
   const fs::path &path_, &names_from_;
   const Attributes& attributes_;
-  std::vector<SideFile> files_;
+  std::vector<BundledFile> files_;
   std::unordered_set<std::size_t> written_;                 // pictures, by their numbers
   std::vector<std::shared_ptr<const std::string>> others_;  // pictures that are no images
 };
 
 }  // namespace
 
-std::vector<SideFile> material_files(const fs::path& path, const fs::path& names_from,
-                                     const Attributes& attributes) {
+std::vector<BundledFile> material_files(const fs::path& path, const fs::path& names_from,
+                                        const Attributes& attributes) {
   return MaterialFiles(path, names_from, attributes).run();
 }
 

@@ -13,7 +13,7 @@
 #include <mesh/attributes.h>
 #include <mesh/mesh_source.h>
 
-#include "formats/common/side_file.h"
+#include "formats/common/bundled_file.h"
 
 namespace meshrepair {
 
@@ -52,9 +52,9 @@ void read_material_libraries(const MeshSource& source, const std::vector<std::st
 // which names of pictures are relative to another folder, and the pictures that are no files yet.
 // The library comes last. Nothing where nothing is known of the materials. No file that the
 // libraries were read from is among them, unless its text stays as it is.
-[[nodiscard]] std::vector<SideFile> material_files(const std::filesystem::path& path,
-                                                   const std::filesystem::path& names_from,
-                                                   const Attributes& attributes);
+[[nodiscard]] std::vector<BundledFile> material_files(const std::filesystem::path& path,
+                                                      const std::filesystem::path& names_from,
+                                                      const Attributes& attributes);
 
 // Lines that name libraries that could not be read, as they were.
 [[nodiscard]] std::string unread_libraries(const Attributes& attributes);

@@ -148,9 +148,9 @@ std::string format_obj(const TriangleSoup& soup, const SoupExtras& extras) {
   return text_of_obj(soup, extras, "");
 }
 
-std::vector<SideFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
-                                const std::filesystem::path& path) {
-  std::vector<SideFile> files;
+std::vector<BundledFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
+                                   const std::filesystem::path& path) {
+  std::vector<BundledFile> files;
   if (extras.attributes != nullptr) files = material_files(path, extras.folder, *extras.attributes);
   const std::string library = files.empty() ? "" : files.back().path.filename().string();
   files.push_back({path, text_of_obj(soup, extras, library)});

@@ -11,7 +11,7 @@
 #include <mesh/reading.h>
 #include <mesh/soup_extras.h>
 
-#include "formats/common/side_file.h"
+#include "formats/common/bundled_file.h"
 
 namespace meshrepair {
 
@@ -28,8 +28,8 @@ namespace meshrepair {
 
 // What a mesh at `path` needs: pictures that are no files yet, a library of materials, and, last,
 // the mesh.
-[[nodiscard]] std::vector<SideFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
-                                              const std::filesystem::path& path);
+[[nodiscard]] std::vector<BundledFile> obj_files(const TriangleSoup& soup, const SoupExtras& extras,
+                                                 const std::filesystem::path& path);
 
 // Names of the materials that libraries say all of, for an OBJ file.
 [[nodiscard]] std::unordered_set<std::string> library_materials(const Attributes& attributes);

@@ -6,7 +6,7 @@
 
 namespace meshrepair {
 
-struct SideFile {
+struct BundledFile {
   std::filesystem::path path;
   std::string bytes;
 };
