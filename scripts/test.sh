@@ -13,11 +13,12 @@ which scripts/check_all.sh runs, too.
              build takes less time, one after a change takes more
 TEXT
 }
+if [ "$#" -gt 1 ]; then usage >&2; exit 2; fi
 options=()
 case "${1:-}" in
   -h | --help) usage; exit 0 ;;
   --joined) options=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12) ;;
-  "") options=(-DCMAKE_UNITY_BUILD=OFF) ;;
+  "") ;;
   *) usage >&2; exit 2 ;;
 esac
 

@@ -207,12 +207,11 @@ class TriangleCollector {
       layers_.assign(1, layer_of({t, clean_.triangles[t].source, 1}));
       std::int32_t all = 1;
       for (; copy != copies_.end() && copy->of == t; ++copy) {
-        layers_.push_back(layer_of(*copy));
+        if (count != Copies::all) layers_.push_back(layer_of(*copy));
         all += copy->facing;
       }
-      const int sum = sum_of_layers();
-      const int facing = sum > 0 ? 1 : sum < 0 ? -1 : 0;
-      copied.push_back({t, count == Copies::all ? all : facing, all});
+      const std::int32_t facing = count == Copies::all ? all : std::clamp(sum_of_layers(), -1, 1);
+      copied.push_back({t, facing, all});
     }
     internal::count_layers(clean_, copied);
   }

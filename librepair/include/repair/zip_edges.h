@@ -12,8 +12,8 @@ namespace meshrepair {
 // edge, others have parts of it. Triangles on such edges are cut at all these corners, and copies
 // that come of it count as one, or cancel out. So the surface covers what it did, and at each edge
 // as many triangles, with their layers, run one way as the other, if that was so before they came
-// onto the grid. Returns whether it is so. All triangles have a source. Linear in the triangles.
-// Throws Cancelled.
+// onto the grid. Returns whether it is so; else the soup is changed as far as that went. All
+// triangles have a source. Linear in the triangles, n log n in edges left open. Throws Cancelled.
 bool zip_edges(CleanSoup& soup, ProgressObserver* progress = nullptr);
 
 }  // namespace meshrepair

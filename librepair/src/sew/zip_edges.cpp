@@ -22,8 +22,10 @@
 namespace meshrepair {
 namespace {
 
-// Where more corners are on an edge, on average, pieces would be the product of edges and corners.
+// Where many edges of one line have more corners on them, on average, pieces would be the product
+// of edges and corners.
 constexpr std::size_t kMostPieces = 16;
+constexpr std::size_t kFewPieces = 1 << 20;
 
 using internal::EdgeSplit;
 using internal::LineEdge;
@@ -56,7 +58,7 @@ std::vector<EdgeSplit> find_splits_at_corners(const std::vector<LineEdge>& edges
   std::vector<EdgeSplit> splits;
   internal::for_each_overlap(edges, [&](std::span<const LineEdge> together) {
     const internal::Overlap overlap(together);
-    if (overlap.pieces() > kMostPieces * together.size()) return;
+    if (overlap.pieces() > std::max(kFewPieces, kMostPieces * together.size())) return;
     overlap.for_each_split([&](const EdgeSplit& split) { splits.push_back(split); });
   });
   std::sort(splits.begin(), splits.end(), [](const EdgeSplit& a, const EdgeSplit& b) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <random>
 #include <set>
@@ -173,6 +174,24 @@ TEST(ZipEdges, AFlatPocketVanishes) {
   EXPECT_TRUE(zip_edges(clean));
   EXPECT_EQ(clean.triangles.size(), 24u);
   EXPECT_EQ(clean.points.size(), 16u);
+}
+
+// Flat tetrahedra with one side of three corners, all of these on one line and at one corner.
+TEST(ZipEdges, ManyEdgesMayHaveManyCornersOfOneLine) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}};
+  for (int i = 1; i <= 60; ++i) {
+    const auto p = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.insert(soup.points.end(), {Vec3d(i, 0, 0), Vec3d(100 + i, 0, 0), Vec3d(0, i, 50)});
+    const std::uint32_t q = p + 1, top = p + 2;
+    const IndexTriangle faces[] = {{0, p, q}, {0, top, p}, {p, top, q}, {q, top, 0}};
+    soup.triangles.insert(soup.triangles.end(), std::begin(faces), std::end(faces));
+  }
+  for (const double far : {-3e7, 3e7}) append(soup, moved(cube(), {far, far, far}));
+  CleanSoup clean = on_grid(soup);
+  EXPECT_EQ(unbalanced(clean).size(), 180u);
+  EXPECT_TRUE(zip_edges(clean));
+  EXPECT_EQ(clean.triangles.size(), 24u);
 }
 
 TEST(CloseSurface, NeitherSewsNorPatches) {
