@@ -115,7 +115,7 @@ inline void expect_whole_triangles_by_place(const TexturedSoup& input, const Tex
   for (std::size_t t = 0; t < input.soup.triangles.size(); ++t) {
     given.emplace(placed_triangle(input.soup, t), t);
   }
-  using Kind = CornerAttribute::Kind;
+  using CornerKind = CornerAttribute::Kind;
   std::size_t whole = 0;
   for (std::size_t t = 0; t < result.soup.triangles.size(); ++t) {
     const auto found = given.find(placed_triangle(result.soup, t));
@@ -126,7 +126,7 @@ inline void expect_whole_triangles_by_place(const TexturedSoup& input, const Tex
       const Vec3d& at = result.soup.points[result.soup.triangles[t][k]];
       std::size_t from = 0;
       while (input.soup.points[input.soup.triangles[s][from]] != at) ++from;
-      for (const Kind kind : {Kind::texture, Kind::colour}) {
+      for (const CornerKind kind : {CornerKind::texture, CornerKind::colour}) {
         ASSERT_EQ(facts_of_corner(result.attributes, kind, 3 * t + k),
                   facts_of_corner(input.attributes, kind, 3 * s + from));
       }

@@ -90,7 +90,7 @@ class ExpectedMaker {
   }
 
  private:
-  using Kind = CornerAttribute::Kind;
+  using CornerKind = CornerAttribute::Kind;
 
   void expect_looks() {
     made_.looks.resize(soup_.triangles.size());
@@ -119,7 +119,7 @@ class ExpectedMaker {
         const std::uint32_t value = set.of_corner[3 * t + k];
         if (value == kNone) continue;
         for (std::size_t i = 0; i < set.components; ++i) {
-          if (format_ == SoupFormat::obj && set.kind == Kind::colour && i == 3) break;
+          if (format_ == SoupFormat::obj && set.kind == CornerKind::colour && i == 3) break;
           made.of_corner[3 * t + k].push_back(written(set, set.values[set.components * value + i]));
         }
       }
@@ -130,10 +130,10 @@ class ExpectedMaker {
   // Where formats have values for points or triangles alone.
   [[nodiscard]] bool is_held(const CornerAttribute& set) const {
     const bool by_point = values_by_point(soup_, set).has_value();
-    if (format_ == SoupFormat::obj) return set.kind != Kind::colour || by_point;
-    if (!is_ply(format_) || set.kind == Kind::texture) return true;
+    if (format_ == SoupFormat::obj) return set.kind != CornerKind::colour || by_point;
+    if (!is_ply(format_) || set.kind == CornerKind::texture) return true;
     const bool is_of_triangles = set.place == CornerAttribute::Place::triangle ||
-                                 set.kind == Kind::colour || set.kind == Kind::other;
+                                 set.kind == CornerKind::colour || set.kind == CornerKind::other;
     return by_point || (is_of_triangles && values_by_triangle(set).has_value());
   }
 
@@ -141,7 +141,7 @@ class ExpectedMaker {
     for (std::size_t k = 0; k < 3; ++k) {
       if (set.of_corner[3 * t + k] == kNone) return false;
     }
-    if (set.kind != Kind::texture) return true;
+    if (set.kind != CornerKind::texture) return true;
     return !attributes_.materials.empty() &&
            !picture_of(attributes_, attributes_.materials.of_triangle[t]).empty();
   }
@@ -171,7 +171,7 @@ class ExpectedMaker {
 
   [[nodiscard]] double written(const CornerAttribute& set, double value) const {
     using Storage = CornerAttribute::Storage;
-    const bool is_colour = set.kind == Kind::colour;
+    const bool is_colour = set.kind == CornerKind::colour;
     if (format_ == SoupFormat::threemf) return is_colour ? as_byte(value) : value;
     if (format_ == SoupFormat::obj) return value;
     if (set.storage == Storage::byte && (is_colour || is_ply(format_))) return as_byte(value);

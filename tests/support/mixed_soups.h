@@ -25,11 +25,11 @@ class MixedSoupMaker {
     make_labels(soup_.attributes.objects, {"car", "the other car"});
     make_labels(soup_.attributes.smoothing, {"1", "2", "off"});
     make_textures();
-    if (chance(3)) add(Kind::normal, 3, any_place(), 0);
-    if (chance(2)) add(Kind::tangent, 4, any_place(), 0);
+    if (chance(3)) add(CornerKind::normal, 3, any_place(), 0);
+    if (chance(2)) add(CornerKind::tangent, 4, any_place(), 0);
     make_colours();
     if (chance(2)) {
-      add(Kind::other, 1 + below(4), any_place(), 0);
+      add(CornerKind::other, 1 + below(4), any_place(), 0);
       soup_.attributes.corners.back().name = "_QUALITY";
     }
     return std::move(soup_);
@@ -37,7 +37,7 @@ class MixedSoupMaker {
 
  private:
   using Place = CornerAttribute::Place;
-  using Kind = CornerAttribute::Kind;
+  using CornerKind = CornerAttribute::Kind;
 
   std::uint32_t below(std::size_t count) { return static_cast<std::uint32_t>(random_() % count); }
   // In all cases but one of so many.
@@ -106,7 +106,7 @@ class MixedSoupMaker {
   void make_textures() {
     const std::size_t count = below(3);
     for (std::size_t i = 0; i < count; ++i) {
-      add(Kind::texture, 2, below(2) == 0 ? Place::corner : Place::point, i == 0 ? 6 : 0);
+      add(CornerKind::texture, 2, below(2) == 0 ? Place::corner : Place::point, i == 0 ? 6 : 0);
     }
   }
 
@@ -114,7 +114,7 @@ class MixedSoupMaker {
   void make_colours() {
     if (!chance(4)) return;
     const std::uint32_t kind = below(4);
-    add(Kind::colour, kind == 0 ? 3 : 3 + below(2), kind == 0 ? Place::triangle : any_place(),
+    add(CornerKind::colour, kind == 0 ? 3 : 3 + below(2), kind == 0 ? Place::triangle : any_place(),
         below(2) == 0 ? 5 : 0);
     CornerAttribute& colours = soup_.attributes.corners.back();
     if (kind == 3) return;
@@ -125,7 +125,7 @@ class MixedSoupMaker {
   }
 
   // One triangle in `without` has no values, if that is not 0.
-  void add(Kind kind, std::size_t components, Place place, std::uint32_t without) {
+  void add(CornerKind kind, std::size_t components, Place place, std::uint32_t without) {
     CornerAttribute set = random_attribute(kind, components, 3 * triangles(), random_);
     set.place = place;
     const auto count = static_cast<std::uint32_t>(set.count());

@@ -48,7 +48,7 @@ inline CornerAttribute random_attribute(CornerAttribute::Kind kind, std::size_t 
 
 // Coordinates that single precision holds; three materials, and triangles without.
 inline TexturedSoup random_textured_soup(unsigned seed) {
-  using Kind = CornerAttribute::Kind;
+  using CornerKind = CornerAttribute::Kind;
   std::mt19937 random(seed);
   TexturedSoup made;
   for (int i = 0; i < 60; ++i) {
@@ -71,15 +71,15 @@ inline TexturedSoup random_textured_soup(unsigned seed) {
   }
   std::vector<CornerAttribute>& sets = made.attributes.corners;
   const std::size_t corners = 3 * made.soup.triangles.size();
-  sets.push_back(random_attribute(Kind::texture, 2, corners, random));
-  sets.push_back(random_attribute(Kind::texture, 2, corners, random));
-  sets.push_back(random_attribute(Kind::normal, 3, corners, random));
-  sets.push_back(random_attribute(Kind::tangent, 4, corners, random));
-  sets.push_back(random_attribute(Kind::colour, 4, corners, random));
-  sets.push_back(random_attribute(Kind::colour, 3, corners, random));
+  sets.push_back(random_attribute(CornerKind::texture, 2, corners, random));
+  sets.push_back(random_attribute(CornerKind::texture, 2, corners, random));
+  sets.push_back(random_attribute(CornerKind::normal, 3, corners, random));
+  sets.push_back(random_attribute(CornerKind::tangent, 4, corners, random));
+  sets.push_back(random_attribute(CornerKind::colour, 4, corners, random));
+  sets.push_back(random_attribute(CornerKind::colour, 3, corners, random));
   sets.back().storage = CornerAttribute::Storage::byte;
   for (double& value : sets.back().values) value = static_cast<double>(random() % 256) / 255;
-  sets.push_back(random_attribute(Kind::other, 1, corners, random));
+  sets.push_back(random_attribute(CornerKind::other, 1, corners, random));
   sets.back().name = "_QUALITY";
   return made;
 }

@@ -40,7 +40,7 @@ inline std::string tiny_png(int number) {
 }
 
 inline Attributes random_attributes(std::size_t triangles, std::mt19937& random, bool all) {
-  using Kind = CornerAttribute::Kind;
+  using CornerKind = CornerAttribute::Kind;
   Attributes attributes;
   const auto share = [&] { return static_cast<double>(random() % 256) / 255.0; };
   attributes.materials.names = {"steel & <iron>", "wood", "gold \"24\"", "wood too", "gl\xC3\xA4s"};
@@ -55,8 +55,8 @@ inline Attributes random_attributes(std::size_t triangles, std::mt19937& random,
   attributes.looks[3].image = 0;  // shared
   attributes.looks[4].image = 1;
   CornerAttribute points, colours;
-  points.kind = Kind::texture;
-  colours.kind = Kind::colour;
+  points.kind = CornerKind::texture;
+  colours.kind = CornerKind::colour;
   colours.storage = CornerAttribute::Storage::byte;
   colours.components = 3 + random() % 2;
   std::uniform_real_distribution<double> real(-2, 2);
