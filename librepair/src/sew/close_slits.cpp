@@ -21,10 +21,6 @@ using internal::LineEdge;
 using internal::Overlap;
 using internal::TriangleInPieces;
 
-// Where more corners are on an edge, on average, edges and corners are many, and pieces would be
-// the product of both.
-constexpr std::size_t kMostPieces = 16;
-
 // Without a slit that would make a triangle twice, the next one may.
 constexpr int kMostPasses = 8;
 
@@ -51,7 +47,8 @@ bool may_be_closed(std::span<const LineEdge> edges) {
   if (edges.size() < 2) return false;
   const Overlap slit(edges);
   const std::size_t pieces = slit.pieces();
-  return pieces != edges.size() && pieces <= kMostPieces * edges.size() && slit.least_edges() >= 2;
+  return pieces != edges.size() && pieces <= internal::kMostPieces * edges.size() &&
+         slit.least_edges() >= 2;
 }
 
 // That may be closed. `edges` are sorted, and stay where they are.
@@ -97,11 +94,6 @@ std::vector<Split> splits_of(const std::vector<std::span<const LineEdge>>& slits
   return splits;
 }
 
-std::array<PointId, 3> in_order(std::array<PointId, 3> corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 class SlitCloser {
  public:
   SlitCloser(CleanSoup& soup, ProgressObserver* progress) : soup_(soup), check_(progress) {}
@@ -142,14 +134,14 @@ class SlitCloser {
     std::vector<char> is_corner(soup_.points.size(), 0);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       for (const auto& [a, b, c] : pieces_[i].corners) {
-        all.push_back({in_order({PointId(a), PointId(b), PointId(c)}), i});
+        all.push_back({internal::in_order({PointId(a), PointId(b), PointId(c)}), i});
         is_corner[a] = is_corner[b] = is_corner[c] = 1;
       }
     }
     for (const Triangle& t : soup_.triangles) {
       const auto& c = t.corners;
       if (std::all_of(c.begin(), c.end(), [&](PointId p) { return is_corner[p.index()] != 0; })) {
-        all.push_back({in_order(c), pieces_.size()});
+        all.push_back({internal::in_order(c), pieces_.size()});
       }
     }
     std::sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) {

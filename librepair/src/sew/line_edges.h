@@ -56,6 +56,10 @@ void for_each_overlap(const std::vector<LineEdge>& edges, Visit visit) {
   }
 }
 
+// Where more corners are on an edge, on average, edges and corners are many, and pieces would be
+// the product of both.
+inline constexpr std::size_t kMostPieces = 16;
+
 // Edges of one line, and what their corners make of them. They have to outlive this.
 class Overlap {
  public:

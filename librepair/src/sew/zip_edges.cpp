@@ -22,9 +22,7 @@
 namespace meshrepair {
 namespace {
 
-// Where many edges of one line have more corners on them, on average, pieces would be the product
-// of edges and corners.
-constexpr std::size_t kMostPieces = 16;
+// So many are cut however few the edges are.
 constexpr std::size_t kFewPieces = 1 << 20;
 
 using internal::EdgeSplit;
@@ -58,18 +56,13 @@ std::vector<EdgeSplit> find_splits_at_corners(const std::vector<LineEdge>& edges
   std::vector<EdgeSplit> splits;
   internal::for_each_overlap(edges, [&](std::span<const LineEdge> together) {
     const internal::Overlap overlap(together);
-    if (overlap.pieces() > std::max(kFewPieces, kMostPieces * together.size())) return;
+    if (overlap.pieces() > std::max(kFewPieces, internal::kMostPieces * together.size())) return;
     overlap.for_each_split([&](const EdgeSplit& split) { splits.push_back(split); });
   });
   std::sort(splits.begin(), splits.end(), [](const EdgeSplit& a, const EdgeSplit& b) {
     return std::tie(a.side, a.share) < std::tie(b.side, b.share);
   });
   return splits;
-}
-
-Corners in_order(Corners corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
 }
 
 bool is_turned_alike(const Corners& a, const Corners& b) {
@@ -100,7 +93,7 @@ void merge_copies(CleanSoup& soup, const std::vector<char>& is_marked) {
   for (TriangleId t(0u); t.index() < soup.triangles.size(); ++t.value) {
     const Corners& c = soup.triangles[t].corners;
     if (std::all_of(c.begin(), c.end(), [&](PointId p) { return is_marked[p.index()] != 0; })) {
-      all.push_back({in_order(c), t});
+      all.push_back({internal::in_order(c), t});
     }
   }
   std::sort(all.begin(), all.end());
