@@ -1,27 +1,16 @@
-#include <algorithm>
-
 #include <base/error.h>
 #include <base/hash_index.h>
 #include <boolean/join_soups.h>
+#include <bsp/corners.h>
 #include <exact/grid_hash.h>
 
 namespace meshrepair {
 namespace {
 
-using internal::hash_mix;
+using internal::CornerIds;
+using internal::hash_of_corners;
 using internal::HashIndex;
-using Corners = std::array<PointId, 3>;
-
-Corners sorted(Corners corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
-std::uint64_t hash_of_corners(const Corners& corners) {
-  std::uint64_t hash = 0;
-  for (const PointId corner : corners) hash = hash_mix(hash, corner.value);
-  return hash;
-}
+using internal::sorted_corners;
 
 bool is_same_grid(const Grid& a, const Grid& b) { return a.unit == b.unit && a.origin == b.origin; }
 
@@ -95,11 +84,11 @@ class Joiner {
   }
 
   TriangleId add(const Triangle& triangle) {
-    const Corners key = sorted(triangle.corners);
+    const CornerIds key = sorted_corners(triangle.corners);
     const TriangleId fresh = joined_.triangles.end_id();
     const TriangleId id(
         triangles_.find_or_insert(hash_of_corners(key), fresh.value, [&](std::uint32_t known) {
-          return sorted(joined_.triangles[TriangleId(known)].corners) == key;
+          return sorted_corners(joined_.triangles[TriangleId(known)].corners) == key;
         }));
     if (id == fresh) {
       joined_.triangles.push_back(triangle);

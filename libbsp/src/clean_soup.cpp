@@ -12,6 +12,7 @@
 #include <base/parallel.h>
 #include <bsp/clean_soup.h>
 #include <bsp/common_grid.h>
+#include <bsp/corners.h>
 #include <exact/grid_hash.h>
 
 #include "count_layers.h"
@@ -19,9 +20,11 @@
 namespace meshrepair {
 namespace {
 
-using internal::hash_mix;
+using internal::CornerIds;
 using internal::hash_of;
-using Corners = std::array<PointId, 3>;
+using internal::hash_of_corners;
+using internal::same_orientation;
+using internal::sorted_corners;
 
 // Some milliseconds of work.
 constexpr std::size_t kItemsPerTask = 32768;
@@ -83,22 +86,6 @@ std::vector<PointId> join_points(const TriangleSoup& soup, const std::vector<cha
   return id_of;
 }
 
-// Whether b is a even permutation of a; both hold the same three ids.
-bool same_orientation(const Corners& a, const Corners& b) {
-  return (a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[2]) ||
-         (a[0] == b[2] && a[1] == b[0]);
-}
-
-Corners sorted(Corners corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
-std::uint64_t hash_of_corners(const Corners& sorted_corners) {
-  return hash_mix(hash_mix(hash_mix(0, sorted_corners[0].value), sorted_corners[1].value),
-                  sorted_corners[2].value);
-}
-
 // Corners are in a line where their triangle is lower than this over its longest side, the largest
 // coordinate being 1. Each coordinate was rounded twice, when it was made and when it was scaled,
 // which moves a corner by up to sqrt(3) 2^-52 and changes the height by twice that at most; the
@@ -114,7 +101,7 @@ bool in_a_line(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return u.cross(v).norm() <= kFlat * longest;
 }
 
-Plane plane_of(const CleanSoup& clean, const Corners& corners) {
+Plane plane_of(const CleanSoup& clean, const CornerIds& corners) {
   const auto& at = clean.grid_points;
   return plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
 }
@@ -124,7 +111,7 @@ class GridCorners {
  public:
   GridCorners(const TriangleSoup& soup, const std::vector<PointId>& id_of)
       : soup_(soup), id_of_(id_of) {}
-  Corners operator[](std::size_t triangle) const {
+  CornerIds operator[](std::size_t triangle) const {
     const auto& c = soup_.triangles[triangle];
     return {id_of_[c[0]], id_of_[c[1]], id_of_[c[2]]};
   }
@@ -178,9 +165,9 @@ class TriangleCollector {
 
   void add(const std::vector<std::uint32_t>& all, const GridCorners& corners) {
     const std::vector<std::uint32_t> first = first_equal(
-        all.size(), [&](std::size_t i) { return hash_of_corners(sorted(corners[all[i]])); },
+        all.size(), [&](std::size_t i) { return hash_of_corners(sorted_corners(corners[all[i]])); },
         [&](std::size_t i, std::size_t j) {
-          return sorted(corners[all[i]]) == sorted(corners[all[j]]);
+          return sorted_corners(corners[all[i]]) == sorted_corners(corners[all[j]]);
         });
     std::vector<TriangleId> id_of(all.size());
     clean_.triangles.reserve(all.size());

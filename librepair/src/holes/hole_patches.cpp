@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <base/error.h>
 #include <base/parallel.h>
 #include <base/shared_progress.h>
+#include <bsp/corners.h>
 #include <mesh/edge_table.h>
 #include <repair/hole_patches.h>
 #include <repair/orient_parts.h>
@@ -29,11 +29,11 @@ namespace meshrepair {
 namespace {
 
 using internal::BoundaryLoops;
+using internal::CornerIds;
 using internal::LoopTriangulation;
 using internal::LoopTriangulationOptions;
 using internal::Rim;
 using internal::StripTriangulation;
-using Corners = std::array<PointId, 3>;
 
 // A ring between two rims takes the product of their lengths; beyond that they are closed one by
 // one.
@@ -70,14 +70,9 @@ struct Ring {
 
 Vec3d position(const CleanSoup& soup, PointId p) { return as_vector(soup.grid_points[p]); }
 
-double area_of(const CleanSoup& soup, const Corners& corners) {
+double area_of(const CleanSoup& soup, const CornerIds& corners) {
   return internal::triangle_area(position(soup, corners[0]), position(soup, corners[1]),
                                  position(soup, corners[2]));
-}
-
-Corners sorted(Corners corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
 }
 
 class HolePatcher {
@@ -363,7 +358,7 @@ class HolePatcher {
     report_.longest_loop = std::max(report_.longest_loop, longest);
   }
 
-  void add(Corners corners, bool turn) {
+  void add(CornerIds corners, bool turn) {
     if (turn) std::swap(corners[1], corners[2]);
     const auto& at = soup_.grid_points;
     const Plane plane = plane_through(at[corners[0]], at[corners[1]], at[corners[2]]);
@@ -401,12 +396,12 @@ class HolePatcher {
     const std::size_t given = triangles_.size();
     std::vector<char> at_loop(soup_.points.size(), 0);
     for (const std::uint32_t p : loops_.point) at_loop[p] = 1;
-    std::vector<std::pair<Corners, std::uint32_t>> keys;
+    std::vector<std::pair<CornerIds, std::uint32_t>> keys;
     for (TriangleId t(0u); t < soup_.triangles.end_id(); ++t.value) {
-      const Corners& corners = soup_.triangles[t].corners;
+      const CornerIds& corners = soup_.triangles[t].corners;
       if (std::all_of(corners.begin(), corners.end(),
                       [&](PointId p) { return at_loop[p.index()] != 0; })) {
-        keys.emplace_back(sorted(corners), t.value);
+        keys.emplace_back(internal::sorted_corners(corners), t.value);
       }
     }
     std::sort(keys.begin(), keys.end());

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include <bsp/corners.h>
 #include <mesh/edge_table.h>
 #include <repair/close_slits.h>
 #include <repair/orient_parts.h>
@@ -127,21 +127,21 @@ class SlitCloser {
   // that.
   bool refuse_copies(std::vector<char>& refused) const {
     struct Piece {
-      std::array<PointId, 3> corners;
+      internal::CornerIds corners;
       std::size_t of;  // pieces_.size(): of a triangle that stays
     };
     std::vector<Piece> all;
     std::vector<char> is_corner(soup_.points.size(), 0);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       for (const auto& [a, b, c] : pieces_[i].corners) {
-        all.push_back({internal::in_order({PointId(a), PointId(b), PointId(c)}), i});
+        all.push_back({internal::sorted_corners({PointId(a), PointId(b), PointId(c)}), i});
         is_corner[a] = is_corner[b] = is_corner[c] = 1;
       }
     }
     for (const Triangle& t : soup_.triangles) {
       const auto& c = t.corners;
       if (std::all_of(c.begin(), c.end(), [&](PointId p) { return is_corner[p.index()] != 0; })) {
-        all.push_back({internal::in_order(c), pieces_.size()});
+        all.push_back({internal::sorted_corners(c), pieces_.size()});
       }
     }
     std::sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) {

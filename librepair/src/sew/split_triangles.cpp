@@ -1,14 +1,8 @@
 #include "split_triangles.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace meshrepair::internal {
-
-std::array<PointId, 3> in_order(std::array<PointId, 3> corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
 
 std::vector<TriangleInPieces> split_triangles(const CleanSoup& soup,
                                               const std::vector<EdgeSplit>& splits) {

@@ -1,7 +1,6 @@
 // Triangles of a clean soup in pieces.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -12,9 +11,6 @@
 #include "split_edges.h"
 
 namespace meshrepair::internal {
-
-// The same for all triangles with these corners.
-[[nodiscard]] std::array<PointId, 3> in_order(std::array<PointId, 3> corners);
 
 struct TriangleInPieces {
   TriangleId triangle;

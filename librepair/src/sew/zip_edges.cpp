@@ -3,7 +3,6 @@
 // them lie on the third. So what is left of the sum at each edge adds up to nothing on each piece
 // of each line, and cutting edges at the corners on them closes the surface again, exactly.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <bsp/corners.h>
 #include <mesh/edge_table.h>
 #include <repair/orient_parts.h>
 #include <repair/zip_edges.h>
@@ -25,10 +25,10 @@ namespace {
 // So many are cut however few the edges are.
 constexpr std::size_t kFewPieces = 1 << 20;
 
+using internal::CornerIds;
 using internal::EdgeSplit;
 using internal::LineEdge;
 using internal::TriangleInPieces;
-using Corners = std::array<PointId, 3>;
 
 // All sides at edges along which more runs one way than the other, by their lines.
 std::vector<LineEdge> find_unbalanced(const CleanSoup& soup, ProgressObserver* progress) {
@@ -65,18 +65,13 @@ std::vector<EdgeSplit> find_splits_at_corners(const std::vector<LineEdge>& edges
   return splits;
 }
 
-bool is_turned_alike(const Corners& a, const Corners& b) {
-  const auto same = std::find(b.begin(), b.end(), a[0]) - b.begin();
-  return a[1] == b[static_cast<std::size_t>(same + 1) % 3];
-}
-
 // Copies of one triangle: the first stands for all, the others cancel out.
 void merge(CleanSoup& soup, std::span<const TriangleId> copies) {
   Triangle& first = soup.triangles[copies[0]];
   std::int32_t sum = first.layers;
   for (const TriangleId t : copies.subspan(1)) {
     Triangle& copy = soup.triangles[t];
-    sum += is_turned_alike(first.corners, copy.corners) ? copy.layers : -copy.layers;
+    sum += internal::same_orientation(first.corners, copy.corners) ? copy.layers : -copy.layers;
     copy.winding = 0;
   }
   if (sum < 0) {
@@ -89,11 +84,11 @@ void merge(CleanSoup& soup, std::span<const TriangleId> copies) {
 
 // Of triangles whose corners are all marked.
 void merge_copies(CleanSoup& soup, const std::vector<char>& is_marked) {
-  std::vector<std::pair<Corners, TriangleId>> all;
+  std::vector<std::pair<CornerIds, TriangleId>> all;
   for (TriangleId t(0u); t.index() < soup.triangles.size(); ++t.value) {
-    const Corners& c = soup.triangles[t].corners;
+    const CornerIds& c = soup.triangles[t].corners;
     if (std::all_of(c.begin(), c.end(), [&](PointId p) { return is_marked[p.index()] != 0; })) {
-      all.push_back({internal::in_order(c), t});
+      all.push_back({internal::sorted_corners(c), t});
     }
   }
   std::sort(all.begin(), all.end());
