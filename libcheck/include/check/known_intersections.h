@@ -29,12 +29,13 @@ class KnownIntersections {
   [[nodiscard]] SelfIntersections compare(const SoupCorners& corners) const;
   [[nodiscard]] std::vector<std::uint32_t> find_fresh(
       const std::vector<IndexTriangle>& triangles) const;
-  [[nodiscard]] std::size_t find_known(const IndexTriangle& places) const;
+  [[nodiscard]] std::uint32_t find_known(const IndexTriangle& places) const;
   void remember(const TriangleSoup& mesh, const SoupCorners& corners,
                 const std::vector<char>& doubtful);
 
   SelfIntersectionOptions options_;
-  std::vector<Vec3d> points_;  // of the last mesh
+  std::vector<Vec3d> points_;          // of the last mesh
+  std::vector<std::uint32_t> places_;  // of each of them the first one that is there
   // Of the triangles that met nothing, by their lowest corner: where those of each begin, and the
   // two others, in order. Corners are first points in their places. A triangle that is there twice
   // met its copy.

@@ -69,7 +69,7 @@ KnownIntersections::KnownIntersections(std::size_t most_pairs, ProgressObserver*
 }
 
 SelfIntersections KnownIntersections::find(const TriangleSoup& mesh) {
-  const SoupCorners corners(mesh, first_in_place(points_, mesh.points),
+  const SoupCorners corners(mesh, first_in_place(points_, places_, mesh.points),
                             points_.size() + mesh.points.size());
   SelfIntersections found = compare(corners);
   add_crossing_sheets(corners, {}, options_, found);
@@ -87,7 +87,7 @@ SelfIntersections KnownIntersections::compare(const SoupCorners& corners) const 
 // Those that are not known, and all but one of those in one place, and that one.
 std::vector<std::uint32_t> KnownIntersections::find_fresh(
     const std::vector<IndexTriangle>& triangles) const {
-  std::vector<std::size_t> known(triangles.size());
+  std::vector<std::uint32_t> known(triangles.size());
   parallel_tasks(triangles.size(), kPlacesPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t t = first; t < last; ++t) known[t] = find_known(triangles[t]);
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> KnownIntersections::find_fresh(
   std::vector<std::uint32_t> fresh;
   std::vector<std::uint32_t> taken_by(others_.size(), kNone);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (known[t] == others_.size()) {
+    if (known[t] == kNone) {
       fresh.push_back(t);
     } else if (taken_by[known[t]] == kNone) {
       taken_by[known[t]] = t;
@@ -106,17 +106,17 @@ std::vector<std::uint32_t> KnownIntersections::find_fresh(
   return fresh;
 }
 
-// Behind the last one: not known.
-std::size_t KnownIntersections::find_known(const IndexTriangle& places) const {
-  if (std::size_t{places[0]} + 1 >= first_.size()) return others_.size();
+// kNone: not known.
+std::uint32_t KnownIntersections::find_known(const IndexTriangle& places) const {
+  if (std::size_t{places[0]} + 1 >= first_.size()) return kNone;
   const std::array others{places[1], places[2]};
   const auto behind = [&](std::uint32_t n) {
     return others_.begin() + static_cast<std::ptrdiff_t>(first_[n]);
   };
   const auto end = behind(places[0] + 1);
   const auto found = std::lower_bound(behind(places[0]), end, others);
-  if (found == end || *found != others) return others_.size();
-  return static_cast<std::size_t>(found - others_.begin());
+  if (found == end || *found != others) return kNone;
+  return static_cast<std::uint32_t>(found - others_.begin());
 }
 
 void KnownIntersections::remember(const TriangleSoup& mesh, const SoupCorners& corners,
@@ -153,6 +153,8 @@ void KnownIntersections::remember(const TriangleSoup& mesh, const SoupCorners& c
       }
     }
   });
+  places_.resize(points);
+  for (std::uint32_t p = 0; p < points; ++p) places_[p] = own[corners.corner(p)];
   points_ = mesh.points;
 }
 

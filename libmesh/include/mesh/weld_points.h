@@ -33,6 +33,12 @@ class PointWelder {
 [[nodiscard]] std::vector<std::uint32_t> first_in_place(const std::vector<Vec3d>& before,
                                                         const std::vector<Vec3d>& points);
 
+// The same where first_in_place(before) is known. The work is for points that `before` does not
+// have in the same order, besides passes that go through both lists from front to back.
+[[nodiscard]] std::vector<std::uint32_t> first_in_place(
+    const std::vector<Vec3d>& before, const std::vector<std::uint32_t>& first_before,
+    const std::vector<Vec3d>& points);
+
 // Points by where they lie.
 struct PointPlaces {
   std::vector<std::uint32_t> place;  // of each point the first one that is there

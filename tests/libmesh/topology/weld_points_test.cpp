@@ -46,6 +46,58 @@ TEST(WeldPoints, FirstInPlaceGoesOnFromAnotherList) {
   EXPECT_TRUE(first_in_place(before, {}).empty());
 }
 
+// A list with points of few places, NaN and both zeros among them.
+std::vector<Vec3d> random_points(std::mt19937& random, std::size_t count, int places) {
+  const auto coordinate = [&] {
+    const auto n = static_cast<int>(random() % static_cast<unsigned>(places));
+    if (n == 1) return std::numeric_limits<double>::quiet_NaN();
+    return n == 2 ? -0.0 : n - 3.0;
+  };
+  std::vector<Vec3d> points;
+  for (std::size_t p = 0; p < count; ++p) {
+    points.emplace_back(coordinate(), coordinate(), coordinate());
+  }
+  return points;
+}
+
+// Some points moved, dropped, or new.
+std::vector<Vec3d> changed(const std::vector<Vec3d>& points, std::mt19937& random,
+                           std::size_t rarity, int places) {
+  std::vector<Vec3d> result;
+  for (const Vec3d& p : points) {
+    const std::size_t chance = random() % rarity;
+    const Vec3d fresh = random_points(random, 1, places)[0];
+    if (chance != 1) result.push_back(chance == 0 ? fresh : p);
+    if (chance == 2) result.push_back(fresh);
+    if (chance == 3) result.insert(result.end(), 2, p);
+  }
+  return result;
+}
+
+TEST(WeldPoints, FirstInPlaceOfKnownListsIsThatOfAnyLists) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 400; ++round) {
+    const int places = round % 2 == 0 ? 6 : 1000;
+    const std::vector<Vec3d> before = random_points(random, random() % 500, places);
+    const std::vector<Vec3d> points = round % 17 == 0
+                                          ? random_points(random, random() % 500, places)
+                                          : changed(before, random, 5 + random() % 200, places);
+    EXPECT_EQ(first_in_place(before, first_in_place(before), points),
+              first_in_place(before, points))
+        << "round " << round;
+  }
+}
+
+// More than one looks ahead for.
+TEST(WeldPoints, FirstInPlaceFindsPointsBeyondALongGap) {
+  std::mt19937 random(8);
+  const std::vector<Vec3d> before = random_points(random, 5000, 1000);
+  std::vector<Vec3d> points = before;
+  points.erase(points.begin() + 100, points.begin() + 300);
+  EXPECT_EQ(first_in_place(before, first_in_place(before), points), first_in_place(before, points));
+  EXPECT_EQ(first_in_place(points, first_in_place(points), before), first_in_place(points, before));
+}
+
 TEST(WeldPoints, NanIsEqualToItself) {
   std::vector<Vec3d> points;
   PointWelder welder(points);
