@@ -194,7 +194,8 @@ Json section_of(const ArrangeReport& arrange) {
           {"new_points", arrange.new_points},
           {"chambers", arrange.chambers},
           {"regions", arrange.regions},
-          {"singular_edges", arrange.singular_edges}};
+          {"singular_edges", arrange.singular_edges},
+          {"middle_vertices", arrange.middle_vertices}};
 }
 
 Json cells_of(const RepairReport& repair) {

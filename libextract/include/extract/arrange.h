@@ -28,8 +28,9 @@ struct ArrangeReport {
   std::size_t facets = 0;         // of them
   std::size_t new_points = 0;
   std::size_t chambers = 0;
-  std::size_t regions = 0;         // into which facets of the boundary were merged
-  std::size_t singular_edges = 0;  // of the boundary, where solids touch
+  std::size_t regions = 0;          // into which facets of the boundary were merged
+  std::size_t singular_edges = 0;   // of the boundary, where solids touch
+  std::size_t middle_vertices = 0;  // put into such edges, as MiddleVertices says
 };
 
 // A piece of a triangle between two chambers. The normal of the triangle's plane points from
@@ -66,8 +67,7 @@ class Arrangement {
 
   // The surface between the chambers that are solid and the others. Triangles of which all is kept
   // have their corners, others are merged where they can be, new points are rounded from their
-  // exact places. Nothing in the rare case that solids that touch share both ends of an edge, so
-  // that the result would be no manifold.
+  // exact places. Nothing where the result would be no manifold.
   struct Boundary {
     Surface surface;
     // Of each triangle of the soup, where its pieces lie: bits, 1 on the boundary, 2 inside what is

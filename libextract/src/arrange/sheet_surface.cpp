@@ -11,6 +11,7 @@
 #include <base/shared_sets.h>
 
 #include "sheet_regions.h"
+#include "touching_middles.h"
 #include "triangulate/planar_mesh.h"
 
 namespace meshrepair::internal {
@@ -187,6 +188,14 @@ class SheetSurfaceMaker {
         may_touch_itself_(options.may_touch_itself),
         quiet_(options.progress) {}
 
+  // To be called before run(): edges along which the solid touches itself get middles. All of them
+  // have to be in outlines.
+  void find_middles(const SheetEdges& edges) {
+    find_fans();
+    middles_ = TouchingMiddles(edges, kept_, regions_, fan_);
+    report_.middle_vertices = middles_.size();
+  }
+
   std::optional<Surface> run() {
     find_fans();
     list_regions();
@@ -205,6 +214,7 @@ class SheetSurfaceMaker {
 
   // Corners of facets that are joined are one vertex.
   void find_fans() {
+    if (!fan_.empty()) return;
     SharedSets fans(kept_.mate.size());
     const auto join = [&](std::uint32_t s) {
       const std::uint32_t m = kept_.mate[s];
@@ -272,6 +282,7 @@ class SheetSurfaceMaker {
   // In the order in which triangles have them.
   void number_points() {
     std::vector<std::uint32_t> vertex(fan_.size(), kNone);  // of a fan: its point of the surface
+    std::vector<std::uint32_t> middle_vertex(middles_.size(), kNone);
     surface_.mesh.triangles.reserve(triangles_.size());
     surface_.source.reserve(triangles_.size());
     for (const SlotTriangle& triangle : triangles_) {
@@ -284,11 +295,37 @@ class SheetSurfaceMaker {
         }
         corners[k] = number;
       }
-      surface_.mesh.triangles.push_back(corners);
+      if (middles_.size() == 0) {
+        surface_.mesh.triangles.push_back(corners);
+      } else {
+        split_at_middles(corners, middles_of(triangle, corners, middle_vertex),
+                         surface_.mesh.triangles);
+      }
       static_assert(Surface::kNoSource == Triangle::kNoSource);
-      surface_.source.push_back(cut_.soup().triangles[TriangleId(triangle.source)].source);
+      surface_.source.resize(surface_.mesh.triangles.size(),
+                             cut_.soup().triangles[TriangleId(triangle.source)].source);
     }
     release(triangles_);
+  }
+
+  IndexTriangle middles_of(const SlotTriangle& triangle, const IndexTriangle& corners,
+                           std::vector<std::uint32_t>& middle_vertex) {
+    IndexTriangle middles = {kNone, kNone, kNone};
+    const std::uint32_t region = region_of(triangle.slots[0] / 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      const std::uint32_t middle =
+          middles_.find(region, fan_[triangle.slots[k]], fan_[triangle.slots[next]]);
+      if (middle == kNone) continue;
+      std::uint32_t& number = middle_vertex[middle];
+      if (number == kNone) {
+        number = static_cast<std::uint32_t>(point_.size());
+        point_.push_back(kNone);
+        between_.push_back({number, corners[k], corners[next]});
+      }
+      middles[k] = number;
+    }
+    return middles;
   }
 
   void place_points() {
@@ -297,12 +334,15 @@ class SheetSurfaceMaker {
     surface_.input_point.resize(point_.size());
     parallel_for(point_.size(), [&](std::size_t i) {
       const std::uint32_t p = point_[i];
+      if (p == kNone) return;
       const bool of_input = p < points_.first_new();
       surface_.mesh.points[i] =
           of_input ? soup.points[PointId(p)]
                    : soup.grid.from_grid(accurate_position(points_.at(p), cut_.planes()));
       surface_.input_point[i] = of_input ? 1 : 0;
     });
+    std::vector<Vec3d>& points = surface_.mesh.points;
+    for (const auto& [middle, a, b] : between_) points[middle] = (points[a] + points[b]) / 2;
   }
 
   // Whether each edge has two triangles that pass it in opposite directions.
@@ -327,7 +367,10 @@ class SheetSurfaceMaker {
   std::vector<std::uint32_t> fan_;    // of each slot the lowest one of its fan
   std::vector<std::uint32_t> order_;  // facets by their regions
   std::vector<SlotTriangle> triangles_;
-  std::vector<std::uint32_t> point_;  // of each point of the surface, that of the arrangement
+  // Of each point of the surface, that of the arrangement; kNone for middles.
+  std::vector<std::uint32_t> point_;
+  TouchingMiddles middles_;
+  std::vector<IndexTriangle> between_;  // middles, and which two points each is between
   Surface surface_;
 };
 
@@ -341,8 +384,9 @@ std::optional<Surface> make_sheet_surface(const CutSet& cut, const ArrangedPoint
     report.regions = 0;
     SheetRegions regions = merge_sheets(cut, points, sheets, edges, kept,
                                         {releases_touching, options.merges_triangles});
-    std::optional<Surface> surface =
-        SheetSurfaceMaker(cut, points, sheets, kept, std::move(regions), options, report).run();
+    SheetSurfaceMaker maker(cut, points, sheets, kept, std::move(regions), options, report);
+    if (!releases_touching) maker.find_middles(edges);
+    std::optional<Surface> surface = maker.run();
     if (surface || kept.singular_edges == 0) return surface;
   }
   return std::nullopt;

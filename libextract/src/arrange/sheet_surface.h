@@ -12,7 +12,7 @@
 
 namespace meshrepair::internal {
 
-// Sets report.regions. Nothing if the result is no manifold, which may be where solids touch.
+// Sets report.regions and report.middle_vertices. Nothing if the result is no manifold.
 [[nodiscard]] std::optional<Surface> make_sheet_surface(
     const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets, const SheetEdges& edges,
     const KeptFacets& kept, const ExtractOptions& options, ArrangeReport& report);

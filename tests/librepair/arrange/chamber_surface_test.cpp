@@ -152,6 +152,41 @@ INSTANTIATE_TEST_SUITE_P(
                       Scenes{"PairsOfSolids", 60, 40, pair_of_solids}),
     [](const auto& scene) { return scene.param.name; });
 
+// Unit cubes of a lattice of 3 x 3 x 3; bit x + 3 y + 9 z of the mask says whether there is one.
+TriangleSoup lattice_cubes(std::uint32_t mask) {
+  TriangleSoup soup;
+  for (int k = 0; k < 27; ++k) {
+    const Vec3d low(k % 3, k / 3 % 3, k / 9);
+    if ((mask >> k & 1) != 0) append(soup, box(low, low + Vec3d(1, 1, 1)));
+  }
+  return soup;
+}
+
+// Two cubes touch along an edge; slabs above and below, each with a notch, join them round both of
+// its ends.
+TEST(ChamberSurface, AnEdgeWithBothEndsInOneFanGetsMiddles) {
+  const std::uint32_t slab = 0b011'001;  // of four places three
+  const TriangleSoup soup = lattice_cubes(slab | 0b010'001 << 9 | slab << 18);
+  const auto result = repair_by_chambers(soup, {});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->report.output.parts, 1u);
+  EXPECT_TRUE(is_as_from_cells(soup));
+}
+
+TEST(ChamberSurface, CubesOfALatticeComeOutAsFromCells) {
+  const std::uint64_t cases = share_of_cases(150);
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::uint32_t mask = 1;
+    for (int k = 1; k < 27; ++k) mask |= random.chance(0.5) ? 1u << k : 0;
+    RepairOptions options;
+    options.inside.rule = InsideRule::winding;
+    if (seed % 3 == 0) options.extract.touching = Touching::join;
+    EXPECT_TRUE(is_as_from_cells(lattice_cubes(mask), options));
+  }
+}
+
 CellId root_of(std::vector<CellId>& up, CellId c) {
   while (up[c.index()] != c) c = up[c.index()] = up[up[c.index()].index()];
   return c;
