@@ -342,7 +342,8 @@ class SheetSurfaceMaker {
       surface_.input_point[i] = of_input ? 1 : 0;
     });
     std::vector<Vec3d>& points = surface_.mesh.points;
-    for (const auto& [middle, a, b] : between_) points[middle] = (points[a] + points[b]) / 2;
+    // Halves first: the sum may be beyond the numbers.
+    for (const auto& [middle, a, b] : between_) points[middle] = 0.5 * points[a] + 0.5 * points[b];
   }
 
   // Whether each edge has two triangles that pass it in opposite directions.
@@ -381,7 +382,7 @@ std::optional<Surface> make_sheet_surface(const CutSet& cut, const ArrangedPoint
                                           const KeptFacets& kept, const ExtractOptions& options,
                                           ArrangeReport& report) {
   for (const bool releases_touching : {true, false}) {
-    report.regions = 0;
+    report.regions = report.middle_vertices = 0;
     SheetRegions regions = merge_sheets(cut, points, sheets, edges, kept,
                                         {releases_touching, options.merges_triangles});
     SheetSurfaceMaker maker(cut, points, sheets, kept, std::move(regions), options, report);

@@ -170,7 +170,13 @@ TEST(ChamberSurface, AnEdgeWithBothEndsInOneFanGetsMiddles) {
   const auto result = repair_by_chambers(soup, {});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->report.output.parts, 1u);
+  EXPECT_EQ(result->report.arrange.middle_vertices, 2u);
   EXPECT_TRUE(is_as_from_cells(soup));
+  // The sum of two points is beyond the numbers there.
+  const auto large = repair_by_chambers(scaled(moved(soup, {1, 1, 0}), 0x1p1022), {});
+  ASSERT_TRUE(large);
+  EXPECT_EQ(large->report.arrange.middle_vertices, 2u);
+  for (const Vec3d& p : large->surface.mesh.points) EXPECT_TRUE(p.allFinite());
 }
 
 TEST(ChamberSurface, CubesOfALatticeComeOutAsFromCells) {
