@@ -180,7 +180,7 @@ TEST(ChamberSurface, AnEdgeWithBothEndsInOneFanGetsMiddles) {
 }
 
 TEST(ChamberSurface, CubesOfALatticeComeOutAsFromCells) {
-  const std::uint64_t cases = share_of_cases(150);
+  const std::uint64_t cases = share_of_cases(150u);
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
