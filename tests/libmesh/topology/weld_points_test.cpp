@@ -88,7 +88,7 @@ TEST(WeldPoints, FirstInPlaceOfKnownListsIsThatOfAnyLists) {
   }
 }
 
-// More than one looks ahead for.
+// The gap is longer than what is looked ahead.
 TEST(WeldPoints, FirstInPlaceFindsPointsBeyondALongGap) {
   std::mt19937 random(8);
   const std::vector<Vec3d> before = random_points(random, 5000, 1000);
