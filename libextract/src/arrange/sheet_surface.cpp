@@ -186,18 +186,18 @@ class SheetSurfaceMaker {
         regions_(std::move(regions)),
         report_(report),
         may_touch_itself_(options.may_touch_itself),
-        quiet_(options.progress) {}
+        quiet_(options.progress) {
+    find_fans();
+  }
 
   // To be called before run(): edges along which the solid touches itself get middles. All of them
   // have to be in outlines.
   void find_middles(const SheetEdges& edges) {
-    find_fans();
     middles_ = TouchingMiddles(edges, kept_, regions_, fan_);
     report_.middle_vertices = middles_.size();
   }
 
   std::optional<Surface> run() {
-    find_fans();
     list_regions();
     if (!make_regions()) return std::nullopt;
     number_points();
@@ -214,7 +214,6 @@ class SheetSurfaceMaker {
 
   // Corners of facets that are joined are one vertex.
   void find_fans() {
-    if (!fan_.empty()) return;
     SharedSets fans(kept_.mate.size());
     const auto join = [&](std::uint32_t s) {
       const std::uint32_t m = kept_.mate[s];
