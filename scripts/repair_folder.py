@@ -68,6 +68,7 @@ what was repaired, cannot be read or encloses nothing is not done again, unless 
 the program have changed; what hit a limit, was killed or could not be written is. A file whose worker is
 killed by SIGKILL is tried once more in the same run, after all others. OUT_DIR belongs to this script: the
 old output of an input that now fails is removed. Outputs of inputs that are gone stay, and are warned of.
+What lies in a folder named summary.csv, summary.json or index.html at the top of IN_DIR is left out: exit code 1.
 
 Exit codes: 0 all passed, 1 some file failed or was not certified, 2 wrong usage, 3 the archive cannot be read, 6 OUT_DIR cannot be
 written or another run is at work there, 130 interrupted, 143 terminated.

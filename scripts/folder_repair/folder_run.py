@@ -15,12 +15,13 @@ import time
 
 from .archive import Lost
 from .archive_inputs import ArchiveInputs, MemberJob, NotUnpacked
-from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NO_SOLID, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
+from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NAME, NO_SOLID, NOT_CERTIFIED, OUTPUT, WRITTEN, Stop,
                      key_of, names_of, bytes_of, print_to, say, text, unpacked, value_of)
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
 from .inputs import Job, find_meshes, listed_meshes, name_outputs, names_listed
 from .journal import Journal
+from .own_names import SUMMARY, SUMMARY_TABLE, own_name_of
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
 from .summary import PackedRows, Progress, as_csv, as_json, table, totals_of
 from .worker import Worker
@@ -115,6 +116,9 @@ class FolderRun:
         outputs = name_outputs(meshes, options.format)
         if options.shard:
             meshes = {name: mesh for name, mesh in meshes.items() if options.shard.holds(name)}
+        for name in [name for name in meshes if own_name_of(outputs[name])]:
+            del meshes[name]
+            left_out[name] = Lost(f"{text(own_name_of(outputs[name]))} in OUT_DIR is made by {NAME}: rename its folder")
         if options.archive:
             return [MemberJob(name, mesh, outputs[name], options, self.inputs) for name, mesh in meshes.items()], left_out
         return [Job(name, mesh, outputs[name], options) for name, mesh in meshes.items()], left_out
@@ -370,8 +374,8 @@ class FolderRun:
         elapsed = time.monotonic() - self.started
         # That of a shard is no summary of OUT_DIR.
         folder = self.out.state if self.options.shard else self.out.path
-        self.out.write(b"summary.csv", as_csv(rows), folder)
-        self.out.write(b"summary.json", as_json(rows, totals, left_out, self.settings, elapsed), folder)
+        self.out.write(SUMMARY_TABLE, as_csv(rows), folder)
+        self.out.write(SUMMARY, as_json(rows, totals, left_out, self.settings, elapsed), folder)
         if not self.options.shard:
             self.write_gallery(jobs, totals)
         if not self.options.quiet:

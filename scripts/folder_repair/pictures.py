@@ -4,7 +4,8 @@ import os
 
 from .basics import FORMAT_OF_EXTENSION, names_of
 from .gallery import FOLDER as GALLERY
-from .inputs import STATE, split_name
+from .inputs import split_name
+from .own_names import own_name_of
 
 NAME_PICTURES = ("obj", "ply", "ply-ascii", "glb", "gltf")  # formats
 HOLD_PICTURES = ("3mf",)  # others have none
@@ -29,7 +30,7 @@ def may_be_written(place):
     """It is a place in OUT_DIR, and that of nothing that is made here."""
     if os.path.normpath(place) != place or place.startswith(b"/") or place.split(b"/")[0] in (b".", b".."):
         return False
-    is_own = place.split(b"/")[0] in (STATE, GALLERY) or place in (b"summary.csv", b"summary.json")
+    is_own = own_name_of(place) or place.split(b"/")[0] == GALLERY
     return not is_own and split_name(place)[1] not in NO_PICTURES
 
 

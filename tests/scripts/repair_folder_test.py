@@ -112,6 +112,16 @@ class Names(FolderTest):
                      "sub/loop: left out: is a link to a folder", "link.stl: left out: is a link to a folder"):
             self.assertIn(line, result.stderr)
 
+    def test_what_would_lie_where_the_script_writes_is_left_out_and_no_success(self):
+        write_files(self.source, {"summary.csv/good1.stl": b"", "summary.json/sub/good2.stl": b"", "index.html/good3.stl": b"",
+                                  "sub/summary.csv/good4.stl": b"", "good5.stl": b""})
+        result = self.run_script(code=1)
+        for name in ("summary.csv/good1.stl", "summary.json/sub/good2.stl", "index.html/good3.stl"):
+            first = name.split("/", maxsplit=1)[0]
+            self.assertIn(f"{name}: left out: {first} in OUT_DIR is made by repair_folder.py: rename its folder", result.stderr)
+        self.assertEqual(self.rows().keys(), {"sub/summary.csv/good4.stl", "good5.stl"})
+        self.assertEqual(names_in(self.out), {"sub/summary.csv/good4.stl", "good5.stl"})
+
     def test_files_that_vanish_or_cannot_be_read_are_rows(self):
         write_files(self.source, {"slow.stl": b"x", "t_gone.stl": b"x", "shut.stl": b"x"})
         os.chmod(self.source / "shut.stl", 0)
