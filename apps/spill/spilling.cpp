@@ -1,5 +1,6 @@
 #include "spill/spilling.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <linux/magic.h>
@@ -26,11 +27,15 @@ std::string default_folder() {
   return named != nullptr && *named != '\0' ? named : kDefaultFolder;
 }
 
+// Bytes: what the file itself keeps of its blocks is smaller, and cannot lie in it.
+constexpr std::size_t kLeastForced = 1024;
+
 // For tests: blocks from this size on lie in the file, whatever the limit, and none of them stays
 // in memory. 0: as the limit says.
 std::size_t forced_block() {
   const char* const named = std::getenv("MESHREPAIR_SPILL_FROM");
-  return named == nullptr ? 0 : std::strtoull(named, nullptr, 10);
+  const std::size_t bytes = named == nullptr ? 0 : std::strtoull(named, nullptr, 10);
+  return bytes == 0 ? 0 : std::max(bytes, kLeastForced);
 }
 
 // Files there take the memory that they are to spare.

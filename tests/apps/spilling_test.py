@@ -57,10 +57,12 @@ class Spilling(unittest.TestCase):
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
-    def run_program(self, name, *arguments, memory, temp=None, code=0):
+    def run_program(self, name, *arguments, memory, temp=None, code=0, forced="0"):
+        """`forced`: blocks of so many bytes lie in the file; 0 leaves it to the limit."""
         command = [PROGRAMS / name, "-q", *arguments, "--report", "report.json", "--max-memory", memory,
                    "--threads", "2", "--temp", temp or self.spill]
-        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True,
+                              env={**os.environ, "MESHREPAIR_SPILL_FROM": forced})
         self.assertEqual(done.returncode, code, done.stderr)
         return json.loads((self.folder / "report.json").read_text()), done.stderr
 
@@ -99,6 +101,13 @@ class Spilling(unittest.TestCase):
     def test_a_folder_that_is_not_there(self):
         report, said = self.run_program("meshrepair", "a.stl", "none.ply", memory=LIMIT, temp="gone", code=6)
         self.assertIn("--temp: no file can be made in gone: No such file or directory", said)
+
+    def test_what_the_file_needs_itself_never_lies_in_it(self):
+        write_torus(self.folder / "small.stl", 20, 10, 0)
+        for forced in ("0", "1"):
+            report, _ = self.run_program("meshrepair", "small.stl", f"{forced}.ply", memory="1G", forced=forced)
+            self.assertEqual("temp_file" in report, forced != "0")
+        self.assertEqual((self.folder / "0.ply").read_bytes(), (self.folder / "1.ply").read_bytes())
 
     def test_nothing_is_left_when_it_is_killed(self):
         command = [PROGRAMS / "meshrepair", "-q", "a.stl", "killed.ply", "--max-memory", LIMIT, "--temp", self.spill]
