@@ -13,7 +13,6 @@
 namespace meshrepair {
 namespace {
 
-constexpr long kTickNanoseconds = 500'000;              // the system may take longer
 constexpr std::size_t kAtOnce = std::size_t{32} << 20;  // addresses; a look follows
 // Pages that are in the file's cache come back fast: what threads may take between two looks.
 constexpr double kSparedShare = 0.25;
@@ -67,7 +66,8 @@ extern "C" void handle_tick(int /*number*/) {
 
 }  // namespace
 
-ResidentLimit::ResidentLimit(SpillFile& file, std::uint64_t bytes) : file_(file) {
+ResidentLimit::ResidentLimit(SpillFile& file, std::uint64_t bytes, std::chrono::nanoseconds tick)
+    : file_(file), tick_(tick) {
   most_resident = most_of(bytes);
   file_at_work = &file;
   timers_.reserve(kClocks.size());  // start() may not throw
@@ -86,7 +86,8 @@ void ResidentLimit::start() {
   sigevent event = {};
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGRTMIN;
-  const itimerspec times = {{0, kTickNanoseconds}, {0, kTickNanoseconds}};
+  const timespec tick = {0, static_cast<long>(tick_.count())};
+  const itimerspec times = {tick, tick};
   for (const clockid_t clock : kClocks) {
     timer_t timer = {};
     if (::timer_create(clock, &event, &timer) != 0) continue;

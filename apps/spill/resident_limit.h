@@ -1,6 +1,7 @@
 // Keeps a process that uses a SpillFile within its memory.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <ctime>
 #include <vector>
@@ -9,15 +10,18 @@
 
 namespace meshrepair {
 
-// As long as it is there and the file has blocks, the process looks some thousand times a second
-// how much memory it has, and lets go of pages of the file before it is more than `bytes`. This is
+// As long as it is there and the file has blocks, the process looks at each tick how much memory
+// it has, and lets go of pages of the file before it is more than `bytes`. This is
 // done at a signal (SIGRTMIN), in a thread that is at work: one of its own would come too late on a
 // busy machine. There is one at a time.
 class ResidentLimit {
  public:
+  // The system may take longer.
+  static constexpr std::chrono::nanoseconds kTick = std::chrono::microseconds(500);
+
   // `file` must outlive it. The more threads may work, the earlier letting go begins. Where the
   // system has no timer left there is no limit.
-  ResidentLimit(SpillFile& file, std::uint64_t bytes);
+  ResidentLimit(SpillFile& file, std::uint64_t bytes, std::chrono::nanoseconds tick = kTick);
   ResidentLimit(const ResidentLimit&) = delete;
   ResidentLimit& operator=(const ResidentLimit&) = delete;
   ~ResidentLimit();
@@ -26,6 +30,7 @@ class ResidentLimit {
   void start();
 
   SpillFile& file_;
+  std::chrono::nanoseconds tick_;
   std::vector<timer_t> timers_;
 };
 

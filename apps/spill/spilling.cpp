@@ -1,6 +1,7 @@
 #include "spill/spilling.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <linux/magic.h>
@@ -29,6 +30,8 @@ std::string default_folder() {
 
 // Bytes: what the file itself keeps of its blocks is smaller, and cannot lie in it.
 constexpr std::size_t kLeastForced = 1024;
+// Then all of it is let go of at each tick. What follows has to come back, or nothing else is done.
+constexpr std::chrono::milliseconds kTickWhenForced{5};
 
 // For tests: blocks from this size on lie in the file, whatever the limit, and none of them stays
 // in memory. 0: as the limit says.
@@ -60,7 +63,8 @@ Spilling::Spilling(const std::string& folder, const MemoryLimit& limit)
     logger().debug("{}", error.what());
     return;
   }
-  resident_limit_ = std::make_unique<ResidentLimit>(*file_, forced > 0 ? 1 : limit.bytes);
+  resident_limit_ = forced > 0 ? std::make_unique<ResidentLimit>(*file_, 1, kTickWhenForced)
+                               : std::make_unique<ResidentLimit>(*file_, limit.bytes);
   set_block_source(file_, forced > 0 ? forced : kLeastBlock);
 }
 
