@@ -96,6 +96,16 @@ Vec3d move_of(const Vec3d& way_out, std::uint32_t point, std::uint32_t k) {
   return distance * to;
 }
 
+// The same groups by numbers without gaps: what is counted for each is counted for each number.
+void number_anew(std::vector<std::uint32_t>& group) {
+  std::vector<std::uint32_t> used = group;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (std::uint32_t& g : group) {
+    g = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), g) - used.begin());
+  }
+}
+
 void keep_those_at_fault(TriangleSoup& mesh, std::vector<std::uint32_t>& points,
                          std::vector<std::uint32_t>& group, ProgressObserver* progress) {
   const PointMover all(mesh, points, group, 0, progress);
@@ -131,6 +141,7 @@ void separate_copies(TriangleSoup& mesh, double spacing, Precision precision, To
     group.push_back(places.place[p]);
     mesh.points[p] = moved(p, 0);
   }
+  number_anew(group);
   keep_those_at_fault(mesh, copies, group, progress);
   PointMover mover(mesh, copies, group, kCopyReach * spacing, progress);
   const std::uint32_t tries = mover.triangles() <= kMostTrianglesNear ? kCopyTries : kOrderlyTries;
