@@ -210,7 +210,8 @@ def run():
     try:
         return FolderRun(options, program, OutFolder(options.out_dir, options.shard)).run()
     except OSError as error:
-        name = text(os.fsencode(error.filename)) if error.filename else "OUT_DIR"
+        name = error.filename2 or error.filename  # of a file that is moved, where to
+        name = text(os.fsencode(name)) if name else "OUT_DIR"
         raise Stop(OUTPUT, f"{name}: cannot be written: {error.strerror}") from None
 
 

@@ -11,12 +11,12 @@
 namespace meshrepair {
 
 // As long as it is there and the file has blocks, the process looks at each tick how much memory
-// it has, and lets go of pages of the file before it is more than `bytes`. This is
-// done at a signal (SIGRTMIN), in a thread that is at work: one of its own would come too late on a
-// busy machine. There is one at a time.
+// it has, and lets go of pages of the file before it is more than `bytes`. This is done at a signal
+// (SIGRTMIN), in a thread that is at work: one of its own would come too late on a busy machine.
+// There is one at a time.
 class ResidentLimit {
  public:
-  // The system may take longer.
+  // The system may take longer. Less than a second, as each tick.
   static constexpr std::chrono::nanoseconds kTick = std::chrono::microseconds(500);
 
   // `file` must outlive it. The more threads may work, the earlier letting go begins. Where the

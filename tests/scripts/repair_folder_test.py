@@ -122,6 +122,12 @@ class Names(FolderTest):
         self.assertEqual(self.rows().keys(), {"sub/summary.csv/good4.stl", "good5.stl"})
         self.assertEqual(names_in(self.out), {"sub/summary.csv/good4.stl", "good5.stl"})
 
+    def test_a_folder_where_the_summary_goes_is_named(self):
+        write_files(self.source, {"good1.stl": b""})
+        write_files(self.out, {"summary.csv/mine.txt": b"mine"})
+        self.assertIn(f"{self.out}/summary.csv: cannot be written: Is a directory", self.run_script(code=6).stderr)
+        self.assertEqual((self.out / "summary.csv/mine.txt").read_bytes(), b"mine")
+
     def test_files_that_vanish_or_cannot_be_read_are_rows(self):
         write_files(self.source, {"slow.stl": b"x", "t_gone.stl": b"x", "shut.stl": b"x"})
         os.chmod(self.source / "shut.stl", 0)

@@ -96,7 +96,7 @@ Vec3d move_of(const Vec3d& way_out, std::uint32_t point, std::uint32_t k) {
   return distance * to;
 }
 
-// The same groups by numbers without gaps: what is counted for each is counted for each number.
+// The same groups, by numbers without gaps: PointMover keeps a count for each number.
 void number_anew(std::vector<std::uint32_t>& group) {
   std::vector<std::uint32_t> used = group;
   std::sort(used.begin(), used.end());
