@@ -10,7 +10,8 @@ directly in src is the library's own room, which may use all others. Fails where
   is a box of tools, all of which are for others);
 - a folder holds more than 15 sources;
 - a file other than the door to oneTBB, libbase/src/parallel.cpp, includes or names what is oneTBB's;
-- a test of a source of its name stands in another room.
+- a test of a source of its name stands in another room;
+- .clang-format or .clang-tidy does not know a library.
 """
 
 import argparse
@@ -175,6 +176,12 @@ def check_tbb(faults: list[str]) -> None:
             faults.append(f"{path.relative_to(ROOT)}: names {found.group()}, which is for {TBB_DOOR.relative_to(ROOT)}")
 
 
+def check_tools(libraries: dict[str, Library], faults: list[str]) -> None:
+    for tool, line in ((".clang-format", "- Regex:"), (".clang-tidy", "HeaderFilterRegex:")):
+        known = set(re.findall(r"\w+", next(text for text in Path(tool).read_text().splitlines() if line in text)))
+        faults += [f"{tool} does not know lib{name}" for name in sorted(set(libraries) - known)]
+
+
 def lines_of(paths: list[Path]) -> int:
     return sum(path.read_text().count("\n") for path in paths)
 
@@ -204,6 +211,7 @@ def main() -> int:
         check_sizes(library, faults)
         check_tests(library, faults)
     check_tbb(faults)
+    check_tools(libraries, faults)
     if not options.quiet:
         for name in sorted(libraries, key=lambda n: (len(closure(arrows)[n]), n)):
             uses = ", ".join(sorted(arrows[name]))

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <scan/repair_points.h>
 
 #include <CLI/App.hpp>
 
 #include <mesh/point_cloud.h>
 #include <mesh/soup.h>
+#include <scan/repair_points.h>
 
 #include "common/repair_steps.h"
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <scan/repair_points.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include <repair/fidelity.h>
 #include <repair/repair.h>
 #include <repair/transfer_attributes.h>
+#include <scan/repair_points.h>
 
 #include "common/asset_options.h"
 #include "common/picture_request.h"

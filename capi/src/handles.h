@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
-#include <meshrepair.h>
 #include <string>
 #include <vector>
+
+#include <meshrepair.h>
 
 #include "calls/session.h"
 #include "common/point_steps.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <scan/repair_points.h>
 #include <string>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include <base/stage_meter.h>
 #include <points/terrain.h>
 #include <repair/drop_small_parts.h>
+#include <scan/repair_points.h>
 
 namespace meshrepair {
 namespace {

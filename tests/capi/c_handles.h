@@ -5,9 +5,10 @@
 #include <initializer_list>
 #include <iterator>
 #include <memory>
-#include <meshrepair.h>
 #include <string>
 #include <utility>
+
+#include <meshrepair.h>
 
 #include "shapes.h"
 

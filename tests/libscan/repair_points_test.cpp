@@ -1,10 +1,10 @@
 #include <cmath>
-#include <scan/repair_points.h>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <scan/repair_points.h>
 
 #include "point_clouds.h"
 #include "shapes.h"
