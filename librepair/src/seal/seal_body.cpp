@@ -52,9 +52,14 @@ class BodySealer {
     step_ = found.step;
     RepairReport second;
     second.stages = std::move(report_.stages);
-    Sealed next = solid_of(second);
-    measure_patches(next, found);
-    now_ = std::move(next);
+    std::optional<Sealed> next = solid_of(second);
+    if (!next) {
+      report_.stages = std::move(second.stages);
+      add_seal(as_it_was(found), report_.seal);
+      return false;
+    }
+    measure_patches(*next, found);
+    now_ = std::move(*next);
     add_seal(found, report_.seal);
     const SealReport seal = report_.seal;
     report_ = std::move(second);
@@ -62,29 +67,45 @@ class BodySealer {
     return true;
   }
 
-  // Certified, where need be by repairing it once more.
-  Sealed solid_of(RepairReport& report) const {
+  // What was asked for, in vain.
+  static SealReport as_it_was(const SealReport& found) {
+    SealReport none;
+    none.size = found.size;
+    none.step = found.step;
+    none.cannot_cut = 1;
+    return none;
+  }
+
+  // Certified, where need be by repairing it once more. Nothing if what is solid then has no
+  // boundary that can be told, in rare cases where walls nearly coincide.
+  std::optional<Sealed> solid_of(RepairReport& report) const {
     RepairOptions second = options_for_second(closed_->second, options_);
     std::optional<Sealed> solid = extract(second, report);
-    if (solid) return std::move(*solid);
+    if (solid) return solid;
     second.certify.wanted = false;
     second.slit_steps = 0;
     second.simplify = 0;
     second.extract.may_touch_itself = true;
     forget(report);
     solid = extract(second, report);
-    if (!solid) {
-      throw InternalError("openings are sealed, but what is solid then has no boundary");
-    }
-    const SecondSoup third(solid->surface);
+    if (!solid) return std::nullopt;
     forget(report);
-    Surface repaired = repair_again_(third.soup, options_for_second(third, options_), report);
-    std::vector<char> is_patch;
-    for (const std::uint32_t source : repaired.source) {
-      is_patch.push_back(source == Surface::kNoSource ? char{0} : solid->is_patch[source]);
+    try {
+      return repaired(*solid, report);
+    } catch (const NoSolidError&) {
+      return std::nullopt;
     }
-    refer_to_first(third, repaired);
-    return {std::move(repaired), std::move(is_patch)};
+  }
+
+  Sealed repaired(const Sealed& solid, RepairReport& report) const {
+    const SecondSoup third(solid.surface);
+    Surface surface = repair_again_(third.soup, options_for_second(third, options_), report);
+    std::vector<char> is_patch;
+    for (const std::uint32_t source : surface.source) {
+      is_patch.push_back(source == Surface::kNoSource ? char{0} : solid.is_patch[source]);
+    }
+    refer_to_first(third, surface);
+    return {std::move(surface), std::move(is_patch)};
   }
 
   // Nothing if it is to be certified and is not.

@@ -23,8 +23,9 @@ struct Sealed {
 };
 
 // The body, one of so many, with its openings closed as `options.seal` says, whose size is no
-// share; nothing if there are none. With sizes to be found, one after the other, as long as there
-// are more. `report` is that of the body alone: of what was closed, and of making the surface.
+// share; nothing if there are none, or if no solid comes of that (SealReport::cannot_cut). With
+// sizes to be found, one after the other, as long as there are more. `report` is that of the body
+// alone: of what was closed, and of making the surface.
 [[nodiscard]] std::optional<Sealed> seal_body(const Surface& body, std::size_t bodies,
                                               const RepairOptions& options,
                                               const RepairAgain& repair_again,
