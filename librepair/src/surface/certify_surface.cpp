@@ -29,6 +29,7 @@ CertifyOptions certify_options(const RepairOptions& options) {
 RepairOptions options_of_again(const RepairOptions& options, ProgressObserver& quiet) {
   RepairOptions again = options;
   again.inside.rule = InsideRule::winding;
+  again.sew.mode = SewMode::none;
   again.holes = {};
   again.opacity.clear();
   again.examine = nullptr;
