@@ -67,7 +67,7 @@ class Collapser {
     TreeNode node = tree_.nodes[from.node()];
     const auto first =
         tree_.node_triangles.begin() + static_cast<std::ptrdiff_t>(node.first_triangle);
-    node.first_triangle = static_cast<std::uint32_t>(to.node_triangles.size());
+    node.first_triangle = begin_of_list(to.node_triangles.size(), node.triangle_count);
     to.node_triangles.insert(to.node_triangles.end(), first,
                              first + static_cast<std::ptrdiff_t>(node.triangle_count));
     return TreeRef(to.nodes.push_back(node));

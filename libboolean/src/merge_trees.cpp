@@ -175,7 +175,7 @@ class Merger {
   [[nodiscard]] TreeNode begin_node(PlaneId plane) const {
     TreeNode node;
     node.plane = plane;
-    node.first_triangle = static_cast<std::uint32_t>(merged_.node_triangles.size());
+    node.first_triangle = begin_of_list(merged_.node_triangles.size(), 0);
     return node;
   }
 
@@ -229,7 +229,9 @@ class Merger {
     const auto first = list.begin() + static_cast<std::ptrdiff_t>(node.first_triangle);
     std::sort(first, list.end());
     list.erase(std::unique(first, list.end()), list.end());
-    node.triangle_count = static_cast<std::uint32_t>(list.size()) - node.first_triangle;
+    const std::size_t count = list.size() - node.first_triangle;
+    node.first_triangle = begin_of_list(node.first_triangle, count);
+    node.triangle_count = static_cast<std::uint32_t>(count);
   }
 
   const Tree& first_;

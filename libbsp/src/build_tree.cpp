@@ -108,7 +108,8 @@ class SubtreeJoiner {
     for (std::size_t i = from.planes; i < to.planes; ++i) {
       joined.planes.push_back(tree_.input.planes.intern(subtree.planes[i]).id);
     }
-    const auto triangles = static_cast<std::uint32_t>(tree_.node_triangles.size());
+    const std::uint32_t triangles =
+        begin_of_list(tree_.node_triangles.size(), to.triangles - from.triangles);
     for (std::size_t i = from.nodes; i < to.nodes; ++i) {
       TreeNode node = subtree.nodes[NodeId(i)];
       if (node.plane.index() >= soup_planes_) {

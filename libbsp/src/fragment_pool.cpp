@@ -26,8 +26,8 @@ FragmentPool::FragmentPool(const CleanSoup& soup) : soup_(soup), planes_(soup.pl
     Fragment f;
     f.triangle = t;
     f.plane = triangle.plane;
-    f.first = static_cast<std::uint32_t>(corners_.size());
     f.count = 3;
+    f.first = begin_of_list(corners_.size(), f.count);
     for (std::uint32_t k = 0; k < 3; ++k) {
       corners_.push_back(
           {lattice_point(soup.grid_points[triangle.corners[k]]), PlaneId(kOriginalEdge + k)});
@@ -46,7 +46,7 @@ FragmentPool::FragmentPool(const FragmentPool& other, std::span<const FragmentId
   for (const FragmentId id : fragments) {
     Fragment f = other[id];
     const Corner* corner = other.corners(f);
-    f.first = static_cast<std::uint32_t>(corners_.size());
+    f.first = begin_of_list(corners_.size(), f.count);
     for (std::uint32_t i = 0; i < f.count; ++i) corners_.push_back(corner[i]);
     fragments_.push_back(f);
   }
@@ -176,7 +176,7 @@ std::uint32_t FragmentPool::take_block(std::uint32_t count) {
     free_blocks_[count].pop_back();
     return block;
   }
-  const auto block = static_cast<std::uint32_t>(corners_.size());
+  const std::uint32_t block = begin_of_list(corners_.size(), count);
   corners_.resize(corners_.size() + count);
   return block;
 }

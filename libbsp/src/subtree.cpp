@@ -231,7 +231,7 @@ class SubtreeBuilder {
   void add_node(const Region& region, PlaneId plane, PlaneId pool_plane) {
     TreeNode node;
     node.plane = plane;
-    node.first_triangle = static_cast<std::uint32_t>(built_.node_triangles.size());
+    node.first_triangle = begin_of_list(built_.node_triangles.size(), on_plane_.size());
     node.triangle_count = static_cast<std::uint32_t>(on_plane_.size());
     built_.node_triangles.insert(built_.node_triangles.end(), on_plane_.begin(), on_plane_.end());
     const NodeId id = built_.nodes.push_back(node);

@@ -19,6 +19,13 @@
 
 namespace meshrepair {
 
+// Uses name them with their direction, in 32 bits.
+template <>
+struct IdKind<struct EdgeTag> {
+  static constexpr std::size_t kMost = (std::size_t{1} << 31) - 1;
+  static constexpr const char* kName = "edges of cells";
+};
+
 using VertexId = Id<struct VertexTag>;
 using EdgeId = Id<struct EdgeTag>;
 using UseId = Id<struct UseTag>;

@@ -69,7 +69,7 @@ class CellBuilder {
     if (node.triangle_count == 0) return;
     auto& pool = complex_.facet_triangles;
     Facet& f = complex_.facets[FacetId(facet)];
-    f.first_triangle = static_cast<std::uint32_t>(pool.size());
+    f.first_triangle = begin_of_list(pool.size(), node.triangle_count);
     f.triangle_count = node.triangle_count;
     for (std::uint32_t i = 0; i < node.triangle_count; ++i) {
       pool.push_back(tree_.node_triangles[node.first_triangle + i]);

@@ -127,7 +127,7 @@ void Clipper::share_triangles(FacetId a, FacetId b, PlaneId plane) {
   Facet& other = complex_.facets[b];
   other.triangle_count = static_cast<std::uint32_t>(triangles_.size());
   if (kept > 0 && !triangles_.empty()) {
-    other.first_triangle = static_cast<std::uint32_t>(pool.size());
+    other.first_triangle = begin_of_list(pool.size(), triangles_.size());
     for (const TriangleId t : triangles_) pool.push_back(t);
   } else {
     std::copy(triangles_.begin(), triangles_.end(), pool.begin() + other.first_triangle);
