@@ -6,6 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <mesh/mesh_limits.h>
 
 #include "calls/attribute_keys.h"
 #include "handles.h"
@@ -13,7 +14,7 @@
 namespace meshrepair {
 namespace {
 
-constexpr std::size_t kMostPoints = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t kMostVertices = std::numeric_limits<std::int32_t>::max();
 
 void check_index(std::uint32_t index, std::size_t triangle, std::size_t points) {
   if (index < points) return;
@@ -26,9 +27,10 @@ TriangleSoup soup_of(const double* vertices, std::size_t vertex_count,
   if ((vertices == nullptr && vertex_count > 0) || (triangles == nullptr && triangle_count > 0)) {
     throw UsageError("there are to be vertices or triangles where NULL was given");
   }
-  if (vertex_count > kMostPoints || triangle_count > kMostPoints) {
-    throw UsageError(fmt::format("more than {} vertices or triangles", kMostPoints));
+  if (vertex_count > kMostVertices) {
+    throw UsageError(fmt::format("more than {} vertices", kMostVertices));
   }
+  require_triangles(triangle_count);
   TriangleSoup soup;
   soup.points.resize(vertex_count);
   for (std::size_t i = 0; i < vertex_count; ++i) {

@@ -14,6 +14,7 @@
 #include <bsp/common_grid.h>
 #include <bsp/corners.h>
 #include <exact/grid_hash.h>
+#include <mesh/mesh_limits.h>
 
 #include "count_layers.h"
 
@@ -274,6 +275,8 @@ class TriangleCollector {
 
 CleanSoup clean(const TriangleSoup& soup, const Grid& grid, Copies copies, CleanReport& report,
                 ProgressObserver* progress) {
+  require_points(soup.points.size());
+  require_triangles(soup.triangles.size());
   CancelCheck check(progress);
   report = {};
   report.triangles_in = soup.triangles.size();

@@ -9,6 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <mesh/mesh_limits.h>
 #include <mesh/triangulate_polygon.h>
 
 namespace meshrepair {
@@ -101,6 +102,7 @@ void check_count(std::size_t points) {
 
 void append_triangles(const py::array& faces, TriangleSoup& soup) {
   check_rows(faces, "faces");
+  require_triangles(static_cast<std::size_t>(faces.shape(0)), "faces");
   soup.triangles.resize(static_cast<std::size_t>(faces.shape(0)));
   const bool known = with_integer_type(faces.dtype(), [&]<class Integer>(Integer) {
     for (py::ssize_t i = 0; i < faces.shape(0); ++i) {

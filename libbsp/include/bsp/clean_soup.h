@@ -52,7 +52,7 @@ struct CleanReport {
 
 // Rounds the points to the grid, joins those that fall on one grid point, drops and counts what
 // cannot be a triangle. The result may be without triangles. Linear time. Throws InputError when an
-// index is out of range, Cancelled when `progress` says so.
+// index is out of range, LimitError beyond kMostTriangles, Cancelled when `progress` says so.
 [[nodiscard]] CleanSoup clean_soup(const TriangleSoup& soup, CleanReport& report,
                                    ProgressObserver* progress = nullptr);
 

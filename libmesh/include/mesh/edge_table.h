@@ -13,7 +13,8 @@ using IndexTriangle = std::array<std::uint32_t, 3>;
 
 // All edges of a list of triangles, sorted by their end points, each with the triangles' sides that
 // run along it. Side 3 t + k of triangle t runs from its corner k to corner k + 1. Linear in the
-// triangles and the largest index, but for points at which many edges meet.
+// triangles and the largest index, but for points at which many edges meet. Throws LimitError
+// beyond kMostTriangles.
 class EdgeTable {
  public:
   // Sides with an entry in `across` other than all ones are left out; none are if it is empty.

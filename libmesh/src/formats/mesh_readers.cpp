@@ -21,7 +21,7 @@
 namespace meshrepair {
 namespace {
 
-void require_triangles(const MeshSource& source, const ReadResult& result) {
+void require_some(const MeshSource& source, const ReadResult& result) {
   if (!result.soup.triangles.empty()) return;
   const ReadReport& report = result.report;
   const bool is_empty = result.soup.points.empty() && report.bad_faces == 0 &&
@@ -37,10 +37,9 @@ void require_triangles(const MeshSource& source, const ReadResult& result) {
   source.fail(what);
 }
 
-void require_32_bit_ids(const MeshSource& source, const TriangleSoup& soup) {
-  if (soup.points.size() > kMostPoints || soup.triangles.size() > kMostTriangles) {
-    throw LimitError(source.name + ": more than 4294967294 points or triangles");
-  }
+void require_limits(const MeshSource& source, const TriangleSoup& soup) {
+  require_points(soup.points.size(), source.name);
+  require_triangles(soup.triangles.size(), source.name);
 }
 
 ReadResult read_format(SoupFormat format, const MeshSource& source) {
@@ -115,8 +114,8 @@ ReadResult read_mesh_as(SoupFormat format, const MeshSource& source) {
 }
 
 void require_mesh(const MeshSource& source, const ReadResult& result) {
-  require_triangles(source, result);
-  require_32_bit_ids(source, result.soup);
+  require_some(source, result);
+  require_limits(source, result.soup);
 }
 
 }  // namespace meshrepair

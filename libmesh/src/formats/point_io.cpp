@@ -65,7 +65,7 @@ PointReadResult read_any(const MeshSource& source, const PointReadOptions& optio
 
 void judge(const MeshSource& source, const PointReadResult& result) {
   const std::size_t points = result.cloud.points.size();
-  if (points > kMostPoints) throw LimitError(source.name + ": more than 4294967294 points");
+  require_points(points, source.name);
   if (points > 0) return;
   const auto& warnings = result.report.warnings;
   source.fail("holds no readable points" +

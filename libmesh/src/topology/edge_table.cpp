@@ -8,6 +8,7 @@
 #include <base/ids.h>
 #include <base/parallel.h>
 #include <mesh/edge_table.h>
+#include <mesh/mesh_limits.h>
 
 namespace meshrepair {
 namespace {
@@ -70,6 +71,7 @@ bool begins_edge(std::span<const Entry> bucket, std::size_t i) {
 EdgeTable::EdgeTable(std::span<const IndexTriangle> triangles,
                      std::span<const std::uint32_t> across) {
   constexpr std::size_t kMostBuckets = 512, kFewestEnds = 4096;
+  require_triangles(triangles.size());
   const std::size_t points = points_of(triangles);
   const std::size_t ends = std::max(kFewestEnds, tasks_of(points, kMostBuckets));
   Buckets<Entry> buckets(

@@ -114,7 +114,7 @@ std::uint32_t PointWelder::index_of(Vec3d point) {
   const std::uint64_t key = hash(point);
   const auto same = [&](std::uint32_t index) { return same_bits(points_[index], point); };
   if (points_.size() == kMostPoints && index_.find(key, same) == HashIndex::kNone) {
-    throw LimitError("more than 4294967294 distinct points");
+    require_points(points_.size() + std::uint64_t{1});
   }
   const auto fresh = static_cast<std::uint32_t>(points_.size());
   const std::uint32_t index = index_.find_or_insert(key, fresh, same);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <base/ids.h>
+#include <mesh/mesh_limits.h>
 #include <mesh/read_guard.h>
 
 #include "gltf_draco.h"
@@ -143,9 +144,7 @@ class PrimitiveReader {
     const std::size_t triangles =
         mode == TriangleMode::triangles ? count / 3 : std::max<std::size_t>(count, 2) - 2;
     guard_.require(triangles);
-    if (result_.positions.count() >= kNone) {
-      throw LimitError(source_.name + ": more than 4294967294 points");
-    }
+    require_points(result_.positions.count(), source_.name);
     number_.assign(result_.positions.count(), kNone);
     result_.corners.reserve(3 * triangles);
     for (std::size_t t = 0; t < triangles; ++t) {

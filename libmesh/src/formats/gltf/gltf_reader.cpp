@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <base/error.h>
+#include <mesh/mesh_limits.h>
 #include <mesh/read_guard.h>
 #include <mesh/weld_points.h>
 
@@ -107,9 +108,7 @@ class GltfReader {
         }
       }
       soup.points.insert(soup.points.end(), points.begin(), points.end());
-      if (soup.points.size() >= kNone) {
-        throw LimitError(source_.name + ": more than 4294967294 points");
-      }
+      require_points(soup.points.size(), source_.name);
       mesh.points = points.size();
       mesh.triangles = soup.triangles.size() - first;
       scene.meshes.push_back(std::move(mesh));
@@ -126,7 +125,6 @@ class GltfReader {
 
   // Instances are cheap in the file, so they are counted before memory is taken.
   std::size_t count_triangles() const {
-    constexpr std::size_t kMost = ~std::uint32_t{0} - 1;
     std::map<std::size_t, std::size_t> of_mesh;
     for (const auto& [number, mesh] : meshes_) {
       for (const GltfPrimitive& primitive : mesh) of_mesh[number] += primitive.triangles();
@@ -134,9 +132,7 @@ class GltfReader {
     std::size_t count = 0;
     for (const GltfInstance& instance : instances_) {
       count += of_mesh[instance.mesh];
-      if (count > kMost) {
-        throw LimitError(source_.name + ": more than 4294967294 triangles, with all instances");
-      }
+      require_triangles(count, source_.name);
     }
     guard_.require(count);
     return count;

@@ -1,13 +1,13 @@
 #include "model_instances.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <base/progress.h>
 #include <mesh/append_soup.h>
+#include <mesh/mesh_limits.h>
 #include <mesh/read_guard.h>
 
 #include "model_values.h"
@@ -148,9 +148,8 @@ class InstancePlacer {
       source_.fail("its components would make " + counted(total.triangles, "triangle") + " of " +
                    std::to_string(in_file_.triangles));
     }
-    if (total.points >= std::numeric_limits<std::uint32_t>::max()) {
-      throw LimitError(source_.name + ": more than 4294967294 points");
-    }
+    require_points(total.points, source_.name);
+    require_triangles(total.triangles, source_.name);
   }
 
   void place(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {

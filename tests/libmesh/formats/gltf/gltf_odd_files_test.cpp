@@ -298,6 +298,21 @@ TEST(GltfOddFile, ManyInstancesOfManyTrianglesTakeNoMemoryBeforeTheyAreCounted) 
   EXPECT_THROW((void)read_text(maker.glb(), "a"), LimitError);
 }
 
+// 1.6e9 triangles, whose sides 32 bits cannot number.
+TEST(GltfOddFile, MoreTrianglesThanAMeshCanHaveAreRefused) {
+  GltfMaker maker;
+  maker.add_mesh(maker.add_accessor<float>(std::vector<float>(9 * 40000), "VEC3"));
+  const std::size_t offsets = maker.add_accessor<float>(std::vector<float>(3 * 40000), "VEC3");
+  maker.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      offsets;
+  try {
+    (void)read_text(maker.glb(), "a");
+    FAIL();
+  } catch (const LimitError& error) {
+    EXPECT_STREQ(error.what(), "a: more than 1431655765 triangles");
+  }
+}
+
 TEST(GltfOddFile, LooksThatAreBrokenRefuseOnlyThoseWhoWantThem) {
   const std::string bytes = with("/images", {{{"bufferView", 44}}});
   EXPECT_EQ(read_text(bytes, "a").soup.triangles.size(), 1u);
