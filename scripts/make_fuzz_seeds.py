@@ -544,8 +544,17 @@ def clip_seeds():
 RAW, BESIDE, BETWEEN, BOX, TETRA, COPY, TURN, HERE, SMALL, TRIANGLE = range(10)
 
 
-def request(rule=0, holes=0, flags=0, change=0, chosen=0xA5A5):
-    return bytes([rule, holes, flags, change]) + struct.pack("<H", chosen)
+def request(rule=0, holes=0, flags=0, change=0, chosen=0xA5A5, wishes=b""):
+    """`wishes`: what follows where the first byte says that there are more options, see tests/fuzz/repair_request.h."""
+    return bytes([rule | (4 if wishes else 0), holes, flags, change]) + struct.pack("<H", chosen) + wishes
+
+
+SEW, SEAL, THICKEN, KEEP, SIMPLIFY, OPACITY = (1 << bit for bit in range(6))
+
+
+def wishes(which, unless_told=0, sew_mode=2, seal=2, thicken=4, side=0, kept=4):
+    """Lengths are given as exponents: n is a share of 2^-(1 + n)."""
+    return bytes([which, sew_mode, 4, seal, thicken, side, kept, 3, 10, 3, unless_told])
 
 
 def points_at(*points):
@@ -591,6 +600,9 @@ def repair_seeds():
         seeds[name + "_float"] = request(flags=128, change=index % 4, chosen=index) + soup
         seeds[name + "_changed"] = request(rule=1 + index % 3, holes=index % 3, flags=index * 7 % 32,
                                            change=1 + index % 3) + soup
+        more = wishes((SEW, SEAL, THICKEN, KEEP, SIMPLIFY, OPACITY, SEW | THICKEN | SIMPLIFY, SEAL | KEEP)[index % 8],
+                      unless_told=index % 8, side=index % 3, kept=1 + index % 31)
+        seeds[name + "_more"] = request(rule=index % 4, holes=index % 4, flags=index * 5 % 16, wishes=more) + soup
     return seeds
 
 

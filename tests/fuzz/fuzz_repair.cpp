@@ -40,6 +40,8 @@ Outcome outcome_of(Work work) {
     outcome.refusal = error.what();
   } catch (const OutputError& error) {
     outcome.refusal = error.what();
+  } catch (const UsageError& error) {  // a size that does not fit the soup
+    outcome.refusal = error.what();
   }
   return outcome;
 }
@@ -199,21 +201,48 @@ void require_same_size(const RepairReport& a, const RepairReport& b, const Repai
   require(a.output.parts == b.output.parts, "all cells give more parts, or fewer");
 }
 
-// What is made without cells, or with few, is what the cells give.
+// Chambers know no edges of cells: they give fewer triangles at times, of the same solid.
+void require_same_solid(const RepairReport& a, const RepairReport& b) {
+  constexpr double kLastBits = 1e-9;
+  require(a.inside.used == b.inside.used, "chambers are decided otherwise");
+  require(a.inside.left_out_folds == b.inside.left_out_folds, "chambers have other folds");
+  require(a.parts.bounding_triangles == b.parts.bounding_triangles, "chambers keep others");
+  const double size = std::pow(a.output_area, 1.5);
+  if (!std::isfinite(size)) return;
+  require(std::abs(a.output_area - b.output_area) <= kLastBits * a.output_area,
+          "chambers have another area");
+  require(std::abs(a.output_volume - b.output_volume) <= kLastBits * size,
+          "chambers have another volume");
+}
+
+bool is_made_by_chambers(const RepairReport& report) { return report.arrange.chambers > 0; }
+
+bool has_thin_cells(const RepairReport& report) {
+  return report.thin_cells.filled + report.thin_cells.emptied > 0;
+}
+
+// The usual way: what is made without cells, or with few, is sound, and what the cells give. What
+// is sealed, thickened or left out then follows from last bits.
 void require_same_without_cells(const RepairRequest& request, const Outcome& outcome) {
   RepairOptions options = request.options;
   options.keep_valid = true;
   const Outcome spared = repair_at_once(request.soup, options);
-  if (!spared.report.spared_cells && spared.report.set_aside == 0) return;
   require_sound(spared, request.soup, options);
+  if (options.seal.wanted() || options.thicken.wanted() || options.keep.wanted()) return;
+  const bool by_chambers = is_made_by_chambers(spared.report);
+  if (!by_chambers && !spared.report.spared_cells && spared.report.set_aside == 0) return;
+  if (by_chambers) require(spared.report.certify.passed(), "chambers give what is not certified");
   require(outcome.surface.has_value(), "cells find no solid");
   if (spared.report.spared_cells) {
     require(triangles_by_place(outcome.surface->mesh) == triangles_by_place(spared.surface->mesh),
             "cells give other triangles");
-  } else if (spared.report.certify.pairs_at_first + outcome.report.certify.pairs_at_first == 0 &&
-             options.certify.precision == Precision::float64) {
-    require_same_size(outcome.report, spared.report, options);
+    return;
   }
+  const bool is_moved =
+      spared.report.certify.pairs_at_first + outcome.report.certify.pairs_at_first > 0;
+  if (is_moved || options.certify.precision != Precision::float64) return;
+  if (!by_chambers) return require_same_size(outcome.report, spared.report, options);
+  if (!has_thin_cells(outcome.report)) require_same_solid(outcome.report, spared.report);
 }
 
 void check(FuzzInput& input) {

@@ -19,6 +19,26 @@ constexpr const char* kUsage =
     "soup\n"
     "to MESH (OBJ, OFF or PLY).\n";
 
+std::string share(double value) { return std::to_string(100 * value) + "%"; }
+
+std::string wishes_of(const RepairOptions& o) {
+  std::string line = o.sew.mode == SewMode::automatic  ? " --sew auto"
+                     : o.sew.mode == SewMode::distance ? " --sew " + share(o.sew.distance)
+                                                       : " --sew none";
+  if (o.seal.wanted()) line += " --seal " + (o.seal.automatic ? "auto" : share(o.seal.size));
+  if (o.thicken.wanted()) {
+    line += " --thicken " + (o.thicken.automatic ? "auto" : share(o.thicken.thickness));
+    line += " --thicken-side " + std::string(thicken_side_name(o.thicken.side));
+  }
+  if (o.keep.outer) line += " --keep outer";
+  if (o.keep.fill_voids) line += " --only outer";
+  if (o.keep.smallest_share > 0) line += " --min-part " + std::to_string(o.keep.smallest_share);
+  if (o.keep.most > 0) line += " --keep " + std::to_string(o.keep.most);
+  line += " --simplify " + std::to_string(o.simplify);
+  if (!o.opacity.empty()) line += " (some triangles are less sure)";
+  return line;
+}
+
 void show(const RepairRequest& request) {
   const RepairOptions& o = request.options;
   std::string line = "--inside " + std::string(rule_name(o.inside.rule));
@@ -27,6 +47,7 @@ void show(const RepairRequest& request) {
   if (o.extract.touching == Touching::join) line += " --touching join";
   if (o.certify.precision == Precision::float32) line += " --precision float32";
   if (o.certify.welded) line += " --format stl-ascii";
+  line += wishes_of(o);
   std::printf("%s\nchange %d, chosen %04llx, %zu points, %zu triangles\n", line.c_str(),
               static_cast<int>(request.change),
               static_cast<unsigned long long>(request.chosen & 0xFFFF), request.soup.points.size(),
