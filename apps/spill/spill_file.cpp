@@ -107,8 +107,11 @@ void* SpillFile::take(std::size_t bytes) noexcept try {
 void SpillFile::give_back(void* block) noexcept {
   const Offset at = static_cast<std::uint64_t>(static_cast<char*>(block) - base_);
   const std::uint64_t size = size_of(block);
-  ::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(at),
-              static_cast<off_t>(size));
+  int failed = 0;
+  do {
+    failed = ::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+                         static_cast<off_t>(at), static_cast<off_t>(size));
+  } while (failed != 0 && errno == EINTR);
   const std::scoped_lock lock(mutex_);
   blocks_.erase(at);
   bytes_ -= size;
