@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -50,10 +49,17 @@ bool is_full(const std::error_code& error) {
   return error == std::errc::no_space_on_device || error.value() == EDQUOT;
 }
 
+// No more is read than a report may have, whatever there is.
 std::string read_report(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  return text.size() > kLongestReport ? std::string() : text;
+  std::string text, some(std::size_t{1} << 16, '\0');
+  while (text.size() <= kLongestReport) {
+    file.read(some.data(), static_cast<std::streamsize>(some.size()));
+    const auto count = static_cast<std::size_t>(file.gcount());
+    if (count == 0) return text;
+    text.append(some, 0, count);
+  }
+  return {};
 }
 
 std::string without(std::string text, const std::string& part) {
@@ -225,21 +231,33 @@ void Workshop::work() {
   }
 }
 
+// Whatever goes wrong is the end of this job alone.
 void Workshop::run(const std::string& id) {
-  std::vector<std::string> words;
-  {
-    const std::scoped_lock lock(mutex_);
-    const auto found = jobs_.find(id);
-    if (found == jobs_.end()) return;
-    found->second.state.phase = JobState::Phase::running;
-    words = command(id, found->second);
-  }
   try {
+    std::vector<std::string> words;
+    {
+      const std::scoped_lock lock(mutex_);
+      const auto found = jobs_.find(id);
+      if (found == jobs_.end()) return;
+      found->second.state.phase = JobState::Phase::running;
+      words = command(id, found->second);
+    }
     fs::create_directory(folder(id) / "out");
     follow(id, words);
   } catch (const std::exception&) {
-    finish(id, static_cast<int>(ExitCode::output));
+    give_up(id);
   }
+}
+
+void Workshop::give_up(const std::string& id) noexcept {
+  const std::scoped_lock lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  JobState& state = found->second.state;
+  state.phase = JobState::Phase::ended;
+  state.exit_code = static_cast<int>(ExitCode::output);
+  state.report.clear();
+  state.has_page = state.has_result = false;
 }
 
 // It works in the folder of this, where no file needs to be named by more than this.
@@ -287,11 +305,12 @@ void Workshop::finish(const std::string& id, int code) {
   Job& job = jobs_.at(id);
   JobState& state = job.state;
   const bool is_check = state.task == Task::check;
-  state.phase = JobState::Phase::ended;
+  std::error_code none;
+  state.has_page = fs::exists(folder(id) / (is_check ? "check.html" : "repair.html"), none);
+  state.has_result = !is_check && fs::exists(folder(id) / "out" / ("mesh" + job.extension), none);
+  state.report = std::move(report);
   state.exit_code = code;
-  state.report = report;
-  state.has_page = fs::exists(folder(id) / (is_check ? "check.html" : "repair.html"));
-  state.has_result = !is_check && fs::exists(folder(id) / "out" / ("mesh" + job.extension));
+  state.phase = JobState::Phase::ended;
 }
 
 // Those that have ended, first the one that nobody has asked for the longest.

@@ -108,6 +108,7 @@ class Workshop {
   [[nodiscard]] std::vector<std::string> command(const std::string& id, const Job& job) const;
   void follow(const std::string& id, const std::vector<std::string>& command);
   void finish(const std::string& id, int code);
+  void give_up(const std::string& id) noexcept;
   void make_room();
   void erase(const std::string& id);
   [[nodiscard]] std::filesystem::path folder(const std::string& id) const {

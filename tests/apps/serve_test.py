@@ -341,6 +341,21 @@ class Attacks(Serving):
         self.end()
         self.assertEqual([path.name for path in folder.glob("*/*")], ["check.html"])
 
+    def test_a_folder_that_leads_nowhere(self):
+        with socket.create_connection(("127.0.0.1", self.port), timeout=SECONDS) as line:
+            line.sendall(self.upload_head(f"Content-Length: {len(CUBE)}\r\n") + CUBE[:100])
+            while not (files := list(self.folder.glob("meshrepair-serve-*/*/in/*"))):
+                time.sleep(0.01)
+            inside = files[0].parents[1]
+            inside.rename(self.folder / "elsewhere")
+            inside.symlink_to(inside)
+            line.sendall(CUBE[100:])
+            self.assertIn(b" 201 ", line.recv(65536))
+        state = self.finished(inside.name)
+        self.assertEqual((state["exit_code"], state["has_page"]), (6, False))
+        self.is_alive()
+        self.assertEqual(self.finished(self.hand_in("cube.stl", CUBE))["exit_code"], 0)
+
     def test_links_are_not_followed(self):
         job = self.hand_in()
         self.assertTrue(self.repaired_at_last(job, format="obj")["has_result"])
