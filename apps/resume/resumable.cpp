@@ -12,18 +12,38 @@
 namespace meshrepair {
 namespace {
 
-constexpr std::array<std::string_view, 4> kOtherGroups = {"Running", "Reporting", "Picture",
-                                                          "Page"};
 constexpr std::string_view kOutput = "OUT";
-constexpr std::array<std::string_view, 2> kOthers = {"IN", "--explain"};
+
+// How the program runs, and what it tells and draws. All others, also such as are not known yet,
+// change results.
+constexpr std::array<std::string_view, 24> kOthers = {"IN",
+                                                      "--resume",
+                                                      "--threads",
+                                                      "--time-limit",
+                                                      "--max-memory",
+                                                      "--temp",
+                                                      "--max-triangles",
+                                                      "--progress-fd",
+                                                      "--report",
+                                                      "--explain",
+                                                      "--quiet",
+                                                      "--verbose",
+                                                      "--version",
+                                                      "--json",
+                                                      "--help",
+                                                      "--picture",
+                                                      "--picture-size",
+                                                      "--picture-view",
+                                                      "--picture-colours",
+                                                      "--show",
+                                                      "--show-as",
+                                                      "--html",
+                                                      "--html-triangles",
+                                                      "--serve"};
 
 template <class Names>
 bool names(const Names& all, const std::string& name) {
   return std::find(all.begin(), all.end(), name) != all.end();
-}
-
-bool changes_results(const CLI::Option& option) {
-  return !names(kOtherGroups, option.get_group()) && !names(kOthers, option.get_name());
 }
 
 // Of the name of the output, what format it asks for.
@@ -32,6 +52,8 @@ std::string that_matters(const CLI::Option& option, const std::string& value) {
 }
 
 }  // namespace
+
+bool changes_results(const CLI::Option& option) { return !names(kOthers, option.get_name()); }
 
 void add_resume_option(CLI::App& app, std::string& folder) {
   app.add_option("--resume", folder,

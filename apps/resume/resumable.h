@@ -16,6 +16,9 @@ class StateStore;
 // Sets `folder` to the value of --resume.
 void add_resume_option(CLI::App& app, std::string& folder);
 
+// False only where it is known not to: of an option that is not known it is taken for granted.
+[[nodiscard]] bool changes_results(const CLI::Option& option);
+
 // All that `app` was asked for that changes what a repair decides: not IN, how the program runs and
 // tells, and what it draws, nor these options. Words of a command line, each with a line feed.
 [[nodiscard]] std::string options_of_results(const CLI::App& app,
