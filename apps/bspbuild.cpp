@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
       ->check(names_file(mesh_extensions()))
       ->required();
   add_output_option(app, options.output, "FILE", kTreeExtension,
-                    "Tree to write (.bsp); - is standard output");
+                    "Tree to write (.bsp); it has the triangles alone, without textures, normals,\n"
+                    "colours, materials and groups; - is standard output");
   add_holes_option(app, options.repair.holes);
   add_max_hole_option(app, options.repair.holes);
   return run_steps(program, argc, argv, options, build);
