@@ -601,7 +601,7 @@ def repair_seeds():
         seeds[name + "_changed"] = request(rule=1 + index % 3, holes=index % 3, flags=index * 7 % 32,
                                            change=1 + index % 3) + soup
         more = wishes((SEW, SEAL, THICKEN, KEEP, SIMPLIFY, OPACITY, SEW | THICKEN | SIMPLIFY, SEAL | KEEP)[index % 8],
-                      unless_told=index % 8, side=index % 3, kept=1 + index % 31)
+                      unless_told=49 if name == "cube" else index % 8, side=index % 3, kept=1 + index % 31)
         seeds[name + "_more"] = request(rule=index % 4, holes=index % 4, flags=index * 5 % 16, wishes=more) + soup
     return seeds
 
