@@ -5,6 +5,7 @@
 
 #include <base/disjoint_sets.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 
 namespace meshrepair {
@@ -20,8 +21,7 @@ TEST(DisjointSets, EachMemberStartsAlone) {
 }
 
 TEST(DisjointSets, LowestMemberStandsForItsSetWhateverTheOrderOfJoins) {
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(50, [&](std::uint64_t seed) {
     Random random(seed);
     const std::uint32_t count = 60;
     DisjointSets sets(count);
@@ -39,7 +39,7 @@ TEST(DisjointSets, LowestMemberStandsForItsSetWhateverTheOrderOfJoins) {
     std::sort(label.begin(), label.end());
     const auto distinct = std::unique(label.begin(), label.end()) - label.begin();
     EXPECT_EQ(sets.count(), static_cast<std::size_t>(distinct));
-  }
+  });
 }
 
 TEST(DisjointSets, ALongChainIsNoTrouble) {

@@ -12,6 +12,7 @@
 #include <base/release.h>
 #include <base/shared_sets.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 
 namespace meshrepair {
@@ -96,8 +97,7 @@ TEST(Buckets, MayBeWithoutItems) {
 }
 
 TEST(SharedSets, AreThoseThatOneThreadMakes) {
-  for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(8, [&](std::uint64_t seed) {
     const std::uint32_t count = 20'000;
     // Near ones mostly, so that threads meet in long chains.
     const std::vector<std::uint32_t> from = random_values(count * 3 / 4, count, seed);
@@ -109,7 +109,7 @@ TEST(SharedSets, AreThoseThatOneThreadMakes) {
     parallel_for(from.size(), [&](std::size_t i) { shared.join(from[i], to(i)); });
     for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(shared.root(i), alone.root(i));
     EXPECT_EQ(shared.count(), alone.count());
-  }
+  });
 }
 
 TEST(Release, LeavesNoRoom) {

@@ -12,6 +12,7 @@
 #include <bsp/tree_io.h>
 
 #include "degenerate_soups.h"
+#include "each_seed.h"
 #include "shapes.h"
 #include "trees.h"
 
@@ -81,7 +82,7 @@ void expect_planes_once_on_each_path(const Tree& tree) {
 
 TEST(BuildTree, InvariantsHoldForDegenerateSoups) {
   for (const SoupFamily& family : degenerate_families()) {
-    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    for_each_seed(8, [&](std::uint64_t seed) {
       SCOPED_TRACE(family.name + " " + std::to_string(seed));
       BuildTreeReport report;
       const Tree tree = tree_of(family.make(seed), report);
@@ -93,7 +94,7 @@ TEST(BuildTree, InvariantsHoldForDegenerateSoups) {
       expect_valid_structure(tree);
       expect_every_triangle_at_home(tree);
       expect_planes_once_on_each_path(tree);
-    }
+    });
   }
 }
 
@@ -180,10 +181,9 @@ TEST(BuildTree, OrientationOfTrianglesDoesNotMatter) {
   std::vector<TriangleSoup> soups = {noisy_sphere(600, 0.15, 3), random_cubes(12, 4)};
   for (const SoupFamily& family : degenerate_families()) soups.push_back(family.make(6));
   for (const TriangleSoup& soup : soups) {
-    for (std::uint64_t seed = 0; seed < 3; ++seed) {
-      SCOPED_TRACE(seed);
+    for_each_seed(3, [&](std::uint64_t seed) {
       expect_same_partition(tree_of(soup), tree_of(with_some_flipped(soup, 0.5, seed)));
-    }
+    });
   }
 }
 

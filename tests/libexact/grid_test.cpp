@@ -6,6 +6,7 @@
 
 #include <exact/grid.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 
 namespace meshrepair {
@@ -55,8 +56,7 @@ Vec3d random_point(Random& random, const Box& box) {
 }
 
 TEST(Grid, PointsMoveByHalfAUnitAtMostAndStayWithinTheRadius) {
-  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(2000, [&](std::uint64_t seed) {
     Random random(seed);
     const Box box = random_box(random);
     const Grid grid = make_grid(box.low, box.high);
@@ -70,24 +70,22 @@ TEST(Grid, PointsMoveByHalfAUnitAtMostAndStayWithinTheRadius) {
       const double rounding = 0x1p-51 * p.cwiseAbs().maxCoeff();
       EXPECT_LE((place(grid, g) - p).cwiseAbs().maxCoeff(), 0.5 * grid.unit + rounding);
     }
-  }
+  });
 }
 
 TEST(Grid, NoBitsAreWasted) {
-  for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(500, [&](std::uint64_t seed) {
     Random random(seed);
     const Box box = random_box(random);
     const double extent = (box.high - box.low).maxCoeff();
-    if (extent == 0) continue;
+    if (extent == 0) return;
     const Grid grid = make_grid(box.low, box.high);
     EXPECT_GE(extent / grid.unit, 0.499 * kGridRadius);
-  }
+  });
 }
 
 TEST(Grid, RoundTripOfGridPointsIsExact) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(200, [&](std::uint64_t seed) {
     Random random(seed);
     const double unit = std::ldexp(1.0, random.integer(-200, 200));
     const Vec3d low = unit * Vec3d(random.integer(-kGridRadius, 0), 5, 7);
@@ -97,13 +95,12 @@ TEST(Grid, RoundTripOfGridPointsIsExact) {
       const GridPoint g = random.grid_point();
       EXPECT_EQ(grid.to_grid(place(grid, g)), g);
     }
-  }
+  });
 }
 
 // Coordinates that are multiples of the unit are kept without any error.
 TEST(Grid, MultiplesOfTheUnitAreExact) {
-  for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(500, [&](std::uint64_t seed) {
     Random random(seed);
     const std::int32_t size = random.integer(1, 1 << 20);
     Vec3d low, high;
@@ -121,12 +118,11 @@ TEST(Grid, MultiplesOfTheUnitAreExact) {
       }
       EXPECT_EQ(place(grid, grid.to_grid(p)), p);
     }
-  }
+  });
 }
 
 TEST(Grid, ScalingByTwoKeepsGridCoordinates) {
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(1000, [&](std::uint64_t seed) {
     Random random(seed);
     const Box box = random_box(random);
     const Grid grid = make_grid(box.low, box.high);
@@ -137,13 +133,12 @@ TEST(Grid, ScalingByTwoKeepsGridCoordinates) {
       const Vec3d p = random_point(random, box);
       EXPECT_EQ(grid.to_grid(p), doubled.to_grid(2 * p));
     }
-  }
+  });
 }
 
 // Odd numbers of steps as well, with the centre of the box between two grid points.
 TEST(Grid, MovingByMultiplesOfTheUnitKeepsGridCoordinates) {
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(1000, [&](std::uint64_t seed) {
     Random random(seed);
     // The extent is in [1/2, 1), so this is the grid's own unit, or half of it for the largest
     // boxes.
@@ -160,7 +155,7 @@ TEST(Grid, MovingByMultiplesOfTheUnitKeepsGridCoordinates) {
     EXPECT_EQ(moved.unit, grid.unit);
     EXPECT_EQ(moved.origin, grid.origin + by);
     for (const Vec3d& p : {box.low, box.high}) EXPECT_EQ(moved.to_grid(p + by), grid.to_grid(p));
-  }
+  });
 }
 
 TEST(Grid, HugeBoxesDoNotOverflow) {

@@ -13,6 +13,7 @@
 #include <mesh/scene.h>
 #include <mesh/soup_io.h>
 
+#include "each_seed.h"
 #include "soup_fixtures.h"
 
 namespace meshrepair {
@@ -39,7 +40,7 @@ std::vector<std::string> triangles_in_words(const TriangleSoup& soup,
 }
 
 TEST(Scene, ObjectsBecomeMeshesWithPointsOfTheirOwn) {
-  for (unsigned seed = 0; seed < 50; ++seed) {
+  for_each_seed(50, [&](std::uint64_t seed) {
     std::mt19937 random(seed);
     TriangleSoup soup;
     Attributes attributes;
@@ -72,7 +73,7 @@ TEST(Scene, ObjectsBecomeMeshesWithPointsOfTheirOwn) {
     EXPECT_EQ(triangles, soup.triangles.size());
     EXPECT_EQ(points, soup.points.size());
     EXPECT_EQ(meshes_of(soup, scene).size(), scene.meshes.size());
-  }
+  });
 }
 
 TEST(Scene, ObjectsOfAnObjFileAreReadOneByOne) {

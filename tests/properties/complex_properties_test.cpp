@@ -11,6 +11,7 @@
 
 #include "complexes.h"
 #include "degenerate_soups.h"
+#include "each_seed.h"
 #include "share_of_cases.h"
 
 namespace meshrepair {
@@ -85,8 +86,7 @@ TEST_P(EverySoup, IsRepairedToASolidByEveryRule) {
 
 // The steps in a row, through the file, give the bytes of the one call.
 TEST_P(EverySoup, StepsThroughFilesGiveTheSameMesh) {
-  for (std::uint64_t seed = 300; seed < 306; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(300, 6, [&](std::uint64_t seed) {
     const TriangleSoup soup = GetParam().make(seed);
     RepairReport report;
     try {
@@ -103,7 +103,7 @@ TEST_P(EverySoup, StepsThroughFilesGiveTheSameMesh) {
       Tree tree = make_tree(soup, {}, steps);
       EXPECT_THROW(label_tree(tree, {}, steps), NoSolidError);
     }
-  }
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, EverySoup, ::testing::ValuesIn(degenerate_families()),

@@ -10,6 +10,7 @@
 #include <repair/repair.h>
 
 #include "complexes.h"
+#include "each_seed.h"
 #include "sheets.h"
 
 namespace meshrepair {
@@ -120,7 +121,7 @@ class ThickenedSheets : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(ThickenedSheets, AreAsThickAsAskedFor) {
   constexpr double kThickness = 0.02;
-  for (std::uint64_t seed = 20 * GetParam(); seed < 20 * GetParam() + 20; ++seed) {
+  for_each_seed(20 * GetParam(), 20, [&](std::uint64_t seed) {
     const Case one = sheet_case(seed);
     SCOPED_TRACE(one.name + ", seed " + std::to_string(seed));
     const RepairReport report = expect_walls(one, kThickness, seed);
@@ -129,16 +130,16 @@ TEST_P(ThickenedSheets, AreAsThickAsAskedFor) {
     const double volume = signed_volume(one.solid) + area * kThickness;
     EXPECT_LE(report.output_volume, volume + 0.05 * area * kThickness);
     EXPECT_GE(report.output_volume, volume - (one.is_exact ? 0.05 : 0.2) * area * kThickness);
-  }
+  });
 }
 
 // Thicker than they are curved, and than their triangles are large.
 TEST_P(ThickenedSheets, MayCrossThemselves) {
-  for (std::uint64_t seed = 7 * GetParam(); seed < 7 * GetParam() + 7; ++seed) {
+  for_each_seed(7 * GetParam(), 7, [&](std::uint64_t seed) {
     const Case one = sheet_case(seed);
     SCOPED_TRACE(one.name + ", seed " + std::to_string(seed));
     expect_walls(one, seed % 4 < 2 ? 0.5 : 0.15, seed);
-  }
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ThickenedSheets,

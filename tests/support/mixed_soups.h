@@ -16,7 +16,7 @@ namespace meshrepair {
 
 class MixedSoupMaker {
  public:
-  explicit MixedSoupMaker(unsigned seed) : random_(seed) {}
+  explicit MixedSoupMaker(std::uint64_t seed) : random_(seed) {}
 
   TexturedSoup run() {
     make_triangles();
@@ -148,6 +148,6 @@ class MixedSoupMaker {
 };
 
 // The same for the same seed.
-inline TexturedSoup random_mixed_soup(unsigned seed) { return MixedSoupMaker(seed).run(); }
+inline TexturedSoup random_mixed_soup(std::uint64_t seed) { return MixedSoupMaker(seed).run(); }
 
 }  // namespace meshrepair

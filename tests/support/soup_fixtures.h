@@ -43,7 +43,7 @@ inline TriangleSoup tetrahedron() {
 
 // Points whose coordinates are random bits, so of every magnitude, all finite; triangles of any
 // corners. Single precision only if the file format holds no more.
-inline TriangleSoup random_soup(unsigned seed, bool single_precision) {
+inline TriangleSoup random_soup(std::uint64_t seed, bool single_precision) {
   std::mt19937_64 random(seed);
   const auto coordinate = [&]() -> double {
     for (;;) {

@@ -47,7 +47,7 @@ inline CornerAttribute random_attribute(CornerAttribute::Kind kind, std::size_t 
 }
 
 // Coordinates that single precision holds; three materials, and triangles without.
-inline TexturedSoup random_textured_soup(unsigned seed) {
+inline TexturedSoup random_textured_soup(std::uint64_t seed) {
   using CornerKind = CornerAttribute::Kind;
   std::mt19937 random(seed);
   TexturedSoup made;

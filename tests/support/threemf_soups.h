@@ -81,7 +81,7 @@ inline Attributes random_attributes(std::size_t triangles, std::mt19937& random,
 }
 
 // The same for the same seed.
-inline ThreemfSoup random_threemf_soup(unsigned seed) {
+inline ThreemfSoup random_threemf_soup(std::uint64_t seed) {
   std::mt19937 random(seed);
   ThreemfSoup made;
   made.soup = proper_grid(static_cast<std::uint32_t>(4 + random() % 6));

@@ -9,6 +9,7 @@
 #include <base/parallel.h>
 #include <check/self_intersections.h>
 
+#include "each_seed.h"
 #include "shapes.h"
 
 namespace meshrepair {
@@ -225,11 +226,10 @@ TEST(SelfIntersections, AgreeWithAllPairsOneByOne) {
 TEST(SelfIntersections, WhetherThereAreAnyIsToldWithoutCountingAll) {
   SelfIntersectionOptions options;
   options.only_whether = true;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(1, 60, [&](std::uint64_t seed) {
     const TriangleSoup soup = testing::random_soup(8, 12, seed);
     EXPECT_EQ(self_intersections(soup, options).count > 0, self_intersections(soup).count > 0);
-  }
+  });
   const TriangleSoup spheres = testing::two_overlapping_spheres(20'000);
   const std::size_t all = self_intersections(spheres).count;
   const std::size_t some = self_intersections(spheres, options).count;

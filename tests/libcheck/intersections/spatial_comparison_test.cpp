@@ -15,6 +15,7 @@
 #include <check/triangle_list.h>
 
 #include "degenerate_soups.h"
+#include "each_seed.h"
 #include "intersections/triangle_hubs.h"
 #include "shapes.h"
 
@@ -87,14 +88,14 @@ TriangleSoup double_cone(std::uint32_t sides) {
 TEST(CompareInSpace, FindsWhatComparingOneByOneFinds) {
   std::size_t given_up = 0;
   for (const testing::SoupFamily& family : testing::degenerate_families()) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for_each_seed(1, 8, [&](std::uint64_t seed) {
       const Compared compared(family.make(seed));
       const auto in_space = compared.in_space();
       given_up += !in_space;
       if (in_space) {
         EXPECT_EQ(in_space, compared.one_by_one()) << family.name << ", seed " << seed;
       }
-    }
+    });
   }
   EXPECT_LE(given_up, 4u);
 }

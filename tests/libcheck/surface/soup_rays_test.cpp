@@ -6,6 +6,7 @@
 
 #include <check/soup_rays.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 #include "shapes.h"
 
@@ -93,10 +94,9 @@ void expect_above_tells_winding(const TriangleSoup& soup) {
 }
 
 TEST(TrianglesAbove, AreThoseThatTellTheWinding) {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(100, [&](std::uint64_t seed) {
     expect_above_tells_winding(random_soup(10 + 3 * seed, seed % 2 == 0 ? 4 : 1 << 12, seed));
-  }
+  });
   expect_above_tells_winding(sphere(50'000, 2));  // by several threads
 }
 

@@ -9,6 +9,7 @@
 
 #include "complexes.h"
 #include "degenerate_soups.h"
+#include "each_seed.h"
 
 namespace meshrepair {
 namespace {
@@ -44,7 +45,7 @@ std::vector<char> random_labels(const CellComplex& complex, Random& random) {
 // enclose is the solid cells. Solid cells at the outer box are closed by it.
 TEST(Boundary, EnclosesTheSolidCellsWhicheverTheyAre) {
   for (const SoupFamily& family : degenerate_families()) {
-    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    for_each_seed(4, [&](std::uint64_t seed) {
       SCOPED_TRACE(family.name + " " + std::to_string(seed));
       const Cells cells = cells_of(family.make(seed));
       Random random(seed);
@@ -68,7 +69,7 @@ TEST(Boundary, EnclosesTheSolidCellsWhicheverTheyAre) {
         if (solid[c.index()] != 0) volume += v;
       }
       EXPECT_NEAR(enclosed_volume(cells.complex, boundary, solid), volume, 1e-9 * whole);
-    }
+    });
   }
 }
 

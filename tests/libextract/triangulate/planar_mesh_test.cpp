@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 
 namespace meshrepair {
@@ -116,8 +117,7 @@ class Filled {
 };
 
 TEST(PlanarMesh, PointsAreInsertedOnce) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(200, [&](std::uint64_t seed) {
     Random random(seed);
     Filled filled;
     std::set<std::pair<std::int32_t, std::int32_t>> taken = {{0, 0}, {kSize, 0}, {0, kSize}};
@@ -131,7 +131,7 @@ TEST(PlanarMesh, PointsAreInsertedOnce) {
     }
     EXPECT_EQ(filled.area(), std::int64_t{kSize} * kSize);
     filled.expect_joined();
-  }
+  });
 }
 
 TEST(PlanarMesh, SidesOfTheOutlineAreSplitInOrder) {
@@ -148,8 +148,7 @@ TEST(PlanarMesh, SidesOfTheOutlineAreSplitInOrder) {
 
 // From each point to the next but one on a convex curve, where these do not cross.
 TEST(PlanarMesh, EdgesAreInsertedWhereNothingIsInBetween) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(200, [&](std::uint64_t seed) {
     Random random(seed);
     Filled filled;
     std::vector<std::pair<std::int32_t, std::int32_t>> places = {{0, 0}, {kSize, 0}, {0, kSize}};
@@ -194,7 +193,7 @@ TEST(PlanarMesh, EdgesAreInsertedWhereNothingIsInBetween) {
     for (const auto& [a, b] : edges) EXPECT_TRUE(filled.has_marked_edge(a, b));
     EXPECT_EQ(filled.area(), std::int64_t{kSize} * kSize);
     filled.expect_joined();
-  }
+  });
 }
 
 TEST(PlanarMesh, NoEdgeIsInsertedThroughAVertexOrAMarkedEdge) {

@@ -11,6 +11,7 @@
 #include <extract/triangulate.h>
 #include <mesh/topology.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 
 namespace meshrepair {
@@ -97,17 +98,16 @@ void expect_triangulation(const std::vector<IntegerPoint>& polygon) {
 }
 
 TEST(TriangulateConvex, RandomPolygons) {
-  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(4000, [&](std::uint64_t seed) {
     Random random(seed);
     const std::int32_t size = random.integer(2, 60);
     std::vector<IntegerPoint> points(static_cast<std::size_t>(random.integer(3, 40)));
     for (IntegerPoint& p : points) p = {random.integer(0, size), random.integer(0, size)};
     const auto hull = convex_hull(points);
-    if (hull.size() < 3) continue;
+    if (hull.size() < 3) return;
     expect_triangulation(with_straight_vertices(
         hull, random.integer(1, 9), random.chance(0.3) ? 1 : random.real(0, 1), random));
-  }
+  });
 }
 
 TEST(TriangulateConvex, ATriangleWithAllItsSidesFull) {

@@ -10,6 +10,7 @@
 
 #include <mesh/soup_io.h>
 
+#include "each_seed.h"
 #include "soup_fixtures.h"
 #include "textured.h"
 
@@ -26,7 +27,7 @@ ReadResult parse_with_attributes(const std::string& bytes) {
 }
 
 // Triangles of random points, each with values of its own or its neighbours'.
-TexturedSoup random_textured(unsigned seed) {
+TexturedSoup random_textured(std::uint64_t seed) {
   TexturedSoup result{random_soup(seed, true), {}};
   std::mt19937 random(seed);
   const std::size_t triangles = result.soup.triangles.size();
@@ -59,7 +60,7 @@ void expect_same(const Attributes& made, const Attributes& given) {
 class AttributesOf : public ::testing::TestWithParam<SoupFormat> {};
 
 TEST_P(AttributesOf, RandomSoupComeBackBitForBit) {
-  for (unsigned seed = 1; seed <= 50; ++seed) {
+  for_each_seed(1, 50, [&](std::uint64_t seed) {
     const TexturedSoup given = random_textured(seed);
     const std::string bytes =
         format_soup(given.soup, GetParam(), {.attributes = &given.attributes});
@@ -67,12 +68,12 @@ TEST_P(AttributesOf, RandomSoupComeBackBitForBit) {
     EXPECT_TRUE(result.report.warnings.empty());
     ASSERT_EQ(corner_bits(result.soup), corner_bits(given.soup));
     expect_same(result.attributes, given.attributes);
-  }
+  });
 }
 
 // What a file is made of again is the file.
 TEST_P(AttributesOf, FileIsTheSameAgain) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
+  for_each_seed(1, 10, [&](std::uint64_t seed) {
     const TexturedSoup given = random_textured(seed);
     const std::string bytes =
         format_soup(given.soup, GetParam(), {.attributes = &given.attributes});
@@ -80,7 +81,7 @@ TEST_P(AttributesOf, FileIsTheSameAgain) {
     const std::string again = format_soup(once.soup, GetParam(), {.attributes = &once.attributes});
     const ReadResult twice = parse_with_attributes(again);
     EXPECT_EQ(format_soup(twice.soup, GetParam(), {.attributes = &twice.attributes}), again);
-  }
+  });
 }
 
 TEST_P(AttributesOf, AreNotReadUnlessAskedFor) {

@@ -9,6 +9,7 @@
 
 #include <mesh/soup_io.h>
 
+#include "each_seed.h"
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
 
@@ -25,7 +26,7 @@ constexpr SoupFormat kAllFormats[] = {
 class SoupFormats : public ::testing::TestWithParam<SoupFormat> {};
 
 TEST_P(SoupFormats, RandomSoupComesBackBitForBit) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
+  for_each_seed(1, 20, [&](std::uint64_t seed) {
     const TriangleSoup soup = random_soup(seed, is_single(GetParam()));
     const ReadResult result = read_text(format_soup(soup, GetParam()), "mesh");
     ASSERT_EQ(result.report.format, GetParam());
@@ -35,7 +36,7 @@ TEST_P(SoupFormats, RandomSoupComesBackBitForBit) {
       ASSERT_EQ(result.soup.triangles, soup.triangles) << "seed " << seed;
     }
     ASSERT_TRUE(result.report.warnings.empty());
-  }
+  });
 }
 
 TEST_P(SoupFormats, NotFiniteCoordinatesComeBack) {

@@ -7,6 +7,7 @@
 
 #include <mesh/edge_table.h>
 
+#include "each_seed.h"
 #include "shapes.h"
 
 namespace meshrepair {
@@ -42,8 +43,7 @@ TEST(EdgeTable, SidesAreWalkedRoundTheTriangle) {
 
 // Triangles with equal corners included: the table makes no difference between them.
 TEST(EdgeTable, EverySideIsUnderItsEdgeOnceInAscendingOrder) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(200, [&](std::uint64_t seed) {
     const auto triangles = random_triangles(seed);
     std::map<Ends, std::vector<std::uint32_t>> expected;
     for (std::uint32_t s = 0; s < 3 * triangles.size(); ++s) {
@@ -58,7 +58,7 @@ TEST(EdgeTable, EverySideIsUnderItsEdgeOnceInAscendingOrder) {
       ++next;
     });
     EXPECT_EQ(next, expected.end());
-  }
+  });
 }
 
 TEST(EdgeTable, NoTrianglesHaveNoEdges) {

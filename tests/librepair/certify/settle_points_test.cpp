@@ -6,6 +6,7 @@
 #include <check/self_intersections.h>
 #include <repair/repair.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 #include "shapes.h"
 #include "surfaces.h"
@@ -37,7 +38,7 @@ Surface without_certification(const TriangleSoup& soup) {
 
 TEST(SettlePoints, EndsWithWhatWasDecidedOnTheGrid) {
   std::size_t faults = 0;
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for_each_seed(10, [&](std::uint64_t seed) {
     const TriangleSoup soup = spiked_cube(seed);
     CleanReport cleaned;
     const Grid grid = clean_soup(soup, cleaned).grid;
@@ -57,7 +58,7 @@ TEST(SettlePoints, EndsWithWhatWasDecidedOnTheGrid) {
     }
     EXPECT_EQ(differ, moved) << seed;
     EXPECT_LT(moved, soup.points.size()) << seed;
-  }
+  });
   EXPECT_GT(faults, 0u);
 }
 
@@ -71,13 +72,13 @@ TEST(SettlePoints, MovesNothingWhereNothingIntersects) {
 
 // Without a repair of the whole.
 TEST(SettlePoints, IsWhatCertificationTriesFirst) {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for_each_seed(10, [&](std::uint64_t seed) {
     RepairOptions options;
     options.simplify = seed % 2 == 0 ? 0 : kDefaultSimplify;
     const RepairResult result = repair(spiked_cube(seed), options);
     EXPECT_TRUE(result.report.certify.passed()) << seed;
     EXPECT_EQ(result.report.certify.rounds, 0u) << seed;
-  }
+  });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "each_seed.h"
 #include "random_geometry.h"
 
 namespace meshrepair::internal {
@@ -70,15 +71,15 @@ Problem random_problem(Random& random, int nodes, int highest) {
 }
 
 TEST(MinimumCut, IsTheLeastSetOfLeastCost) {
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+  for_each_seed(3000, [&](std::uint64_t seed) {
     Random random(seed);
     const Problem problem = random_problem(random, random.integer(1, 9), seed % 2 == 0 ? 3 : 1000);
     ASSERT_EQ(bits(minimum_cut(problem.nodes, problem.edges)), least_set(problem)) << seed;
-  }
+  });
 }
 
 TEST(MinimumCut, WhatIsForbiddenIsNot) {
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+  for_each_seed(1000, [&](std::uint64_t seed) {
     Random random(seed);
     Problem problem = random_problem(random, 9, 10);
     problem.nodes[0] = {kForbidden, random.integer(0, 10)};
@@ -86,7 +87,7 @@ TEST(MinimumCut, WhatIsForbiddenIsNot) {
     const std::uint32_t set = bits(minimum_cut(problem.nodes, problem.edges));
     ASSERT_EQ(set & 3, 2u) << seed;
     ASSERT_EQ(set, least_set(problem)) << seed;
-  }
+  });
 }
 
 TEST(MinimumCut, ManyForbiddenNodesDoNotOverflow) {

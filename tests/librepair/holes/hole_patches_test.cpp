@@ -12,6 +12,7 @@
 #include <repair/repair.h>
 
 #include "degenerate_soups.h"
+#include "each_seed.h"
 #include "random_geometry.h"
 #include "shapes.h"
 #include "share_of_cases.h"
@@ -127,8 +128,7 @@ TEST(PatchHoles, HolesOfASphereAreClosedSmoothly) {
 TEST(PatchHoles, OrientationPlaysNoPart) {
   const TriangleSoup broken = without_some(torus(40, 20), 0.1, 1);
   const Patched straight = patched(broken);
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(10, [&](std::uint64_t seed) {
     const Patched turned = patched(with_some_flipped(broken, 0.5, seed));
     ASSERT_EQ(turned.soup.triangles.size(), straight.soup.triangles.size());
     for (TriangleId t(0u); t < straight.soup.triangles.end_id(); ++t.value) {
@@ -137,7 +137,7 @@ TEST(PatchHoles, OrientationPlaysNoPart) {
       std::sort(b.begin(), b.end());
       EXPECT_EQ(a, b);
     }
-  }
+  });
 }
 
 TEST(PatchHoles, HolesThatTouchInAPointAreTwo) {
@@ -197,8 +197,7 @@ TEST(PatchHoles, TheShareSaysWhichHolesAreClosed) {
 }
 
 TEST(PatchHoles, ATriangleThatJutsIntoAHoleIsNotThereTwice) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(30, [&](std::uint64_t seed) {
     const Patched p = patched(without_some(sphere(300), 0.4, seed));
     std::set<std::array<PointId, 3>> seen;
     for (const Triangle& t : p.soup.triangles) {
@@ -206,12 +205,12 @@ TEST(PatchHoles, ATriangleThatJutsIntoAHoleIsNotThereTwice) {
       std::sort(key.begin(), key.end());
       EXPECT_TRUE(seen.insert(key).second);
     }
-  }
+  });
 }
 
 TEST(PatchHoles, DegenerateSoupsKeepTheirInvariants) {
   for (const SoupFamily& family : degenerate_families()) {
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for_each_seed(20, [&](std::uint64_t seed) {
       SCOPED_TRACE(std::string(family.name) + " " + std::to_string(seed));
       HoleOptions options;
       options.largest_share = options.largest_flat_share = 100;
@@ -221,7 +220,7 @@ TEST(PatchHoles, DegenerateSoupsKeepTheirInvariants) {
           EXPECT_EQ(side(p.soup.grid_points[c], p.soup.planes[t.plane]), 0);
         }
       }
-    }
+    });
   }
 }
 
@@ -393,11 +392,10 @@ TEST(PatchHoles, TheRimOfAWallIsNoHole) {
   const TriangleSoup soup = sphere_with_wall();
   ASSERT_GT(soup.triangles.size(), sphere(1444).triangles.size() + 10);
   EXPECT_EQ(patched(soup).report.loops, 0u);
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(5, [&](std::uint64_t seed) {
     EXPECT_NEAR(repaired_volume(with_some_flipped(soup, 0.5, seed)), signed_volume(sphere(1444)),
                 1e-6);
-  }
+  });
 }
 
 TEST(PatchHoles, AFinIsNotDoubled) {

@@ -8,6 +8,7 @@
 #include <repair/inside_rule.h>
 #include <repair/repair.h>
 
+#include "each_seed.h"
 #include "graphs.h"
 #include "shapes.h"
 #include "share_of_cases.h"
@@ -97,10 +98,9 @@ TEST(InsideRule, TouchingCubesStayWholeWhateverIsFlipped) {
   TriangleSoup cubes = cube();
   append(cubes, moved(cube(), {1, 0, 0}));
   append(cubes, moved(cube(), {1, 1, 0}));
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(30, [&](std::uint64_t seed) {
     EXPECT_NEAR(solve(with_some_flipped(cubes, 0.5, seed), InsideRule::automatic).volume, 3, 1e-6);
-  }
+  });
 }
 
 TEST(InsideRule, HollowSphere) {

@@ -6,6 +6,7 @@
 #include <repair/walk.h>
 
 #include "degenerate_soups.h"
+#include "each_seed.h"
 #include "graphs.h"
 
 namespace meshrepair {
@@ -61,8 +62,7 @@ TEST(Walk, NestedBoxesCountUpAndInsideOutOnesDown) {
 // Parity does not look at orientation, and closed surfaces never contradict it, wherever they
 // cross.
 TEST(Walk, ClosedSurfacesAreConsistent) {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(10, [&](std::uint64_t seed) {
     const TriangleSoup soup = random_cubes(8, seed);
     const Graph g = graph_of(soup);
     EXPECT_TRUE(walk_winding(g.graph).consistent());
@@ -70,22 +70,21 @@ TEST(Walk, ClosedSurfacesAreConsistent) {
     const Graph mixed = graph_of(with_some_flipped(soup, 0.3, seed));
     EXPECT_TRUE(walk_parity(mixed.graph).consistent());
     EXPECT_FALSE(walk_winding(mixed.graph).consistent());
-  }
+  });
 }
 
 // On a grid faces coincide; winding is additive all the same, parity is not.
 TEST(Walk, WindingOfGridBoxesIsConsistent) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(20, [&](std::uint64_t seed) {
     const Graph g = graph_of(tetrahedra_soup(8, seed));
     const Walk winding = walk_winding(g.graph);
     // Equal triangles of two tetrahedra are one triangle, which loses one of two windings.
     if (CleanReport r;
         (void)clean_soup(tetrahedra_soup(8, seed), r), r.duplicates + r.opposite_duplicates > 0) {
-      continue;
+      return;
     }
     EXPECT_TRUE(winding.consistent());
-  }
+  });
 }
 
 TEST(Walk, AMissingTriangleIsAContradiction) {
@@ -98,8 +97,7 @@ TEST(Walk, AMissingTriangleIsAContradiction) {
 
 // The contract: where the walk is consistent it is the optimum.
 TEST(Walk, ConsistentWalksAreTheOptima) {
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(4, [&](std::uint64_t seed) {
     const Graph g = graph_of(random_cubes(5, seed));
     SolveOptions options;
     options.tolerance = 1e-12;
@@ -112,7 +110,7 @@ TEST(Walk, ConsistentWalksAreTheOptima) {
       EXPECT_NEAR(s[c], 2 * parity.value[c] - 1, 1e-4);
       EXPECT_NEAR(w[c], winding.value[c], 1e-4);
     }
-  }
+  });
 }
 
 }  // namespace

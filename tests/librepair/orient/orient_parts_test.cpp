@@ -7,6 +7,7 @@
 #include <repair/orient_parts.h>
 
 #include "degenerate_soups.h"
+#include "each_seed.h"
 #include "open_surfaces.h"
 #include "trees.h"
 
@@ -30,15 +31,14 @@ TEST(OrientParts, FlippedTrianglesAreTurnedBack) {
   TriangleSoup soup = torus(16, 12);
   append(soup, moved(sphere(300), {10, 0, 0}));
   const CleanSoup clean = cleaned(soup);
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(20, [&](std::uint64_t seed) {
     const CleanSoup turned = cleaned(with_some_flipped(soup, 0.25, seed));
     OrientReport report;
     EXPECT_EQ(orient_parts(turned, report).winding.raw(), windings_of(clean).raw());
     EXPECT_EQ(report.parts, 2u);
     EXPECT_EQ(report.unorientable_parts, 0u);
     EXPECT_GT(report.turned_triangles, 50u);
-  }
+  });
 }
 
 // Area decides, not the number of triangles.
@@ -222,14 +222,13 @@ TEST(OrientParts, AnOpenDoubledSheetStaysBothWaysRound) {
 TEST(OrientParts, AShellThatDoesNotTellIsTurnedOutward) {
   const TriangleSoup soup = sphere(300);
   const CleanSoup right = cleaned(soup);
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(20, [&](std::uint64_t seed) {
     OrientReport report;
     const Orientation orientation =
         orient_parts(cleaned(with_some_flipped(soup, 0.5, seed)), report);
     EXPECT_EQ(orientation.winding.raw(), windings_of(right).raw());
     EXPECT_EQ(report.doubtful_parts, 1u);
-  }
+  });
 }
 
 TEST(OrientParts, NothingHasNoParts) {

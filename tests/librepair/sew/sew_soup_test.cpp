@@ -11,6 +11,7 @@
 #include <repair/repair.h>
 #include <repair/sew_soup.h>
 
+#include "each_seed.h"
 #include "shapes.h"
 
 namespace meshrepair {
@@ -21,7 +22,7 @@ using namespace testing;
 constexpr SewOptions kAutomatic = {SewMode::automatic, 0, false, nullptr};
 
 // Each triangle with corners of its own, moved by at most so much along each axis.
-TriangleSoup torn(const TriangleSoup& soup, double noise, unsigned seed) {
+TriangleSoup torn(const TriangleSoup& soup, double noise, std::uint64_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> real(-noise, noise);
   TriangleSoup apart;
@@ -149,7 +150,7 @@ TEST(SewSoup, ADistanceMayBeAShareOfTheDiagonal) {
 }
 
 TEST(SewSoup, OrderScaleAndPlaceDoNotMatter) {
-  for (unsigned seed = 0; seed < 10; ++seed) {
+  for_each_seed(10, [&](std::uint64_t seed) {
     const TriangleSoup given = torn(torus(20, 12), 1e-3, seed);
     SewReport report, other;
     const auto sewn = sew_soup(given, kAutomatic, report);
@@ -163,7 +164,7 @@ TEST(SewSoup, OrderScaleAndPlaceDoNotMatter) {
     const auto again = sew_soup(reversed, kAutomatic, other);
     ASSERT_TRUE(again);
     EXPECT_EQ(again->soup.points, sewn->soup.points);
-  }
+  });
 }
 
 TEST(SewSoup, TrianglesThatAreNotFiniteDoNotKeepOthersFromBeingSewn) {
@@ -202,7 +203,7 @@ TEST(SewSoup, AHeapOfTrianglesAsksOftenWhetherToGoOn) {
 
 // A soup of points anywhere, also where there are none to be had.
 TEST(SewSoup, AnySoupIsSewnOrNot) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for_each_seed(200, [&](std::uint64_t seed) {
     TriangleSoup soup = random_soup(1 + seed % 40, 3 + static_cast<std::int32_t>(seed % 5), seed);
     if (seed % 3 == 0) soup = torn(soup, 0.01, seed);
     if (seed % 7 == 0) soup.points[seed % soup.points.size()] = Vec3d::Constant(std::nan(""));
@@ -219,7 +220,7 @@ TEST(SewSoup, AnySoupIsSewnOrNot) {
       }
       EXPECT_TRUE(std::is_sorted(sewn->source.begin(), sewn->source.end()));
     }
-  }
+  });
 }
 
 }  // namespace

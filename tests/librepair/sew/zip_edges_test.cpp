@@ -13,6 +13,7 @@
 #include <repair/repair_report.h>
 #include <repair/zip_edges.h>
 
+#include "each_seed.h"
 #include "prepare/prepare.h"
 #include "sew/drop_cancelled.h"
 #include "shapes.h"
@@ -66,7 +67,7 @@ std::uint64_t volume_on_grid(const TriangleSoup& soup, const Grid& grid) {
 }
 
 // Some balls of few grid steps, which may cross, and a cube far off that makes the steps large.
-TriangleSoup balls_of_few_steps(unsigned seed) {
+TriangleSoup balls_of_few_steps(std::uint64_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-3, 3), size(0.5, 8);
   TriangleSoup soup;
@@ -122,14 +123,13 @@ TEST(ZipEdges, WhatWasClosedIsClosedOnTheGrid) {
 }
 
 TEST(ZipEdges, WithoutATriangleItIsNotClosed) {
-  for (unsigned seed = 0; seed < 50; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(50, [&](std::uint64_t seed) {
     TriangleSoup soup = cube();
-    soup.triangles.erase(soup.triangles.begin() + seed % 12);
+    soup.triangles.erase(soup.triangles.begin() + static_cast<std::ptrdiff_t>(seed % 12));
     CleanSoup clean = on_grid(soup);
     EXPECT_FALSE(zip_edges(clean));
     EXPECT_EQ(unbalanced(clean).size(), 3u);
-  }
+  });
 }
 
 TEST(ZipEdges, WhatIsClosedStaysAsItIs) {

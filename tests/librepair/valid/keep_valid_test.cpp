@@ -10,6 +10,7 @@
 #include <repair/repair.h>
 
 #include "degenerate_soups.h"
+#include "each_seed.h"
 #include "open_surfaces.h"
 #include "random_solids.h"
 #include "shapes.h"
@@ -111,11 +112,10 @@ TEST(KeepValid, DamagedBallsComeOutAsFromCells) {
 
 TEST(KeepValid, DamagedSolidsComeOutAsFromCells) {
   std::size_t spared = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(1, 60, [&](std::uint64_t seed) {
     Random random(seed);
     spared += spares_cells(damaged(random_solid(random), random, seed), {});
-  }
+  });
   for (const OpenSurface& open : open_surfaces()) {
     SCOPED_TRACE(open.name);
     spared += spares_cells(open.soup, {});
@@ -195,8 +195,7 @@ TEST(KeepValid, GivesWayToWhatOnlyCellsTell) {
 // A triangle and the two halves of it: closed by a third one that has hardly any area, and nothing
 // that the grid could tell.
 TEST(KeepValid, MakesCellsOfSheetsThinnerThanTheGrid) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(1, 40, [&](std::uint64_t seed) {
     Random random(seed);
     const auto corner = [&] {
       return Vec3d(3 + random.real(0, 1), random.real(0, 1), random.real(0, 1));
@@ -208,7 +207,7 @@ TEST(KeepValid, MakesCellsOfSheetsThinnerThanTheGrid) {
     add_triangle(soup, a, middle, c);
     add_triangle(soup, middle, b, c);
     EXPECT_FALSE(spares_cells(soup, {}));
-  }
+  });
 }
 
 TEST(KeepValid, IsExaminedLikeAnyResult) {

@@ -13,6 +13,7 @@
 
 #include <mesh/soup_io.h>
 
+#include "each_seed.h"
 #include "gltf_maker.h"
 #include "mixed_soups.h"
 #include "package_bytes.h"
@@ -105,14 +106,14 @@ std::string scene(const std::string& picture) {
 }
 
 void write_all(WrittenFiles& files) {
-  for (unsigned seed = 0; seed < 30; ++seed) {
+  for_each_seed(30, [&](std::uint64_t seed) {
     const TexturedSoup soup = random_mixed_soup(seed);
     files.add(soup.soup, &soup.attributes);
-  }
-  for (unsigned seed = 0; seed < 4; ++seed) {
+  });
+  for_each_seed(4, [&](std::uint64_t seed) {
     const TexturedSoup soup = random_textured_soup(seed);  // with triangles of two points
     files.add(soup.soup, &soup.attributes);
-  }
+  });
   files.add(tetrahedron(), nullptr);
   files.add({}, nullptr);
   files.add(random_soup(1, true), nullptr);  // of all magnitudes

@@ -11,6 +11,7 @@
 
 #include <mesh/soup_io.h>
 
+#include "each_seed.h"
 #include "gltf_maker.h"
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
@@ -70,7 +71,7 @@ std::string differences(const A& a, const B& b) {
 class GltfDialects : public ::testing::TestWithParam<SoupFormat> {};
 
 TEST_P(GltfDialects, TexturedSoupsComeBackBitForBit) {
-  for (unsigned seed = 1; seed <= 30; ++seed) {
+  for_each_seed(1, 30, [&](std::uint64_t seed) {
     const TexturedSoup made = random_textured_soup(seed);
     const std::string bytes = format_soup(made.soup, GetParam(), {.attributes = &made.attributes});
     const ReadResult back = read_with_attributes(bytes, "a");
@@ -80,7 +81,7 @@ TEST_P(GltfDialects, TexturedSoupsComeBackBitForBit) {
     const ReadResult again = read_with_attributes(
         format_soup(back.soup, GetParam(), {.attributes = &back.attributes}), "a");
     ASSERT_EQ(differences(again, made), "") << seed;
-  }
+  });
 }
 
 TEST_P(GltfDialects, WritingTwiceGivesTheSameBytes) {

@@ -9,6 +9,7 @@
 
 #include <mesh/soup_io.h>
 
+#include "each_seed.h"
 #include "package_bytes.h"
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
@@ -72,18 +73,17 @@ void expect_same_attributes(const Attributes& a, const Attributes& b, std::size_
 }
 
 TEST(Threemf, RandomSoupsComeBackBitForBit) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
+  for_each_seed(20, [&](std::uint64_t seed) {
     const TriangleSoup soup = random_soup(seed, false);
     const ReadResult back = read_all(format_soup(soup, SoupFormat::threemf));
     EXPECT_EQ(point_bits(back.soup), point_bits(soup));
     EXPECT_EQ(back.soup.triangles, soup.triangles);
     EXPECT_THAT(back.report.warnings, ElementsAre());
-  }
+  });
 }
 
 TEST(Threemf, MaterialsColoursAndTexturesComeBackBitForBit) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(200, [&](std::uint64_t seed) {
     const ThreemfSoup made = random_threemf_soup(seed);
     const std::string bytes = write_all(made.soup, made.attributes);
     const ReadResult back = read_all(bytes);
@@ -96,7 +96,7 @@ TEST(Threemf, MaterialsColoursAndTexturesComeBackBitForBit) {
       expect_same_look(back.attributes, made.attributes, m);
     }
     EXPECT_EQ(write_all(back.soup, back.attributes), bytes);
-  }
+  });
 }
 
 TEST(Threemf, AttributesAreReadOnlyIfAskedFor) {
@@ -106,8 +106,7 @@ TEST(Threemf, AttributesAreReadOnlyIfAskedFor) {
 }
 
 TEST(Threemf, GoesThroughObjAndBack) {
-  for (unsigned seed = 0; seed < 10; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(10, [&](std::uint64_t seed) {
     ThreemfSoup made = random_threemf_soup(seed);
     made.attributes.corners.pop_back();  // OBJ has colours for points alone
     const TemporaryFolder folder;
@@ -129,7 +128,7 @@ TEST(Threemf, GoesThroughObjAndBack) {
     std::vector<std::string> pictures;
     for (const Image& image : back.attributes.images) pictures.push_back(*image.bytes);
     EXPECT_THAT(pictures, UnorderedElementsAre(tiny_png(0), tiny_png(1)));
-  }
+  });
 }
 
 TEST(Threemf, OnlyPicturesGetIntoAPackage) {

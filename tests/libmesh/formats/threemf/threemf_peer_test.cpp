@@ -7,6 +7,7 @@
 
 #include <mesh/soup_io.h>
 
+#include "each_seed.h"
 #include "threemf_soups.h"
 
 namespace meshrepair {
@@ -22,13 +23,12 @@ std::string write_textured(const ThreemfSoup& textured) {
 }
 
 TEST(ThreemfPeer, ReadsMaterialsAndTexturesStrictly) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(20, [&](std::uint64_t seed) {
     ThreemfSoup textured = random_threemf_soup(seed);
     textured.attributes.corners.pop_back();
     textured.attributes.looks[3].image = kNone;  // nothing needs layers
     expect_read_by_peer(write_textured(textured), textured.soup);
-  }
+  });
 }
 
 TEST(ThreemfPeer, ReadsColoursStrictly) {
@@ -40,11 +40,10 @@ TEST(ThreemfPeer, ReadsColoursStrictly) {
 
 // Of layers this version of lib3mf knows nothing, and passes over them.
 TEST(ThreemfPeer, ReadsTrianglesWithLayersOfProperties) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    SCOPED_TRACE(seed);
+  for_each_seed(20, [&](std::uint64_t seed) {
     const ThreemfSoup textured = random_threemf_soup(seed);
     expect_read_by_peer(write_textured(textured), textured.soup, false);
-  }
+  });
 }
 
 }  // namespace
