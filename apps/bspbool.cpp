@@ -5,18 +5,18 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include <base/error.h>
 #include <boolean/boolean.h>
 
 #include "common/boolean_steps.h"
+#include "common/command_line.h"
 #include "common/file_kinds.h"
 #include "common/logging.h"
 #include "common/picture_steps.h"
 #include "common/repair_options.h"
 #include "common/repair_steps.h"
 #include "common/report_sections.h"
+#include "common/side_file.h"
 #include "common/summary.h"
 #include "page/boolean_page.h"
 
@@ -30,7 +30,7 @@ struct BoolOptions {
 };
 
 bool is_tree_name(const std::string& name) {
-  return CLI::detail::to_lower(without_packing(name).extension().string()) == ".bsp";
+  return lower_extension(without_packing(name).string()) == ".bsp";
 }
 
 // The meshes as they are in their files.
@@ -237,10 +237,10 @@ ExitCode combine_files(BoolOptions options, Run& run) {
 }
 
 // What is asked of a mesh to write says nothing about a tree.
-void refuse_mesh_options(const CLI::App& app) {
+void refuse_mesh_options(const CommandLine& app) {
   for (const char* name :
        {"--format", "--attributes", "--drop", "--precision", "--strict", "--picture", "--html"}) {
-    if (app.get_option(name)->count() == 0) continue;
+    if (app.option(name).count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }
 }
@@ -255,13 +255,13 @@ int main(int argc, char** argv) {
                   "  bspbool body.stl hole.stl --op difference -o part.stl\n"
                   "  bspbool a.obj b.ply c.bsp --op union -o all.obj\n"
                   "  bspbool a.bsp b.bsp --op intersection -o both.bsp\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("IN", options.command.inputs,
                  "Two or more solids: meshes, which are repaired first if they are no solids,\n"
                  "and trees (.bsp)")
       ->check(names_file(mesh_and_tree_extensions()))
       ->required()
-      ->expected(-1);
+      ->repeated();
   add_output_option(app, options.command.step.output, "OUT", mesh_and_tree_extensions(),
                     "Mesh or, if it ends in .bsp, tree to write; - is standard output");
   add_boolean_command(app, options.command);

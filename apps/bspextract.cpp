@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   Program program("bspextract", "Extracts the boundary of what is solid in a labelled tree.",
                   "  bspextract solid.bsp -o repaired.obj\n"
                   "  bspextract solid.bsp -o - --format stl > repaired.stl\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("TREE", options.input, "Labelled tree of bspsolid; - is standard input")
       ->check(names_file(kTreeExtension))
       ->required();

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   Program program("bspsolid", "Decides which parts of a partitioned space are solid.",
                   "  bspsolid tree.bsp -o solid.bsp\n"
                   "  bspsolid tree.bsp -o solid.bsp --inside winding\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("TREE", options.input,
                  "Tree of bspbuild; the labels that it may have are replaced; - is standard input")
       ->check(names_file(kTreeExtension))

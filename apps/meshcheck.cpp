@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
       "  meshcheck part.stl\n"
       "  meshcheck part.obj --mark defects.ply\n"
       "  meshcheck part.obj --json | jq .check.defects.open_edges.count\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("IN", command.input,
                  "Mesh to check: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
                  "- is standard input")

@@ -51,7 +51,7 @@ int run_program(int argc, char** argv) {
                   "  meshconvert part.obj part.glb\n"
                   "  meshconvert --attributes drop part.obj plain.stl\n"
                   "  meshconvert - part.off < part.stl\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("IN", options.input,
                  "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
                  "- is standard input")

@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
   Program program("meshdist", "Measures how far two meshes are apart, each way.",
                   "  meshdist original.stl repaired.stl\n"
                   "  meshdist original.stl repaired.stl --bound --json | jq .distance.bound\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("A", options.first,
                  "Mesh: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip); its\n"
                  "diagonal is the measure of relative distances; - is standard input")

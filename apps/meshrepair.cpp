@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
       "  meshrepair scan.xyz solid.obj\n"
       "  meshrepair --resume broken.states --max-memory 8G broken.obj repaired.ply\n"
       "  curl https://example.org/mesh.stl | meshrepair --format stl - - > repaired.stl\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("IN", command.steps.input,
                  "Mesh to repair: STL, OBJ, OFF, PLY, glTF or 3MF; or points: XYZ, PTS, PWN, PCD,\n"
                  "PLY, OBJ or OFF without faces; maybe packed (.gz, .zst, .zip); - is standard\n"

@@ -13,7 +13,7 @@ int run_program(int argc, char** argv) {
   Program program("pointmesh", "Triangulates a point cloud, each point with its neighbours.",
                   "  pointmesh scan.xyz -o soup.ply\n"
                   "  pointmesh scan.pcd -o - --format ply | meshrepair - solid.obj\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("POINTS", options.input,
                  "Points to read: XYZ, PTS, PWN, PCD, PLY, OBJ or OFF, maybe packed (.gz, .zst,\n"
                  ".zip); - is standard input")

@@ -35,28 +35,45 @@ std::optional<Json> read_json(const fs::path& file) {
   if (!fs::is_regular_file(file, failed)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
-  Json json = Json::parse(std::istreambuf_iterator<char>(in), {}, nullptr, false);
-  return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+  return Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
-// The library takes -1 for a very large count.
+// A member is missing, or is of another kind.
+struct Damaged {};
+
+template <class Value>
+Value present(std::optional<Value> value) {
+  if (!value) throw Damaged();
+  return *std::move(value);
+}
+
+const Json& member(const Json& json, const char* key) {
+  const Json* const found = json.find(key);
+  if (found == nullptr) throw Damaged();
+  return *found;
+}
+
 std::uint64_t count_of(const Json& json, const char* key) {
-  const Json& count = json.at(key);
-  if (!count.is_number_unsigned()) {
-    throw Json::type_error::create(302, std::string(key) + " is no count", &count);
-  }
-  return count;
+  return present(member(json, key).as_count());
+}
+
+std::string text_of(const Json& json, const char* key) {
+  return present(member(json, key).as_text());
 }
 
 std::optional<LengthUnit> unit_of(const Json& name) {
   if (name.is_null()) return std::nullopt;
-  const auto unit = unit_named(name.get<std::string>());
-  if (!unit) throw Json::type_error::create(302, "unit is none", &name);
-  return unit;
+  return present(unit_named(present(name.as_text())));
+}
+
+const std::vector<Json>& list_of(const Json& json, const char* key) {
+  const Json& list = member(json, key);
+  if (!list.is_array()) throw Damaged();
+  return list.values();
 }
 
 void write_json(const fs::path& file, const Json& json) {
-  write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(file, json.dump(2) + "\n");
 }
 
 }  // namespace
@@ -106,11 +123,11 @@ BlockPlan BlockFolder::read_plan() const try {
     throw InputError(plan_file().string() +
                      ": is no plan: meshrepair-blocks plan makes one in a new folder");
   BlockPlan plan;
-  plan.input = json->at("input");
+  plan.input = text_of(*json, "input");
   plan.triangles = count_of(*json, "triangles");
-  plan.unit = unit_of(json->at("unit"));
+  plan.unit = unit_of(member(*json, "unit"));
   std::size_t triangles = 0;
-  for (const Json& block : json->at("blocks")) {
+  for (const Json& block : list_of(*json, "blocks")) {
     plan.blocks.push_back(
         {count_of(block, "triangles"), count_of(block, "groups"), count_of(block, "checksum")});
     triangles += plan.blocks.back().triangles;
@@ -119,7 +136,7 @@ BlockPlan BlockFolder::read_plan() const try {
     throw InputError(plan_file().string() + ": is damaged: blocks are missing");
   }
   return plan;
-} catch (const Json::exception&) {
+} catch (const Damaged&) {
   throw InputError(plan_file().string() + ": is damaged: remove the folder, and plan again");
 }
 
@@ -151,15 +168,15 @@ std::optional<BlockResult> BlockFolder::read_result(std::size_t block, const Blo
   const auto json = read_json(done_file(block));
   if (!json) return std::nullopt;
   BlockResult result = {count_of(*json, "block"),   count_of(*json, "result"),
-                        count_of(*json, "program"), json->at("options"),
-                        json->at("file"),           json->at("certified")};
+                        count_of(*json, "program"), text_of(*json, "options"),
+                        text_of(*json, "file"),     present(member(*json, "certified").as_bool())};
   if (result.block != plan.blocks[block - 1].checksum) return std::nullopt;
   if (fs::path(result.file).filename() != result.file) return std::nullopt;
   if (!result.file.empty() && file_checksum(file_of(result)) != result.result) {
     return std::nullopt;
   }
   return result;
-} catch (const Json::exception&) {
+} catch (const Damaged&) {
   return std::nullopt;
 } catch (const InputError&) {
   return std::nullopt;

@@ -267,7 +267,7 @@ int join_blocks(int argc, const char* const* argv) {
   JoinOptions options;
   Program program("meshrepair-blocks join", "Joins the blocks that were repaired to one mesh.",
                   "  meshrepair-blocks join city.blocks repaired.ply\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("DIR", options.folder, "Folder that meshrepair-blocks plan has made")->required();
   app.add_option("OUT", options.step.output, "Mesh to write; - is standard output")
       ->check(names_file(mesh_extensions()))

@@ -29,7 +29,7 @@ struct RunOptions {
 };
 
 // Of the options those that change results, as they are for all blocks.
-std::string options_text(const CLI::App& app) {
+std::string options_text(const CommandLine& app) {
   return options_of_results(app, {"DIR", "--block"});
 }
 
@@ -77,7 +77,7 @@ ExitCode code_of(const BlockResult& result) {
 
 // What encloses nothing, as a sheet does, is no part of the result; the whole mesh has others.
 // Nothing where the result was not to be written, as it lacks a guarantee.
-std::optional<BlockResult> repaired(RunOptions& options, const CLI::App& app, Run& run) {
+std::optional<BlockResult> repaired(RunOptions& options, const CommandLine& app, Run& run) {
   BlockResult result;
   StepOptions& steps = options.repair.steps;
   try {
@@ -99,7 +99,7 @@ std::optional<BlockResult> repaired(RunOptions& options, const CLI::App& app, Ru
   return result;
 }
 
-ExitCode run_of_block(RunOptions& options, const CLI::App& app, Run& run) {
+ExitCode run_of_block(RunOptions& options, const CommandLine& app, Run& run) {
   StepOptions& steps = options.repair.steps;
   require_options_of_blocks(steps);
   const BlockFolder folder(options.folder);
@@ -141,9 +141,9 @@ int run_block(int argc, const char* const* argv) {
                   "whole mesh, as --keep and --min-part, are about each block here.",
                   "  meshrepair-blocks run city.blocks --block 17\n"
                   "  meshrepair-blocks run city.blocks --block 17 --format stl --max-memory 4G\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("DIR", options.folder, "Folder that meshrepair-blocks plan has made")->required();
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--block", [&](const std::string& text) { options.block = *parse_count(text); },
          "Number of the block, from 1")
       ->check(count_between(1))

@@ -6,7 +6,6 @@
 #include <new>
 #include <optional>
 
-#include <CLI/Config.hpp>
 #include <spdlog/logger.h>
 #include <spdlog/sinks/base_sink.h>
 
@@ -14,6 +13,7 @@
 #include <base/parallel.h>
 
 #include "calls/plain_locale.h"
+#include "common/command_line.h"
 #include "common/logging.h"
 #include "common/memory_limit.h"
 
@@ -49,9 +49,9 @@ std::string option_name(std::string name) {
 }
 
 // The word of the command line; empty where it has none.
-std::string word_of(const CLI::Option& option, const Keyword& keyword) {
+std::string word_of(const CommandOption& option, const Keyword& keyword) {
   const auto& [name, value] = keyword;
-  const bool is_flag = option.get_items_expected_max() == 0;
+  const bool is_flag = option.is_flag();
   if (const bool* set = std::get_if<bool>(&value)) {
     if (!is_flag) throw UsageError(name + ": needs a value");
     return *set ? "--" + option_name(name) : std::string();
@@ -77,7 +77,7 @@ void Session::parse(const Keywords& keywords, const std::vector<std::string_view
   const PlainLocale plain;
   for (const Keyword& keyword : keywords) {
     const std::string name = option_name(keyword.first);
-    const CLI::Option* const option = app_.get_option_no_throw("--" + name);
+    const CommandOption* const option = app_.find("--" + name);
     if (option == nullptr || is_among(kOfPrograms, name)) {
       throw UsageError(keyword.first + ": there is no such option");
     }
@@ -86,11 +86,7 @@ void Session::parse(const Keywords& keywords, const std::vector<std::string_view
     }
     if (std::string word = word_of(*option, keyword); !word.empty()) command_.push_back(word);
   }
-  try {
-    app_.parse(std::vector<std::string>(command_.rbegin(), command_.rend() - 1));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  (void)app_.parse(std::vector<std::string>(command_.begin() + 1, command_.end()));
   common_.quiet = true;
 }
 

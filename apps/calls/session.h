@@ -9,9 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include "calls/call_progress.h"
+#include "common/command_line.h"
 #include "common/common_options.h"
 #include "common/exit_code.h"
 #include "common/program.h"
@@ -43,7 +42,7 @@ class Session {
   explicit Session(const std::string& program);
 
   // For the options of the program, to be added before parse().
-  [[nodiscard]] CLI::App& options() { return app_; }
+  [[nodiscard]] CommandLine& options() { return app_; }
   [[nodiscard]] CommonOptions& common() { return common_; }
 
   // Throws UsageError, which begins with the name as it is in the keyword; also for those that are
@@ -57,7 +56,7 @@ class Session {
   [[nodiscard]] Outcome run(CallProgress& progress, const Body& body) const;
 
  private:
-  CLI::App app_;
+  CommandLine app_;
   CommonOptions common_;
   std::vector<std::string> command_;  // as the command line would be
 };

@@ -61,7 +61,7 @@ void drop_chosen(const std::vector<std::string>& drops, bool keeps_scene, Attrib
 
 }  // namespace
 
-void add_attributes_options(CLI::App& app, AssetOptions& options) {
+void add_attributes_options(CommandLine& app, AssetOptions& options) {
   add_choice(
       app, "--attributes", kAttributes, [&options](bool value) { options.attributes = value; },
       "Texture coordinates, normals, colours, materials and groups:\n"
@@ -73,12 +73,12 @@ void add_attributes_options(CLI::App& app, AssetOptions& options) {
                  "Leave out some of them: textures, normals, tangents, colours, others,\n"
                  "materials, groups; separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember(kinds()))
+      ->check(is_one_of(kinds()))
       ->type_name("KIND,...")
       ->group("Output");
 }
 
-void add_scene_option(CLI::App& app, AssetOptions& options, const std::string& group) {
+void add_scene_option(CommandLine& app, AssetOptions& options, const std::string& group) {
   add_choice(
       app, "--scene", kScenes, [&options](bool value) { options.by_mesh = value; },
       "The meshes of a scene (glTF, 3MF), or the objects of an OBJ file:\n"
@@ -88,7 +88,7 @@ void add_scene_option(CLI::App& app, AssetOptions& options, const std::string& g
       ->group(group);
 }
 
-void add_units_option(CLI::App& app, AssetOptions& options) {
+void add_units_option(CommandLine& app, AssetOptions& options) {
   add_choice(
       app, "--units", kUnits, [&options](LengthUnit value) { options.units = value; },
       "What a length of 1 is in files that do not say, which are all but 3MF and glTF:\n"
@@ -97,7 +97,7 @@ void add_units_option(CLI::App& app, AssetOptions& options) {
       ->group("Output");
 }
 
-void add_root_option(CLI::App& app, AssetOptions& options) {
+void add_root_option(CommandLine& app, AssetOptions& options) {
   app.add_option(
          "--root", options.root,
          "IN lies in this folder of meshes, and OUT at its place in a copy of it: names of\n"

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include <mesh/attributes.h>
 #include <mesh/length_unit.h>
 #include <mesh/reading.h>
 #include <mesh/soup_io.h>
+
+#include "common/command_line.h"
 
 namespace meshrepair {
 
@@ -23,14 +23,14 @@ struct AssetOptions {
 };
 
 // --attributes and --drop.
-void add_attributes_options(CLI::App& app, AssetOptions& options);
+void add_attributes_options(CommandLine& app, AssetOptions& options);
 // --scene.
-void add_scene_option(CLI::App& app, AssetOptions& options, const std::string& group = "Repair");
+void add_scene_option(CommandLine& app, AssetOptions& options, const std::string& group = "Repair");
 // --units.
-void add_units_option(CLI::App& app, AssetOptions& options);
+void add_units_option(CommandLine& app, AssetOptions& options);
 
 // --root.
-void add_root_option(CLI::App& app, AssetOptions& options);
+void add_root_option(CommandLine& app, AssetOptions& options);
 
 // What is to be read for a file of this format.
 [[nodiscard]] ReadOptions reading_for(SoupFormat format, const AssetOptions& assets,

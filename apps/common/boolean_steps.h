@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include <boolean/boolean.h>
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
 
+#include "common/command_line.h"
 #include "common/repair_command.h"
 #include "common/repair_steps.h"
 
@@ -26,7 +25,7 @@ struct BooleanCommand {
 };
 
 // All options of bspbool; IN and --output, and those of every program, are for the caller to add.
-void add_boolean_command(CLI::App& app, BooleanCommand& command);
+void add_boolean_command(CommandLine& app, BooleanCommand& command);
 
 // Meshes as one.
 struct JoinedMeshes {

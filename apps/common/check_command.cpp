@@ -119,7 +119,7 @@ std::string mark_help() {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, CheckCommand& command) {
+void add_check_command(CommandLine& app, CheckCommand& command) {
   add_check_options(app, command.request);
   add_scene_option(app, command.assets, "Check");
   app.add_option("--mark", command.marked, mark_help())

@@ -3,10 +3,9 @@
 
 #include <string>
 
-#include <CLI/App.hpp>
-
 #include "common/asset_options.h"
 #include "common/check_steps.h"
+#include "common/command_line.h"
 #include "common/picture_request.h"
 #include "common/program.h"
 #include "page/html_request.h"
@@ -23,7 +22,7 @@ struct CheckCommand {
 };
 
 // All options but IN and --json, and those of every program, which are for the caller to add.
-void add_check_command(CLI::App& app, CheckCommand& command);
+void add_check_command(CommandLine& app, CheckCommand& command);
 
 // Reads command.input, and says what is wrong with it. not_certified where it is not the boundary
 // of a solid. Unless --quiet, what is found is printed.

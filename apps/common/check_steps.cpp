@@ -12,7 +12,7 @@
 
 namespace meshrepair {
 
-void add_check_options(CLI::App& app, CheckRequest& request) {
+void add_check_options(CommandLine& app, CheckRequest& request) {
   app.add_flag("--weld", request.check.weld,
                "Treat points with equal coordinates as one, as always in STL")
       ->group("Check");

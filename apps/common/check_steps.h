@@ -3,11 +3,10 @@
 
 #include <string>
 
-#include <CLI/App.hpp>
-
 #include <check/check_surface.h>
 #include <mesh/soup.h>
 
+#include "common/command_line.h"
 #include "common/json_report.h"
 
 namespace meshrepair {
@@ -18,7 +17,7 @@ struct CheckRequest {
 };
 
 // --weld, --places and --openings.
-void add_check_options(CLI::App& app, CheckRequest& request);
+void add_check_options(CommandLine& app, CheckRequest& request);
 
 // What narrow openings there are: words for the table, and the same in the section of the report;
 // nothing if they are not asked for.

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
+#include "common/command_line.h"
 
 namespace meshrepair {
 
@@ -17,13 +16,13 @@ using Choice = std::pair<std::string_view, Value>;
 
 // `choices`, a range of Choice, must outlive the app. `set` gets the value of the name.
 template <class Choices, class Set>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& choices, Set set,
-                        const std::string& description) {
+CommandOption* add_choice(CommandLine& app, const std::string& name, const Choices& choices,
+                          Set set, const std::string& description) {
   std::vector<std::string> names;
   names.reserve(choices.size());
   for (const auto& choice : choices) names.emplace_back(choice.first);
   return app
-      .add_option_function<std::string>(
+      .add_option_function(
           name,
           [&choices, set](const std::string& word) {
             set(std::find_if(choices.begin(), choices.end(), [&](const auto& choice) {
@@ -31,7 +30,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices& c
                 })->second);
           },
           description)
-      ->check(CLI::IsMember(names))
+      ->check(is_one_of(names))
       ->type_name("NAME");
 }
 

@@ -10,12 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
 #include <base/error.h>
 
 #include "common/choice_option.h"
+#include "common/command_line.h"
 #include "common/file_kinds.h"
 #include "common/numbers.h"
 #include "describe/build_facts.h"
@@ -29,10 +27,8 @@ constexpr std::string_view kReportOption = "--report";
 constexpr std::size_t kMostDescriptor = 1 << 20;
 
 // What --describe prints.
-class CallForDescription : public CLI::Success {
- public:
-  explicit CallForDescription(std::string text)
-      : Success("CallForDescription", std::move(text), CLI::ExitCodes::Success) {}
+struct Description {
+  std::string text;
 };
 
 using Describe = std::string (*)(const CommandFacts&);
@@ -41,31 +37,7 @@ constexpr std::array<Choice<Describe>, 4> kDescriptions = {{{"man", man_page},
                                                             {"zsh", zsh_completion},
                                                             {"fish", fish_completion}}};
 
-// Help in which an option is "--name TYPE", and what it does ends with its default.
-class HelpFormatter : public CLI::Formatter {
- public:
-  HelpFormatter() { column_width(28); }
-
-  std::string make_help(const CLI::App* app, std::string name,
-                        CLI::AppFormatMode mode) const override {
-    const std::string help = Formatter::make_help(app, std::move(name), mode);
-    return CLI::detail::find_and_replace(help, "\n\n\n", "\n\n");
-  }
-
-  std::string make_option_opts(const CLI::Option* option) const override {
-    const std::string type = option->get_type_name();  // "TYPE:check"
-    if (option->get_positional() || option->get_type_size() == 0 || type.empty()) return {};
-    return " " + type.substr(0, type.find(':'));
-  }
-
-  std::string make_option_desc(const CLI::Option* option) const override {
-    const std::string value = option->get_default_str();
-    if (value.empty()) return option->get_description();
-    return option->get_description() + " (default: " + value + ")";
-  }
-};
-
-// For CLI11: an empty text where `text` is a time to wait.
+// For check(): an empty text where `text` is a time to wait.
 std::string why_no_duration(const std::string& text) {
   const std::optional<double> seconds = parse_number(text);
   if (seconds && *seconds >= 0) return {};
@@ -83,38 +55,24 @@ std::string why_no_descriptor(const std::string& text) {
   return is_open ? std::string() : "'" + text + "' is not the number of an open descriptor";
 }
 
-// CLI11 looks for what is missing first: whoever mistypes the only option would be told of IN.
-std::string message_of(const CLI::App& app, const CLI::RequiredError& error) {
-  const std::vector<std::string> unknown = app.remaining();
-  return unknown.empty() ? error.what() : CLI::ExtrasError(unknown).what();
-}
-
-// CLI11 says "At Most 1 required but received 2".
-std::string message_of(const CLI::App& app, const CLI::ArgumentMismatch& error) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_type_size() == 0) continue;  // a flag may be there twice
-    if (option->count() > static_cast<std::size_t>(option->get_items_expected_max())) {
-      return option->get_name() + ": is given more than once";
-    }
-  }
-  return error.what();
-}
-
 // Some programs have --json for their report.
-void add_json_flag(CLI::App& app, CLI::Option& version) {
+void add_json_flag(CommandLine& app, CommandOption& version) {
   const std::string facts = "print what the program is built of and knows, as JSON";
-  if (CLI::Option* known = app.get_option_no_throw("--json")) {
-    known->description(known->get_description() + ";\nwith --version: " + facts);
+  if (CommandOption* known = app.find("--json")) {
+    known->description(known->description() + ";\nwith --version: " + facts);
     return;
   }
   const std::string alone = "With --version: " + facts;
-  app.add_flag("--json", alone)->needs(&version)->group("Reporting");
+  app.add_flag_callback(
+         "--json", [] {}, alone)
+      ->needs(&version)
+      ->group("Reporting");
 }
 
 // --version ends the parsing before other options are looked at.
-std::string version_text(const CLI::App& app, const CLI::CallForVersion& version) {
-  if (app.count("--json") == 0) return std::string(version.what()) + "\n";
-  return build_facts(app.get_name()).dump(2) + "\n";
+std::string version_text(const CommandLine& app) {
+  if (app.option("--json").count() == 0) return app.name() + " " + program_version() + "\n";
+  return build_facts(app.name()).dump(2) + "\n";
 }
 
 std::string_view report_value(const std::vector<std::string_view>& arguments) {
@@ -138,8 +96,7 @@ Verbosity CommonOptions::verbosity() const {
 
 std::string program_version() { return MESHREPAIR_VERSION; }
 
-void add_common_options(CLI::App& app, CommonOptions& options) {
-  app.formatter(std::make_shared<HelpFormatter>());
+void add_common_options(CommandLine& app, CommonOptions& options) {
   const std::string running = "Running";
   const std::string telling = "Reporting";
   app.add_option("--threads", options.threads, "Number of threads; 0: all")
@@ -163,7 +120,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
                  "rather than take more memory")
       ->type_name("DIR")
       ->group(running);
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--max-triangles",
          [&options](const std::string& text) { options.max_triangles = *parse_count(text); },
          "Give up on inputs of more triangles; 0: no limit")
@@ -181,43 +138,38 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->check(names_side_file(".json"))
       ->type_name("FILE")
       ->group(telling);
-  CLI::Option* quiet =
+  CommandOption* quiet =
       app.add_flag("--quiet,-q", options.quiet, "Print errors only")->group(telling);
   app.add_flag("--verbose,-v", options.verbose, "Print what each step does")
       ->excludes(quiet)
       ->group(telling);
-  CLI::Option* version = app.set_version_flag("--version", app.get_name() + " " + program_version())
-                             ->description("Print the version and exit")
-                             ->group(telling);
+  CommandOption* version =
+      app.set_version_flag("--version", "Print the version and exit")->group(telling);
   add_json_flag(app, *version);
   app.set_help_flag("--help,-h", "Print this text and exit")->group(telling);
   add_choice(
       app, "--describe", kDescriptions,
-      [&app](Describe describe) { throw CallForDescription(describe(facts_of(app))); },
+      [&app](Describe describe) { throw Description{describe(facts_of(app))}; },
       "Print a manual page or a completion")
       ->group("");
 }
 
-bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+bool parse_command_line(CommandLine& app, int argc, const char* const* argv) {
   try {
-    app.parse(argc, argv);
-    return true;
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
-    return false;
-  } catch (const CLI::CallForVersion& version) {
-    std::fputs(version_text(app, version).c_str(), stdout);
-    return false;
-  } catch (const CallForDescription& description) {
-    std::fputs(description.what(), stdout);
-    return false;
-  } catch (const CLI::RequiredError& error) {
-    throw UsageError(message_of(app, error));
-  } catch (const CLI::ArgumentMismatch& error) {
-    throw UsageError(message_of(app, error));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    switch (app.parse(argc, argv)) {
+      case CommandLine::Parsed::all:
+        return true;
+      case CommandLine::Parsed::help:
+        std::fputs(app.help().c_str(), stdout);
+        return false;
+      case CommandLine::Parsed::version:
+        std::fputs(version_text(app).c_str(), stdout);
+        return false;
+    }
+  } catch (const Description& description) {
+    std::fputs(description.text.c_str(), stdout);
   }
+  return false;
 }
 
 std::string find_report_option(int argc, const char* const* argv) {

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include <CLI/App.hpp>
-
+#include "common/command_line.h"
 #include "common/logging.h"
 
 namespace meshrepair {
@@ -32,11 +31,11 @@ inline constexpr std::size_t kMostThreads = 1024;
 // Adds the options above, --version, --help, and --describe, which help does not show: a manual
 // page or a completion, made of all options of the app. Call it after the program's own options:
 // the groups appear in help in the order in which they were added.
-void add_common_options(CLI::App& app, CommonOptions& options);
+void add_common_options(CommandLine& app, CommonOptions& options);
 
 // True if the program is to go on, false if it was asked for help or version, which are then on
 // stdout. Throws UsageError.
-[[nodiscard]] bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
+[[nodiscard]] bool parse_command_line(CommandLine& app, int argc, const char* const* argv);
 
 // The value of --report found without parsing, so that a report can say what was wrong with the
 // command line; empty if there is none, or if it is the value of another argument as well: the

@@ -52,7 +52,7 @@ Json way_section(const OneSidedDistance& way, double diagonal) {
 
 }  // namespace
 
-void add_distance_options(CLI::App& app, DistanceOptions& options) {
+void add_distance_options(CommandLine& app, DistanceOptions& options) {
   app.add_option("--samples", options.samples, "Points on each mesh, evenly by area")
       ->type_name("N")
       ->check(count_between(1, 1'000'000'000))
@@ -63,7 +63,7 @@ void add_distance_options(CLI::App& app, DistanceOptions& options) {
       ->check(count_between(0))
       ->capture_default_str()
       ->group("Distance");
-  CLI::Option* bound =
+  CommandOption* bound =
       app.add_flag("--bound", options.bound,
                    "Also find a distance that no point exceeds, rounding included, by dividing\n"
                    "triangles until it is near the largest distance found")

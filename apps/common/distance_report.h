@@ -3,17 +3,16 @@
 
 #include <string>
 
-#include <CLI/App.hpp>
-
 #include <check/mesh_distance.h>
 #include <repair/fidelity.h>
 
+#include "common/command_line.h"
 #include "common/json_report.h"
 
 namespace meshrepair {
 
 // How meshdist measures: --samples, --seed, --bound and --bound-factor.
-void add_distance_options(CLI::App& app, DistanceOptions& options);
+void add_distance_options(CommandLine& app, DistanceOptions& options);
 
 // Mean, RMS and largest distance each way, as they are and as shares of the first mesh's diagonal.
 [[nodiscard]] std::string distance_table(const MeshDistance& distance);

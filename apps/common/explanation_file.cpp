@@ -237,7 +237,7 @@ std::vector<TriangleKind> kinds_of_origins() {
   return kinds_of<TriangleOrigin>(kOrigins, origin_name);
 }
 
-void add_explain_option(CLI::App& app, std::string& path) {
+void add_explain_option(CommandLine& app, std::string& path) {
   app.add_option("--explain", path,
                  "Write IN and OUT beside each other as PLY or GLB, each triangle coloured by\n"
                  "what became of it:" +

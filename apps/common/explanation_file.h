@@ -7,12 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include <mesh/coloured_ply.h>
 #include <mesh/scene.h>
 #include <mesh/soup.h>
 
+#include "common/command_line.h"
 #include "common/repair_steps.h"
 
 namespace meshrepair {
@@ -28,7 +27,7 @@ struct TriangleKind {
 [[nodiscard]] std::vector<TriangleKind> kinds_of_origins();
 
 // The help names the colours.
-void add_explain_option(CLI::App& app, std::string& path);
+void add_explain_option(CommandLine& app, std::string& path);
 
 // Before hours of work, as check_files(): throws UsageError where the file is no PLY or GLB, or
 // another one of the run, OutputError where it cannot be written. An empty path asks for nothing.

@@ -12,12 +12,11 @@ std::string both(std::string_view some, std::string_view others) {
 
 }  // namespace
 
-// CLI11 keeps what a check is about with the type of the option.
-CLI::Validator names_file(std::string_view extensions) {
-  return {[](std::string&) { return std::string(); }, std::string(extensions)};
+Check names_file(std::string_view extensions) {
+  return {[](const std::string&) { return std::string(); }, std::string(extensions)};
 }
 
-CLI::Validator names_side_file(std::string_view extensions) {
+Check names_side_file(std::string_view extensions) {
   const auto why_not = [](const std::string& word) {
     return std::string(word.empty() ? "the name of the file is empty" : "");
   };

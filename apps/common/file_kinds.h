@@ -4,16 +4,15 @@
 #include <string>
 #include <string_view>
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
+#include "common/command_line.h"
 
 namespace meshrepair {
 
 // For check(): takes every word, as content decides, not names. `extensions` is ".stl, .obj".
-[[nodiscard]] CLI::Validator names_file(std::string_view extensions);
+[[nodiscard]] Check names_file(std::string_view extensions);
 // Of a file beside the output, which an option asks for: an empty name would be as if it was not
 // given.
-[[nodiscard]] CLI::Validator names_side_file(std::string_view extensions);
+[[nodiscard]] Check names_side_file(std::string_view extensions);
 
 // Those of meshes, also packed; the same and those of points; and those of trees beside meshes.
 [[nodiscard]] std::string mesh_extensions();

@@ -19,7 +19,10 @@ std::size_t peak_memory_bytes(const Json& stages) {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
   std::size_t peak = static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
-  for (const Json& stage : stages) peak = std::max(peak, stage.value("peak_bytes", std::size_t{0}));
+  for (const Json& stage : stages.values()) {
+    const Json* const bytes = stage.find("peak_bytes");
+    if (bytes != nullptr) peak = std::max<std::size_t>(peak, bytes->as_count().value_or(0));
+  }
   return peak;
 }
 
@@ -65,8 +68,8 @@ std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failur
   report["seconds"] = progress.seconds();
   report["peak_memory_bytes"] = peak_memory_bytes(report["stages"]);
   report["exit_code"] = static_cast<int>(code);
-  report["error"] = failure ? Json(failure->message) : error_ ? Json(*error_) : Json(nullptr);
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  report["error"] = failure ? Json(failure->message) : error_ ? Json(*error_) : Json();
+  return report.dump(2) + '\n';
 }
 
 }  // namespace meshrepair

@@ -23,14 +23,11 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "common/exit_code.h"
+#include "common/json.h"
 #include "common/progress_bar.h"
 
 namespace meshrepair {
-
-using Json = nlohmann::ordered_json;  // keeps the order in which keys were added
 
 // Of what reports hold: see docs/stability.md. It changes together with docs/report.schema.json.
 inline constexpr std::string_view kReportVersion = "1.0";

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "common/command_line.h"
 
 namespace meshrepair {
 
@@ -17,9 +18,7 @@ namespace meshrepair {
 // Digits alone.
 [[nodiscard]] std::optional<std::size_t> parse_count(std::string_view word);
 
-// For check() of CLI11: says why a word is no such number; an empty text where it is one.
-using WhyNot = std::function<std::string(const std::string& word)>;
-
+// For check() of an option: what says why a word is no such number.
 [[nodiscard]] WhyNot number_between(double least,
                                     double most = std::numeric_limits<double>::infinity());
 [[nodiscard]] WhyNot count_between(std::size_t least,

@@ -52,7 +52,7 @@ std::optional<PictureSize> picture_size_of(std::string_view text) {
   return PictureSize{*width, *height};
 }
 
-// For CLI11: an empty text where the word is a size.
+// For check(): an empty text where the word is a size.
 std::string why_no_size(const std::string& word) {
   if (picture_size_of(word)) return {};
   return fmt::format("'{}' is no size: WIDTHxHEIGHT, of 1 to {} pixels", word, kMostPictureSide);
@@ -110,12 +110,12 @@ void write_picture(const PictureRequest& request, const Pixels& pixels,
 
 }  // namespace
 
-void add_picture_options(CLI::App& app, PictureRequest& request, const std::string& what) {
+void add_picture_options(CommandLine& app, PictureRequest& request, const std::string& what) {
   app.add_option("--picture", request.path, "Draw " + what + ", as PNG")
       ->check(names_side_file(".png"))
       ->type_name("FILE")
       ->group("Picture");
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--picture-size",
          [&request](const std::string& word) { request.size = *picture_size_of(word); },
          "WIDTHxHEIGHT in pixels, of one mesh")
@@ -123,7 +123,7 @@ void add_picture_options(CLI::App& app, PictureRequest& request, const std::stri
       ->type_name("SIZE")
       ->default_str(fmt::format("{}x{}", request.size.width, request.size.height))
       ->group("Picture");
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--picture-view", [&request](const std::string& word) { request.view = *view_of(word); },
          "From where: front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION\n"
          "in degrees; 0,0 is the front, 90,0 the right")
@@ -133,19 +133,19 @@ void add_picture_options(CLI::App& app, PictureRequest& request, const std::stri
       ->group("Picture");
 }
 
-void add_colours_option(CLI::App& app, PictureRequest& request, const std::string& name,
+void add_colours_option(CommandLine& app, PictureRequest& request, const std::string& name,
                         const std::string& meaning) {
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--picture-colours",
          [&request, name](const std::string& word) { request.painted = word == name; },
          fmt::format("looks: those of the mesh; {}: {}", name, meaning))
-      ->check(CLI::IsMember(std::vector<std::string>{"looks", name}))
+      ->check(is_one_of(std::vector<std::string>{"looks", name}))
       ->type_name("NAME")
       ->default_str("looks")
       ->group("Picture");
 }
 
-void add_show_options(CLI::App& app, PictureRequest& request, const std::string& what,
+void add_show_options(CommandLine& app, PictureRequest& request, const std::string& what,
                       const std::string& otherwise) {
   app.add_flag_callback(
          "--show",

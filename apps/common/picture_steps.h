@@ -4,28 +4,27 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include <mesh/attributes.h>
 #include <mesh/coloured_ply.h>
 #include <mesh/soup.h>
 #include <picture/pixels.h>
 #include <picture/view.h>
 
+#include "common/command_line.h"
 #include "common/picture_request.h"
 #include "common/repair_steps.h"
 
 namespace meshrepair {
 
 // --picture, --picture-size and --picture-view. `what` is drawn: "IN and OUT, side by side".
-void add_picture_options(CLI::App& app, PictureRequest& request, const std::string& what);
+void add_picture_options(CommandLine& app, PictureRequest& request, const std::string& what);
 // --picture-colours, for programs that know of each triangle what is wrong, or became of it: the
 // name and the meaning of these colours.
-void add_colours_option(CLI::App& app, PictureRequest& request, const std::string& name,
+void add_colours_option(CommandLine& app, PictureRequest& request, const std::string& name,
                         const std::string& meaning);
 
 // --show and --show-as. `otherwise`: for the help, what is shown by terminals without pictures.
-void add_show_options(CLI::App& app, PictureRequest& request, const std::string& what,
+void add_show_options(CommandLine& app, PictureRequest& request, const std::string& what,
                       const std::string& otherwise = {});
 
 // Before hours of work, as check_files(): throws UsageError where the picture is another file of

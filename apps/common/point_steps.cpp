@@ -4,12 +4,12 @@
 #include <string>
 #include <utility>
 
-#include <CLI/Validators.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/logger.h>
 
 #include <base/error.h>
 
+#include "common/command_line.h"
 #include "common/logging.h"
 #include "common/numbers.h"
 #include "common/summary.h"
@@ -67,7 +67,7 @@ PointCloud keep(PointReadResult result, Findings& findings) {
 
 }  // namespace
 
-void add_point_options(CLI::App& app, PointSoupOptions& options) {
+void add_point_options(CommandLine& app, PointSoupOptions& options) {
   app.add_option("--votes", options.votes,
                  "Keep triangles that at least this many of their corners want: 1, 2 or 3")
       ->check(count_between(1, 3))
@@ -122,18 +122,18 @@ PointSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, R
   return make_point_soup(cloud, options, findings.point_soup.emplace());
 }
 
-void add_point_repair_options(CLI::App& app, PointOptions& options) {
+void add_point_repair_options(CommandLine& app, PointOptions& options) {
   app.add_flag("--points", options.as_points,
                "Use only the points of a mesh, as if it had no faces")
       ->group("Points");
   app.add_flag("--base", options.repair.base,
                "Close an open scan, such as a terrain, by walls down to a floor")
       ->group("Points");
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--up",
          [&options](const std::string& axis) { options.repair.scan_base.axis = axis[0] - 'x'; },
          "The axis that points up from the floor: x, y or z")
-      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->check(is_one_of({"x", "y", "z"}))
       ->type_name("NAME")
       ->default_str("z")
       ->group("Points");
@@ -147,10 +147,8 @@ void add_point_repair_options(CLI::App& app, PointOptions& options) {
          "Where points enclose nothing, try no other --project, --neighbours and --base")
       ->group("Points");
   // What is given by hand stays.
-  app.get_option("--project")->each([&advice](const std::string&) { advice.project = false; });
-  app.get_option("--neighbours")->each([&advice](const std::string&) {
-    advice.neighbours = false;
-  });
+  app.option("--project").each([&advice](const std::string&) { advice.project = false; });
+  app.option("--neighbours").each([&advice](const std::string&) { advice.neighbours = false; });
 }
 
 AnySoup read_any_stage(const PointOptions& options, const ReadOptions& reading, Run& run,

@@ -3,18 +3,17 @@
 
 #include <optional>
 
-#include <CLI/App.hpp>
-
 #include <mesh/point_cloud.h>
 #include <mesh/soup.h>
 #include <scan/repair_points.h>
 
+#include "common/command_line.h"
 #include "common/repair_steps.h"
 
 namespace meshrepair {
 
 // The options of the local triangulation.
-void add_point_options(CLI::App& app, PointSoupOptions& options);
+void add_point_options(CommandLine& app, PointSoupOptions& options);
 
 // Stage "read". What the reader passed over is logged as warnings.
 [[nodiscard]] PointCloud read_points_stage(Run& run, Findings& findings);
@@ -30,7 +29,7 @@ struct PointOptions {
 };
 
 // --points, --base, --up, --no-advice and the options of the local triangulation.
-void add_point_repair_options(CLI::App& app, PointOptions& options);
+void add_point_repair_options(CommandLine& app, PointOptions& options);
 
 // What is to be repaired.
 struct AnySoup {

@@ -35,7 +35,7 @@ ProgressBar::Options bar_options(const CommonOptions& options, const MemoryLimit
 Program::Program(const std::string& name, const std::string& description,
                  const std::string& examples)
     : command_line_(description, name) {
-  command_line_.footer("Examples:\n" + examples.substr(0, examples.find_last_not_of('\n') + 1));
+  command_line_.set_footer("Examples:\n" + examples.substr(0, examples.find_last_not_of('\n') + 1));
 }
 
 void Program::report_to_standard_output() {
@@ -46,15 +46,15 @@ void Program::report_to_standard_output() {
 }
 
 int Program::run(int argc, const char* const* argv, const Body& body) {
-  return run_guarded(command_line_.get_name(), [&] {
+  return run_guarded(command_line_.name(), [&] {
     install_signal_handlers();
-    set_up_logging(command_line_.get_name(), Verbosity::normal);
+    set_up_logging(command_line_.name(), Verbosity::normal);
     return run_and_report(argc, argv, body);
   });
 }
 
 ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& body) {
-  JsonReport report(command_line_.get_name(), std::vector<std::string>(argv, argv + argc));
+  JsonReport report(command_line_.name(), std::vector<std::string>(argv, argv + argc));
   std::optional<ProgressBar> progress(std::in_place);
   std::optional<Watchdog> watchdog;
   std::optional<Spilling> spilling;
@@ -63,12 +63,12 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
   try {
     add_common_options(command_line_, options_);
     if (!parse(argc, argv)) return ExitCode::done;
-    set_up_logging(command_line_.get_name(), options_.verbosity());
+    set_up_logging(command_line_.name(), options_.verbosity());
     const MemoryLimit memory = parse_memory_limit(options_.max_memory);
     const ThreadLimit thread_limit(options_.threads);
     spilling.emplace(options_.temp, memory);
     progress.emplace(bar_options(options_, memory, *spilling));
-    watchdog.emplace(command_line_.get_name(), *progress);
+    watchdog.emplace(command_line_.name(), *progress);
     limit_memory(memory, most_threads());
     logger().debug("threads: {}", most_threads());
     Run run{report, *progress, options_};

@@ -11,8 +11,7 @@
 #include <functional>
 #include <string>
 
-#include <CLI/App.hpp>
-
+#include "common/command_line.h"
 #include "common/common_options.h"
 #include "common/exit_code.h"
 #include "common/json_report.h"
@@ -36,7 +35,7 @@ class Program {
   Program(const std::string& name, const std::string& description, const std::string& examples);
 
   // For the program's own options, to be added before run().
-  [[nodiscard]] CLI::App& command_line() { return command_line_; }
+  [[nodiscard]] CommandLine& command_line() { return command_line_; }
 
   // For a body whose program has another option for --report -. Throws UsageError if a file was
   // named by --report.
@@ -52,7 +51,7 @@ class Program {
   void write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
                     ProgressBar& progress) const;
 
-  CLI::App command_line_;
+  CommandLine command_line_;
   CommonOptions options_;
 };
 

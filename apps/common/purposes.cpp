@@ -5,8 +5,9 @@
 #include <span>
 #include <string_view>
 
-#include <CLI/Validators.hpp>
 #include <spdlog/fmt/fmt.h>
+
+#include "common/command_line.h"
 
 namespace meshrepair {
 namespace {
@@ -54,10 +55,10 @@ std::string help_text() {
   return text;
 }
 
-void apply(const Bundle& bundle, CLI::App& app, Purpose& purpose) {
+void apply(const Bundle& bundle, CommandLine& app, Purpose& purpose) {
   purpose.name = bundle.name;
   for (const Setting& setting : bundle.settings) {
-    CLI::Option& option = *app.get_option(std::string(setting.option));
+    CommandOption& option = app.option(std::string(setting.option));
     if (option.count() > 0) {
       purpose.overridden.emplace_back(setting.option);
       continue;
@@ -69,11 +70,11 @@ void apply(const Bundle& bundle, CLI::App& app, Purpose& purpose) {
 
 }  // namespace
 
-void add_purpose_option(CLI::App& app, Purpose& purpose) {
+void add_purpose_option(CommandLine& app, Purpose& purpose) {
   std::vector<std::string> names;
   names.reserve(kBundles.size());
   for (const Bundle& bundle : kBundles) names.emplace_back(bundle.name);
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--for",
          [&app, &purpose](const std::string& word) {
            apply(*std::find_if(kBundles.begin(), kBundles.end(),
@@ -81,7 +82,7 @@ void add_purpose_option(CLI::App& app, Purpose& purpose) {
                  app, purpose);
          },
          help_text())
-      ->check(CLI::IsMember(names))
+      ->check(is_one_of(names))
       ->type_name("NAME")
       ->group("Repair");
 }

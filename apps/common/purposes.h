@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
+#include "common/command_line.h"
 
 namespace meshrepair {
 
@@ -17,6 +17,6 @@ struct Purpose {
 
 // Before all options that a purpose sets, as options act in the order in which they are added. Each
 // that the command line does not give itself gets the value that the purpose has for it.
-void add_purpose_option(CLI::App& app, Purpose& purpose);
+void add_purpose_option(CommandLine& app, Purpose& purpose);
 
 }  // namespace meshrepair

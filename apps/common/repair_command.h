@@ -1,11 +1,10 @@
 // What meshrepair is asked for, and how it is done: from file to file, and in memory.
 #pragma once
 
-#include <CLI/App.hpp>
-
 #include <extract/surface.h>
 #include <mesh/attributes.h>
 
+#include "common/command_line.h"
 #include "common/point_steps.h"
 #include "common/repair_steps.h"
 
@@ -18,7 +17,7 @@ struct RepairCommand {
 };
 
 // All options of meshrepair; IN and OUT, and those of every program, are for the caller to add.
-void add_repair_command(CLI::App& app, RepairCommand& command);
+void add_repair_command(CommandLine& app, RepairCommand& command);
 
 // Reads command.steps.input, repairs it and writes command.steps.output: the body of run_steps().
 void repair_file(const RepairCommand& command, Run& run, Findings& findings);

@@ -9,7 +9,11 @@
 namespace meshrepair {
 
 std::string lower_extension(const std::string& path) {
-  return CLI::detail::to_lower(std::filesystem::path(path).extension().string());
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
 }
 
 void check_side_file(const SideFile& file, const std::vector<std::string>& others, Run& run) {

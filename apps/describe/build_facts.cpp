@@ -13,6 +13,7 @@
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <OpenMesh/Core/System/config.h>
+#include <nlohmann/json_fwd.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/version.h>
 

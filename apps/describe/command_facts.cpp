@@ -55,10 +55,10 @@ void add_literal_words(const std::string& type, std::vector<std::string>& choice
   }
 }
 
-// CLI11 joins the type and what each check is about: "NAME:{auto,none}", "FILE:.stl, .obj".
-void read_type(const CLI::Option& option, OptionFacts& facts) {
-  const std::vector<std::string> parts = split(option.get_type_name(), ':');
-  if (parts.empty() || option.get_type_size() == 0) return;
+// The type of an option, and what each check is about: "NAME:{auto,none}", "FILE:.stl, .obj".
+void read_type(const CommandOption& option, OptionFacts& facts) {
+  const std::vector<std::string> parts = split(option.type(), ':');
+  if (parts.empty()) return;
   facts.type = parts[0];
   facts.is_list = facts.type.ends_with(",...");
   facts.is_folder = facts.type == "FOLDER";
@@ -77,19 +77,17 @@ void read_type(const CLI::Option& option, OptionFacts& facts) {
   }
 }
 
-OptionFacts facts_of(const CLI::Option& option) {
+OptionFacts facts_of(const CommandOption& option) {
   OptionFacts facts;
-  facts.is_argument = option.get_positional();
-  for (const std::string& name : option.get_snames()) facts.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) facts.names.push_back("--" + name);
-  if (facts.is_argument) facts.names = {option.get_name(true)};
+  facts.is_argument = option.is_argument();
+  facts.names = option.all_names();
   read_type(option, facts);
   if (facts.is_argument) facts.type.clear();
-  facts.group = option.get_group();
-  facts.default_value = option.get_default_str();
-  facts.description = blocks_of(option.get_description());
-  facts.is_required = option.get_required();
-  facts.is_repeated = option.get_items_expected_max() > 1 && facts.is_argument;
+  facts.group = option.heading();
+  facts.default_value = option.default_text();
+  facts.description = blocks_of(option.description());
+  facts.is_required = option.is_required();
+  facts.is_repeated = option.is_repeated();
   return facts;
 }
 
@@ -108,17 +106,17 @@ std::string OptionFacts::meaning_of(const std::string& choice) const {
   return found == description.end() ? std::string() : found->text;
 }
 
-CommandFacts facts_of(const CLI::App& app) {
+CommandFacts facts_of(const CommandLine& app) {
   CommandFacts command;
-  command.name = app.get_name();
-  command.description = app.get_description();
-  for (const CLI::Option* option : app.get_options()) {
-    if (!option->get_group().empty()) command.options.push_back(facts_of(*option));
+  command.name = app.name();
+  command.description = app.description();
+  for (const CommandOption* option : app.options()) {
+    if (!option->heading().empty()) command.options.push_back(facts_of(*option));
   }
   std::stable_sort(
       command.options.begin(), command.options.end(),
       [](const OptionFacts& a, const OptionFacts& b) { return a.is_argument && !b.is_argument; });
-  for (const std::string& line : split(app.get_footer(), '\n')) {
+  for (const std::string& line : split(app.footer(), '\n')) {
     if (line.starts_with("  ")) command.examples.push_back(trimmed(line));
   }
   return command;

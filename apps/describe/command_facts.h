@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
+#include "common/command_line.h"
 
 namespace meshrepair {
 
@@ -44,6 +44,6 @@ struct CommandFacts {
   std::vector<std::string> examples;
 };
 
-[[nodiscard]] CommandFacts facts_of(const CLI::App& app);
+[[nodiscard]] CommandFacts facts_of(const CommandLine& app);
 
 }  // namespace meshrepair

@@ -12,7 +12,7 @@
 namespace meshrepair {
 
 std::string json_for_html(const Json& json) {
-  const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  const std::string text = json.dump(-1, true);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {

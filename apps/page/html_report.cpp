@@ -63,7 +63,7 @@ class PageMaker {
 
   [[nodiscard]] const PageGrid& grid() const { return grid_; }
   [[nodiscard]] const Json& facts() const { return facts_; }
-  [[nodiscard]] const Json& left_out() const { return pictures_.left_out(); }
+  [[nodiscard]] const std::vector<std::string>& left_out() const { return pictures_.left_out(); }
 
   // Of all meshes, and the pictures that they have.
   [[nodiscard]] std::vector<PageText> texts() {
@@ -140,7 +140,7 @@ void write_page(const HtmlRequest& request, PageContent content, Run& run) {
   run.report.set_section("html", std::move(section));
 }
 
-void add_html_options(CLI::App& app, HtmlRequest& request, const std::string& what) {
+void add_html_options(CommandLine& app, HtmlRequest& request, const std::string& what) {
   app.add_option("--html", request.path,
                  "Write a page for browsers that shows " + what + ", to be\nturned and cut open")
       ->check(names_side_file(".html, .htm"))

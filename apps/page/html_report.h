@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include <picture/view.h>
 
+#include "common/command_line.h"
 #include "common/json_report.h"
 #include "common/picture_steps.h"
 #include "common/repair_steps.h"
@@ -20,7 +19,7 @@
 namespace meshrepair {
 
 // --html and --html-triangles. `what` is shown: "IN and OUT".
-void add_html_options(CLI::App& app, HtmlRequest& request, const std::string& what);
+void add_html_options(CommandLine& app, HtmlRequest& request, const std::string& what);
 
 // Before hours of work, as check_files(): throws UsageError where the page is another file of the
 // run; OutputError where it cannot be written.

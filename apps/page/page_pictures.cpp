@@ -60,7 +60,7 @@ std::optional<std::size_t> PagePictures::number_of(const Image& image) {
 }
 
 void PagePictures::leave_out(const Image& image, const std::string& why) {
-  const Json line =
+  const std::string line =
       (image.name.empty() ? "A picture" : "The picture '" + image.name + "'") + " " + why;
   if (std::find(left_out_.begin(), left_out_.end(), line) == left_out_.end())
     left_out_.push_back(line);

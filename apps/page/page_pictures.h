@@ -10,8 +10,6 @@
 
 #include <mesh/attributes.h>
 
-#include "common/json_report.h"
-
 namespace meshrepair {
 
 class PagePictures {
@@ -29,7 +27,7 @@ class PagePictures {
   // In base64, by number.
   [[nodiscard]] const std::vector<std::string>& texts() const { return texts_; }
   // What is left out, and why: a sentence for each.
-  [[nodiscard]] const Json& left_out() const { return left_out_; }
+  [[nodiscard]] const std::vector<std::string>& left_out() const { return left_out_; }
 
  private:
   void leave_out(const Image& image, const std::string& why);
@@ -37,7 +35,7 @@ class PagePictures {
   std::vector<std::filesystem::path> folders_;
   std::map<std::string, std::optional<std::size_t>> known_;  // by their bytes
   std::vector<std::string> texts_;
-  Json left_out_ = Json::array();
+  std::vector<std::string> left_out_;
   std::size_t bytes_ = 0;
 };
 

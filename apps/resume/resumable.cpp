@@ -47,15 +47,15 @@ bool names(const Names& all, const std::string& name) {
 }
 
 // Of the name of the output, what format it asks for.
-std::string that_matters(const CLI::Option& option, const std::string& value) {
-  return option.get_name() == kOutput ? std::filesystem::path(value).extension().string() : value;
+std::string that_matters(const CommandOption& option, const std::string& value) {
+  return option.name() == kOutput ? std::filesystem::path(value).extension().string() : value;
 }
 
 }  // namespace
 
-bool changes_results(const CLI::Option& option) { return !names(kOthers, option.get_name()); }
+bool changes_results(const CommandOption& option) { return !names(kOthers, option.name()); }
 
-void add_resume_option(CLI::App& app, std::string& folder) {
+void add_resume_option(CommandLine& app, std::string& folder) {
   app.add_option("--resume", folder,
                  "Keep in this folder what is done, and go on from what an interrupted run\n"
                  "left there; at the end it is removed")
@@ -66,19 +66,19 @@ void add_resume_option(CLI::App& app, std::string& folder) {
       ->group("Running");
 }
 
-std::string options_of_results(const CLI::App& app, const std::vector<std::string>& others) {
+std::string options_of_results(const CommandLine& app, const std::vector<std::string>& others) {
   std::string all;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CommandOption* option : app.options()) {
     if (option->count() == 0 || !changes_results(*option)) continue;
-    if (names(others, option->get_name())) continue;
-    all += option->get_name();
+    if (names(others, option->name())) continue;
+    all += option->name();
     for (const std::string& value : option->results()) all += '=' + that_matters(*option, value);
     all += '\n';
   }
   return all;
 }
 
-void run_resumable(const std::string& folder, const CLI::App& app, Run& run,
+void run_resumable(const std::string& folder, const CommandLine& app, Run& run,
                    const std::function<void(StateStore*)>& body) {
   if (folder.empty()) return body(nullptr);
   StateFolder states(folder, options_of_results(app, {}));

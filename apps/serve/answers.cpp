@@ -69,7 +69,7 @@ Answer of_json(const Json& json, unsigned status = 200) {
   Answer answer;
   answer.status = status;
   answer.type = "application/json";
-  answer.body = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  answer.body = json.dump(-1, true);
   return answer;
 }
 
@@ -113,17 +113,17 @@ struct RepairWish {
   ProgramOptions options;
 };
 std::optional<RepairWish> wish_of(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return std::nullopt;
+  const std::optional<Json> json = Json::parse(text);
+  if (!json || !json->is_object()) return std::nullopt;
   RepairWish wish;
-  for (const auto& [name, value] : json.items()) {
+  for (const auto& [name, value] : json->items()) {
+    const std::string word = value.as_text().value_or("");
     if (name == "format" && value.is_string()) {
-      wish.extension = "." + value.get<std::string>();
-    } else if (is_open_option(name) && value.is_string() && is_plain_value(value) &&
-               !value.get<std::string>().empty()) {
-      wish.options.emplace_back(name, value.get<std::string>());
+      wish.extension = "." + word;
+    } else if (is_open_option(name) && is_plain_value(word) && !word.empty()) {
+      wish.options.emplace_back(name, word);
     } else if (is_open_flag(name) && value.is_boolean()) {
-      if (value.get<bool>()) wish.options.emplace_back(name, "");
+      if (*value.as_bool()) wish.options.emplace_back(name, "");
     } else {
       return std::nullopt;
     }
@@ -224,8 +224,7 @@ Answer Answers::answer_of_job(const Request& request, const std::string& id,
 Answer Answers::status_of(const std::string& id) const {
   const auto state = workshop_.state(id);
   if (!state) return refused(404, "there is no such mesh");
-  Json report = Json::parse(state->report, nullptr, false);
-  if (report.is_discarded()) report = nullptr;
+  Json report = Json::parse(state->report).value_or(Json());
   if (report.is_object()) report.erase("command");
   return of_json({{"name", state->name},
                   {"task", state->task == Task::check ? "check" : "repair"},

@@ -14,11 +14,11 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/App.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
 
+#include "common/command_line.h"
 #include "common/common_options.h"
 #include "common/exit_code.h"
 #include "common/logging.h"
@@ -42,7 +42,7 @@ struct ServeOptions {
   std::string threads, time_limit, max_memory;
 };
 
-void add_options(CLI::App& app, ServeOptions& options) {
+void add_options(CommandLine& app, ServeOptions& options) {
   app.add_flag_callback(
       std::string(kFlag), [] {}, "Serve a page on this machine until Ctrl-C");
   app.add_option("--port", options.port, "Of the address; 0: one that is free")
@@ -67,21 +67,15 @@ void add_options(CLI::App& app, ServeOptions& options) {
 }
 
 // False: help was asked for, and is printed.
-bool parse(CLI::App& app, int argc, const char* const* argv) {
-  app.set_help_flag("-h,--help", "Print this text and exit");
-  app.footer(
+bool parse(CommandLine& app, int argc, const char* const* argv) {
+  app.set_help_flag("--help,-h", "Print this text and exit");
+  app.set_footer(
       "Examples:\n"
       "  meshrepair --serve\n"
       "  meshrepair --serve --port 8080 --no-browser --max-memory 8G");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
-    return false;
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
-  return true;
+  if (app.parse(argc, argv) == CommandLine::Parsed::all) return true;
+  std::fputs(app.help().c_str(), stdout);
+  return false;
 }
 
 fs::path folder_of_programs() {
@@ -159,7 +153,7 @@ int serve(int argc, const char* const* argv) {
     install_signal_handlers();
     install_signal_handler(SIGQUIT);  // its folder would stay
     set_up_logging("meshrepair", Verbosity::normal);
-    CLI::App app(
+    CommandLine app(
         "Serves a page on this machine that checks and repairs meshes, of any size, with this "
         "program.",
         "meshrepair --serve");

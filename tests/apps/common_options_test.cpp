@@ -10,7 +10,7 @@ namespace meshrepair {
 namespace {
 
 CommonOptions parse(std::vector<const char*> arguments) {
-  CLI::App app("", "test");
+  CommandLine app("", "test");
   CommonOptions options;
   add_common_options(app, options);
   arguments.insert(arguments.begin(), "test");

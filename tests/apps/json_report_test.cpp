@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <base/error.h>
 
@@ -12,7 +13,9 @@ namespace {
 
 using testing::ElementsAre;
 
-std::vector<std::string> keys_of(const Json& object) {
+using Parsed = nlohmann::ordered_json;
+
+std::vector<std::string> keys_of(const Parsed& object) {
   std::vector<std::string> keys;
   for (const auto& item : object.items()) keys.push_back(item.key());
   return keys;
@@ -22,7 +25,7 @@ TEST(JsonReport, FrameIsCompleteAndInOrder) {
   JsonReport report("test", {"test", "in.stl"});
   report.set_section("repair", {{"cells", 5}});
   report.set_input({{"path", "in.stl"}});
-  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  const Parsed json = Parsed::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
   EXPECT_THAT(keys_of(json), ElementsAre("program", "version", "report_version", "command", "input",
                                          "output", "repair", "stages", "seconds",
                                          "peak_memory_bytes", "exit_code", "error"));
@@ -37,7 +40,7 @@ TEST(JsonReport, StagesThatAreGivenReplaceThoseOfTheProgress) {
   JsonReport report("test", {"test"});
   const std::size_t peak = std::size_t{1} << 50;
   report.set_stages({{{"name", "tree"}, {"seconds", 1.5}, {"peak_bytes", peak}}});
-  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  const Parsed json = Parsed::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
   EXPECT_EQ(json["stages"].size(), 1);
   EXPECT_EQ(json["stages"][0]["name"], "tree");
   EXPECT_EQ(json["peak_memory_bytes"], peak);
@@ -46,7 +49,7 @@ TEST(JsonReport, StagesThatAreGivenReplaceThoseOfTheProgress) {
 TEST(JsonReport, FailureHasCodeAndMessage) {
   const JsonReport report("test", {"test"});
   const Failure failure = {ExitCode::no_solid, "in.stl: encloses nothing"};
-  const Json json = Json::parse(report.text(failure.code, failure, ProgressBar()));
+  const Parsed json = Parsed::parse(report.text(failure.code, failure, ProgressBar()));
   EXPECT_EQ(json["exit_code"], 5);
   EXPECT_EQ(json["error"], "in.stl: encloses nothing");
 }
@@ -54,21 +57,22 @@ TEST(JsonReport, FailureHasCodeAndMessage) {
 TEST(JsonReport, ErrorsNeedNotBeThrown) {
   JsonReport report("test", {"test"});
   report.set_error("error: out.stl: written, but not closed");
-  const Json json = Json::parse(report.text(ExitCode::not_certified, std::nullopt, ProgressBar()));
+  const Parsed json =
+      Parsed::parse(report.text(ExitCode::not_certified, std::nullopt, ProgressBar()));
   EXPECT_EQ(json["exit_code"], 1);
   EXPECT_EQ(json["error"], "error: out.stl: written, but not closed");
 }
 
 TEST(JsonReport, FileNamesNeedNotBeUtf8) {
   JsonReport report("test", {"test", "\xff.stl"});
-  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  const Parsed json = Parsed::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
   EXPECT_EQ(json["command"][1], "\xEF\xBF\xBD.stl");
 }
 
 TEST(JsonReport, NumbersThatAreNotFiniteAreNull) {
   JsonReport report("test", {"test"});
   report.set_section("x", {{"volume", std::numeric_limits<double>::quiet_NaN()}});
-  const Json json = Json::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
+  const Parsed json = Parsed::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
   EXPECT_TRUE(json["x"]["volume"].is_null());
 }
 

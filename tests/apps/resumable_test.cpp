@@ -25,7 +25,7 @@ class OptionsOfMeshrepair : public ::testing::Test {
   RepairCommand command_;
   std::string folder_;
   CommonOptions common_;
-  CLI::App app_;
+  CommandLine app_ = CommandLine("", "meshrepair");
 };
 
 // By two ways: the names that are known to change nothing, and what the help says they are about.
@@ -33,10 +33,10 @@ class OptionsOfMeshrepair : public ::testing::Test {
 TEST_F(OptionsOfMeshrepair, ChangeResultsUnlessTheyAreAboutRunningAndTelling) {
   const std::set<std::string> telling = {"Running", "Reporting", "Picture", "Page"};
   std::size_t changing = 0, others = 0;
-  for (const CLI::Option* option : app_.get_options()) {
-    const std::string name = option->get_name();
+  for (const CommandOption* option : app_.options()) {
+    const std::string name = option->name();
     const bool is_other =
-        telling.contains(option->get_group()) || name == "IN" || name == "--explain";
+        telling.contains(option->heading()) || name == "IN" || name == "--explain";
     EXPECT_EQ(changes_results(*option), !is_other) << name;
     ++(is_other ? others : changing);
   }
@@ -45,7 +45,8 @@ TEST_F(OptionsOfMeshrepair, ChangeResultsUnlessTheyAreAboutRunningAndTelling) {
 }
 
 TEST_F(OptionsOfMeshrepair, OneThatIsNotKnownChangesResultsWhereverItIsFiled) {
-  CLI::Option* const fresh = app_.add_flag("--fresh")->group("Running");
+  bool is_fresh = false;
+  CommandOption* const fresh = app_.add_flag("--fresh", is_fresh, "")->group("Running");
   EXPECT_TRUE(changes_results(*fresh));
 }
 
