@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   Program program("bspbuild", "Partitions space along the triangles of a mesh.",
                   "  bspbuild broken.stl -o tree.bsp\n"
                   "  bspbuild broken.stl -o - | bspsolid - -o - | bspextract - -o repaired.obj\n");
-  CLI::App& app = program.command_line();
+  CommandLine& app = program.command_line();
   app.add_option("IN", options.input,
                  "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
                  "- is standard input")
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   add_output_option(app, options.output, "FILE", kTreeExtension,
                     "Tree to write (.bsp); it has the triangles alone, without textures, normals,\n"
                     "colours, materials and groups; - is standard output");
+  add_sew_option(app, options.repair.sew);
   add_holes_option(app, options.repair.holes);
   add_max_hole_option(app, options.repair.holes);
   return run_steps(program, argc, argv, options, build);

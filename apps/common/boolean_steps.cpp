@@ -30,7 +30,7 @@ std::array<Choice<SetOperation>, 4> named_operations() {
 constexpr std::array<Choice<RegionTest>, 2> kRegionTests = {
     {{"cells", RegionTest::cells}, {"programs", RegionTest::linear_programs}}};
 
-void add_operation_options(CLI::App& app, BooleanCommand& command) {
+void add_operation_options(CommandLine& app, BooleanCommand& command) {
   static const auto operations = named_operations();
   add_choice(
       app, "--op", operations, [&command](SetOperation value) { command.operation = value; },
@@ -132,7 +132,7 @@ Operands operands_of(std::vector<AnySoup> meshes, const BooleanCommand& command,
 
 }  // namespace
 
-void add_boolean_command(CLI::App& app, BooleanCommand& command) {
+void add_boolean_command(CommandLine& app, BooleanCommand& command) {
   RepairOptions& repair = command.step.repair;
   add_inside_options(app, repair.inside);
   add_sew_option(app, repair.sew);
@@ -171,7 +171,7 @@ Operand make_operand(TriangleSoup soup, Attributes attributes, RepairOptions opt
       return {std::move(kept->mesh), std::move(attributes), true, std::move(kept->source)};
     }
   }
-  options.keep_valid = true;
+  options.all_cells = false;
   Surface solid = repair(soup, options, findings.repair);
   attributes = transfer_attributes_stage(soup, attributes, solid, run, findings);
   return {std::move(solid.mesh), std::move(attributes), false, std::move(solid.source)};

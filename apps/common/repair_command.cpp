@@ -46,7 +46,7 @@ void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
 
 void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
   keep_attributes(input.soup, input.attributes, options);
-  options.keep_valid = !command.always && !input.cloud;
+  options.all_cells = command.always;
   const StepOptions& steps = command.steps;
   drop_states_of_many_soups(input, options);
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
@@ -54,14 +54,14 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
 
 }  // namespace
 
-void add_repair_command(CLI::App& app, RepairCommand& command) {
+void add_repair_command(CommandLine& app, RepairCommand& command) {
   StepOptions& options = command.steps;
   add_purpose_option(app, options.purpose);
   add_inside_options(app, options.repair.inside);
   add_sew_option(app, options.repair.sew);
   add_seal_option(app, options.repair.seal);
   add_holes_option(app, options.repair.holes);
-  const CLI::Option& max_hole = add_max_hole_option(app, options.repair.holes);
+  const CommandOption& max_hole = add_max_hole_option(app, options.repair.holes);
   add_thicken_options(app, max_hole, options.repair.thicken);
   add_keep_options(app, options.repair.keep);
   add_touching_option(app, options.repair.extract.touching);

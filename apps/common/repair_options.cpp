@@ -57,7 +57,7 @@ constexpr std::array<Choice<ThickenSide>, 3> kThickenSides = {{{"middle", Thicke
                                                                {"outside", ThickenSide::outside},
                                                                {"inside", ThickenSide::inside}}};
 
-// For CLI11: an empty text where the word is a number from 0 on.
+// For check(): an empty text where the word is a number from 0 on.
 std::string why_no_share(const std::string& word) {
   const std::optional<double> value = parse_number(word);
   return value && std::isfinite(*value) && *value >= 0
@@ -65,7 +65,7 @@ std::string why_no_share(const std::string& word) {
              : word + " is not a share: a number from 0 on";
 }
 
-// For CLI11: an empty text where the word is a number from 0 to 1.
+// For check(): an empty text where the word is a number from 0 to 1.
 std::string why_no_part_of_one(const std::string& word) {
   const std::optional<double> value = parse_number(word);
   return value && *value >= 0 && *value <= 1 ? std::string()
@@ -83,7 +83,7 @@ std::optional<KeepPartsOptions> kept_by(const std::string& word) {
   return keep.most > 0 ? std::optional(keep) : std::nullopt;
 }
 
-// For CLI11: an empty text where the word is one.
+// For check(): an empty text where the word is one.
 std::string why_not_kept(const std::string& word) {
   return kept_by(word) ? std::string()
                        : word + " is none of all, outer, largest, and a number from 1 on";
@@ -104,7 +104,7 @@ std::optional<std::pair<double, bool>> length_in(std::string_view word) {
   return length && length->first > 0 ? length : std::nullopt;
 }
 
-// For CLI11: an empty text where the word is a way to sew.
+// For check(): an empty text where the word is a way to sew.
 std::string why_no_sewing(const std::string& word) {
   const bool is_one = word == "auto" || word == "none" || distance_in(word);
   return is_one
@@ -112,7 +112,7 @@ std::string why_no_sewing(const std::string& word) {
              : word + " is none of auto, none, and a distance from 0 on, maybe with a % behind it";
 }
 
-// For CLI11: an empty text where the word is a length.
+// For check(): an empty text where the word is a length.
 std::string why_no_length(const std::string& word) {
   return length_in(word) ? std::string()
                          : word + " is no length: a number above 0, or one with a % behind it";
@@ -123,7 +123,7 @@ std::string why_no_size_or_word(const std::string& word) {
   return word == "auto" || word == "none" ? std::string() : why_no_length(word);
 }
 
-// For CLI11: an empty text where the word is a tolerance.
+// For check(): an empty text where the word is a tolerance.
 std::string why_no_epsilon(const std::string& word) {
   const std::optional<double> value = parse_number(word);
   return value && *value >= 0 && *value <= 1
@@ -133,7 +133,7 @@ std::string why_no_epsilon(const std::string& word) {
 
 }  // namespace
 
-void add_inside_options(CLI::App& app, InsideOptions& inside) {
+void add_inside_options(CommandLine& app, InsideOptions& inside) {
   add_choice(
       app, "--inside", kRules, [&inside](InsideRule value) { inside.rule = value; },
       "How to decide what is solid:\n"
@@ -152,9 +152,8 @@ void add_inside_options(CLI::App& app, InsideOptions& inside) {
       ->group("Repair");
 }
 
-void add_sew_option(CLI::App& app, SewOptions& sew) {
-  sew.mode = SewMode::automatic;
-  app.add_option_function<std::string>(
+void add_sew_option(CommandLine& app, SewOptions& sew) {
+  app.add_option_function(
          "--sew",
          [&sew](const std::string& word) {
            const auto known = std::find_if(kSewModes.begin(), kSewModes.end(),
@@ -173,8 +172,8 @@ void add_sew_option(CLI::App& app, SewOptions& sew) {
       ->group("Repair");
 }
 
-void add_seal_option(CLI::App& app, SealOptions& seal) {
-  app.add_option_function<std::string>(
+void add_seal_option(CommandLine& app, SealOptions& seal) {
+  app.add_option_function(
          "--seal",
          [&seal](const std::string& word) {
            seal.automatic = word == "auto";
@@ -189,7 +188,7 @@ void add_seal_option(CLI::App& app, SealOptions& seal) {
       ->group("Repair");
 }
 
-void add_holes_option(CLI::App& app, HoleOptions& holes) {
+void add_holes_option(CommandLine& app, HoleOptions& holes) {
   add_choice(
       app, "--holes", kHoleModes, [&holes](HoleMode value) { holes.mode = value; },
       "How to close holes and gaps:\n"
@@ -202,10 +201,12 @@ void add_holes_option(CLI::App& app, HoleOptions& holes) {
       ->group("Repair");
 }
 
-const CLI::Option& add_max_hole_option(CLI::App& app, HoleOptions& holes) {
-  return *app.add_option_function<double>(
+const CommandOption& add_max_hole_option(CommandLine& app, HoleOptions& holes) {
+  return *app.add_option_function(
                  "--max-hole",
-                 [&holes](double share) { holes.largest_share = holes.largest_flat_share = share; },
+                 [&holes](const std::string& word) {
+                   holes.largest_share = holes.largest_flat_share = *parse_number(word);
+                 },
                  "Patch holes of at most this share of the area of the rest of their component")
               ->check(why_no_share)
               ->type_name("SHARE")
@@ -214,9 +215,9 @@ const CLI::Option& add_max_hole_option(CLI::App& app, HoleOptions& holes) {
               ->group("Repair");
 }
 
-void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOptions& thicken) {
-  CLI::Option* walls =
-      app.add_option_function<std::string>(
+void add_thicken_options(CommandLine& app, const CommandOption& max_hole, ThickenOptions& thicken) {
+  CommandOption* walls =
+      app.add_option_function(
              "--thicken",
              [&thicken, &max_hole](const std::string& word) {
                thicken.automatic = word == "auto";
@@ -246,8 +247,8 @@ void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOpti
       ->group("Repair");
 }
 
-void add_keep_options(CLI::App& app, KeepPartsOptions& keep) {
-  app.add_option_function<std::string>(
+void add_keep_options(CommandLine& app, KeepPartsOptions& keep) {
+  app.add_option_function(
          "--keep",
          [&keep](const std::string& word) {
            const KeepPartsOptions asked = *kept_by(word);
@@ -269,17 +270,17 @@ void add_keep_options(CLI::App& app, KeepPartsOptions& keep) {
       ->type_name("SHARE")
       ->capture_default_str()
       ->group("Repair");
-  app.add_option_function<std::string>(
+  app.add_option_function(
          "--only", [&keep](const std::string&) { keep.fill_voids = true; },
          "What stays of each solid:\n"
          "  outer  its outer surface: voids are filled, and what is in them goes")
-      ->check(CLI::IsMember({"outer"}))
+      ->check(is_one_of({"outer"}))
       ->type_name("NAME")
       ->default_str("all")
       ->group("Repair");
 }
 
-void add_touching_option(CLI::App& app, Touching& touching) {
+void add_touching_option(CommandLine& app, Touching& touching) {
   add_choice(
       app, "--touching", kTouchings, [&touching](Touching value) { touching = value; },
       "Solids that touch along an edge:\n"
@@ -290,8 +291,7 @@ void add_touching_option(CLI::App& app, Touching& touching) {
       ->group("Repair");
 }
 
-void add_simplify_option(CLI::App& app, double& simplify) {
-  simplify = kDefaultSimplify;
+void add_simplify_option(CommandLine& app, double& simplify) {
   app.add_option("--simplify", simplify,
                  "Remove vertices that cutting made, moving the surface by at most this share\n"
                  "of the diagonal; triangles that were not cut stay as they are; 0: merge only\n"
@@ -303,7 +303,7 @@ void add_simplify_option(CLI::App& app, double& simplify) {
       ->group("Repair");
 }
 
-void add_output_option(CLI::App& app, std::string& output, const std::string& type,
+void add_output_option(CommandLine& app, std::string& output, const std::string& type,
                        std::string_view extensions, const std::string& description) {
   app.add_option("-o,--output", output, description)
       ->check(names_file(extensions))
@@ -312,7 +312,7 @@ void add_output_option(CLI::App& app, std::string& output, const std::string& ty
       ->group("Output");
 }
 
-void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
+void add_format_option(CommandLine& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
       "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii,\n"
@@ -321,14 +321,14 @@ void add_format_option(CLI::App& app, std::optional<SoupFormat>& format) {
       ->group("Output");
 }
 
-void add_sources_option(CLI::App& app, bool& sources) {
+void add_sources_option(CommandLine& app, bool& sources) {
   app.add_flag("--sources", sources,
                "PLY only: give each face the property source_triangle, the number of the\n"
                "input triangle that it lies in, counted from 0; -1 where a gap was closed")
       ->group("Output");
 }
 
-void add_staging_option(CLI::App& app, std::string& folder) {
+void add_staging_option(CommandLine& app, std::string& folder) {
   app.add_option(
          "--staging", folder,
          "Write OUT and the files beside it into this folder, from where they can be moved\n"
@@ -337,7 +337,7 @@ void add_staging_option(CLI::App& app, std::string& folder) {
       ->group("Output");
 }
 
-void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
+void add_certify_options(CommandLine& app, CertifyOptions& certify, bool& strict) {
   add_choice(
       app, "--precision", kPrecisions, [&certify](Precision value) { certify.precision = value; },
       "Round the coordinates of OUT to float64 or float32, and certify them so;\n"
@@ -348,7 +348,7 @@ void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict) {
       ->group("Output");
 }
 
-void add_predicates_options(CLI::App& app, RepairOptions& repair) {
+void add_predicates_options(CommandLine& app, RepairOptions& repair) {
   add_choice(
       app, "--predicates", kPredicates, [&repair](Predicates value) { repair.predicates = value; },
       "How to tell on which side of a plane a point lies, while cells are cut:\n"
@@ -357,7 +357,7 @@ void add_predicates_options(CLI::App& app, RepairOptions& repair) {
       "         certified, but not mended\n")
       ->default_str(std::string(predicates_name(repair.predicates)))
       ->group("Repair");
-  const CLI::Option* epsilon =
+  const CommandOption* epsilon =
       app.add_option("--eps", repair.epsilon,
                      "With --predicates float: a point this near to a plane is on it, as a share\n"
                      "of the largest side of the bounding box")
@@ -375,7 +375,7 @@ void add_predicates_options(CLI::App& app, RepairOptions& repair) {
   });
 }
 
-void add_check_cells_option(CLI::App& app, bool& check_cells) {
+void add_check_cells_option(CommandLine& app, bool& check_cells) {
   app.add_flag("--check-cells", check_cells,
                "For debugging: prove the invariants of the cells after each cut; slow")
       ->group("Repair");

@@ -4,8 +4,6 @@
 #include <optional>
 #include <string>
 
-#include <CLI/App.hpp>
-
 #include <extract/cut_nonmanifold.h>
 #include <mesh/soup_io.h>
 #include <repair/certify.h>
@@ -13,48 +11,50 @@
 #include <repair/inside_rule.h>
 #include <repair/repair.h>
 
+#include "common/command_line.h"
+
 namespace meshrepair {
 
 // --inside and --cavities: which parts of space are solid.
-void add_inside_options(CLI::App& app, InsideOptions& inside);
+void add_inside_options(CommandLine& app, InsideOptions& inside);
 
-// --sew: how far open edges may be apart that belong together; automatic unless given.
-void add_sew_option(CLI::App& app, SewOptions& sew);
+// --sew: how far open edges may be apart that belong together.
+void add_sew_option(CommandLine& app, SewOptions& sew);
 // --seal: openings that a ball cannot pass.
-void add_seal_option(CLI::App& app, SealOptions& seal);
+void add_seal_option(CommandLine& app, SealOptions& seal);
 // --holes: how gaps are closed.
-void add_holes_option(CLI::App& app, HoleOptions& holes);
+void add_holes_option(CommandLine& app, HoleOptions& holes);
 // --max-hole: how large a patch may be.
-const CLI::Option& add_max_hole_option(CLI::App& app, HoleOptions& holes);
+const CommandOption& add_max_hole_option(CommandLine& app, HoleOptions& holes);
 // --thicken and --thicken-side: open sheets become walls. With `max_hole`, the option, what it says
 // decides alone which holes are closed.
-void add_thicken_options(CLI::App& app, const CLI::Option& max_hole, ThickenOptions& thicken);
+void add_thicken_options(CommandLine& app, const CommandOption& max_hole, ThickenOptions& thicken);
 // --touching: what becomes of solids that touch along an edge.
-void add_keep_options(CLI::App& app, KeepPartsOptions& keep);
-void add_touching_option(CLI::App& app, Touching& touching);
+void add_keep_options(CommandLine& app, KeepPartsOptions& keep);
+void add_touching_option(CommandLine& app, Touching& touching);
 
-// --simplify: how far the surface may move to have fewer triangles; kDefaultSimplify unless given.
-void add_simplify_option(CLI::App& app, double& simplify);
+// --simplify: how far the surface may move to have fewer triangles.
+void add_simplify_option(CommandLine& app, double& simplify);
 
 // -o: the file to write, where it does not stand beside IN.
-void add_output_option(CLI::App& app, std::string& output, const std::string& type,
+void add_output_option(CommandLine& app, std::string& output, const std::string& type,
                        std::string_view extensions, const std::string& description);
 
 // --format: the format of the mesh that is written, whatever its name.
-void add_format_option(CLI::App& app, std::optional<SoupFormat>& format);
+void add_format_option(CommandLine& app, std::optional<SoupFormat>& format);
 
 // --sources: write of each triangle which one of the input it lies in.
-void add_sources_option(CLI::App& app, bool& sources);
+void add_sources_option(CommandLine& app, bool& sources);
 
-void add_staging_option(CLI::App& app, std::string& folder);
+void add_staging_option(CommandLine& app, std::string& folder);
 
 // --precision and --strict: what is to be certified, and what happens when it cannot be.
-void add_certify_options(CLI::App& app, CertifyOptions& certify, bool& strict);
+void add_certify_options(CommandLine& app, CertifyOptions& certify, bool& strict);
 
 // --predicates and --eps: who says on which side of a plane a point of the cells lies.
-void add_predicates_options(CLI::App& app, RepairOptions& repair);
+void add_predicates_options(CommandLine& app, RepairOptions& repair);
 
 // --check-cells: the debugging aid RepairOptions::check_cells.
-void add_check_cells_option(CLI::App& app, bool& check_cells);
+void add_check_cells_option(CommandLine& app, bool& check_cells);
 
 }  // namespace meshrepair

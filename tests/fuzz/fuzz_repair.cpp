@@ -225,7 +225,7 @@ bool has_thin_cells(const RepairReport& report) {
 // is sealed, thickened or left out then follows from last bits.
 void require_same_without_cells(const RepairRequest& request, const Outcome& outcome) {
   RepairOptions options = request.options;
-  options.keep_valid = true;
+  options.all_cells = false;
   const Outcome spared = repair_at_once(request.soup, options);
   require_sound(spared, request.soup, options);
   if (options.seal.wanted() || options.thicken.wanted() || options.keep.wanted()) return;

@@ -88,6 +88,9 @@ inline bool may_be_changed(const RepairOptions& o) {
 inline RepairRequest decode_request(FuzzInput& input) {
   RepairRequest request;
   RepairOptions& o = request.options;
+  o.all_cells = true;
+  o.sew.mode = SewMode::none;
+  o.simplify = 0;
   const std::uint8_t first = input.byte();
   o.inside.rule = static_cast<InsideRule>(first & 3);
   o.holes.mode = static_cast<HoleMode>(input.below(4));

@@ -75,6 +75,7 @@ TEST(Repair, EveryLongStageAsksWhetherToGoOn) {
   CountingObserver observer;
   RepairOptions options;
   options.progress = &observer;
+  options.all_cells = true;
   (void)repair(sphere(2000), options);
   for (const char* stage : {"clean", "tree", "orient", "cells", "cover", "links", "inside"}) {
     EXPECT_GT(observer.asked[stage], 1) << stage;

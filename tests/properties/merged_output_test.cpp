@@ -19,7 +19,10 @@ namespace {
 using namespace testing;
 
 RepairResult repaired(const TriangleSoup& soup) {
-  RepairResult result = repair(soup);
+  RepairOptions options;
+  options.all_cells = true;
+  options.simplify = 0;
+  RepairResult result = repair(soup, options);
   expect_closed_manifold(result.surface.mesh);
   return result;
 }

@@ -64,8 +64,6 @@ Case sheet_case(std::uint64_t seed) {
 RepairOptions walls_of(double thickness) {
   RepairOptions options;
   options.thicken.thickness = thickness;
-  options.simplify = kDefaultSimplify;
-  options.keep_valid = true;
   return options;
 }
 

@@ -22,13 +22,17 @@ namespace meshrepair {
 
 struct RepairReport;
 
+// Of RepairOptions::simplify.
+inline constexpr double kDefaultSimplify = 5e-7;
+
+// What nobody sets is what the programs do.
 struct RepairOptions {
   Predicates predicates = Predicates::exact;
   // Of floating predicates: points within it are on a plane; relative to the largest side of the
   // input's bounding box. Their results are certified, but not mended by repairing them again.
   double epsilon = kDefaultEpsilon;
   // How sure it is that each triangle of the soup is part of the surface, above 0 and up to 1: for
-  // the solidity. Empty: all are.
+  // the solidity, where it is asked for. Empty: all are.
   std::vector<float> opacity;
   SewOptions sew;
   HoleOptions holes;
@@ -42,7 +46,7 @@ struct RepairOptions {
   KeepPartsOptions keep;  // which solids of the result stay
   // How far the surface may move to have fewer triangles where it was cut, as a share of the
   // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
-  double simplify = 0;
+  double simplify = kDefaultSimplify;
   // Of each triangle of the soup, SimplifyOptions::reach, where triangles carry more than their
   // places: keep_attributes() finds it. Empty: they do not.
   std::vector<double> reach;
@@ -55,10 +59,10 @@ struct RepairOptions {
   // Told what the result will be, but for what certification moves, which may take much longer than
   // all before; what it throws ends the work.
   std::function<void(const RepairReport&)> examine;
-  // Leave a soup that is the boundary of a solid as it is, and make no cells where cleaning,
-  // closing holes and turning parts makes one of it (valid_solid.h), unless another option asks for
-  // more: the work for that is a small part of that of a repair.
-  bool keep_valid = false;
+  // Divide all space into cells, whatever the soup is. Else cells are made where nothing that costs
+  // less gives the same solid: a soup that is the boundary of a solid stays as it is, and so on
+  // (repair.cpp).
+  bool all_cells = false;
   // Fills RepairReport::explanation.
   bool explain = false;
   // Prove every invariant of the complex as it grows: a debugging aid, very slow.
@@ -68,8 +72,5 @@ struct RepairOptions {
   StateStore* states = nullptr;
   ProgressObserver* progress = nullptr;
 };
-
-// What the programs that repair a mesh take for RepairOptions::simplify.
-inline constexpr double kDefaultSimplify = 5e-7;
 
 }  // namespace meshrepair

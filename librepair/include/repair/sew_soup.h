@@ -18,7 +18,7 @@ enum class SewMode {
 };
 
 struct SewOptions {
-  SewMode mode = SewMode::none;
+  SewMode mode = SewMode::automatic;
   double distance = 0;    // of SewMode::distance, in the soup's unit
   bool is_share = false;  // it is a share of the diagonal of the soup's bounding box instead
   ProgressObserver* progress = nullptr;

@@ -26,7 +26,7 @@ RepairOptions options_for_second(const SecondSoup& second, const RepairOptions& 
   again.inside.rule = InsideRule::winding;
   again.opacity.clear();
   again.examine = nullptr;
-  again.keep_valid = true;
+  again.all_cells = false;
   if (options.reach.empty()) return again;
   again.reach.clear();
   for (const std::uint32_t source : second.source) {

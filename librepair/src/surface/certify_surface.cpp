@@ -69,7 +69,7 @@ class RepairAgain {
   // cross again and again.
   std::optional<Surface> by_chambers() {
     SavedStates none;
-    if (!options_.keep_valid || options_.slit_steps > 0) return std::nullopt;
+    if (options_.all_cells || options_.slit_steps > 0) return std::nullopt;
     return surface_by_chambers(clean_, orientation_, options_, none, report_, meter_);
   }
 
@@ -120,7 +120,7 @@ void settle_and_simplify(const Surface& original, Simplifier& simplifier,
 
 // What mending in place has left.
 void repair_few_places(Certification& certification, const RepairOptions& options) {
-  if (!options.keep_valid) return;  // cells are to be made
+  if (options.all_cells) return;
   for (;;) {
     const bool as_they_are = certification.are_few_places();
     if (!as_they_are && !certification.may_snap_places()) return;

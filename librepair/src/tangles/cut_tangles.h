@@ -14,7 +14,7 @@ namespace meshrepair::internal {
 
 // The boundary, not finished yet, of the solid that all cells would give, if the soup is closed and
 // turned consistently, and meets itself in few triangles: those that nothing meets are kept as they
-// are, or left out. Only under RepairOptions::keep_valid, and only where the places that are cut
+// are, or left out. Not with RepairOptions::all_cells, and only where the places that are cut
 // tell all that there is to decide (label_tangles()); else nothing.
 [[nodiscard]] std::optional<Surface> cut_tangles(const CleanSoup& soup,
                                                  const Orientation& orientation,

@@ -81,8 +81,7 @@ std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions&
 namespace internal {
 
 bool may_spare_cells(const RepairOptions& options) {
-  return options.keep_valid && options.predicates == Predicates::exact && !options.check_cells &&
-         options.opacity.empty();
+  return !options.all_cells && options.predicates == Predicates::exact && !options.check_cells;
 }
 
 bool may_fill(const InsideOptions& options) {

@@ -1,5 +1,5 @@
-// Repairs that need no cells. None of these does anything unless RepairOptions::keep_valid asks for
-// it; where they give a surface, the report is complete but for its stages.
+// Repairs that need no cells. None of these does anything where RepairOptions::all_cells asks for
+// cells; where they give a surface, the report is complete but for its stages.
 #pragma once
 
 #include <optional>
@@ -16,6 +16,7 @@
 namespace meshrepair::internal {
 
 // Whether cells may be spared: else they are asked for themselves, or tell more than the surface.
+// Where they may, opacity tells nothing: what is solid is a matter of fact.
 [[nodiscard]] bool may_spare_cells(const RepairOptions& options);
 
 // Whether the rule may fill what is hollow.

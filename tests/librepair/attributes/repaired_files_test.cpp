@@ -27,8 +27,6 @@ TexturedSoup two_spheres(bool linear_colours) {
 
 TexturedSurface repaired_for(SoupFormat format, const TexturedSoup& input) {
   RepairOptions options;
-  options.simplify = kDefaultSimplify;
-  options.keep_valid = true;
   options.certify.precision = is_single(format) ? Precision::float32 : Precision::float64;
   options.certify.welded = welds_points(format);
   keep_attributes(input.soup, input.attributes, options);

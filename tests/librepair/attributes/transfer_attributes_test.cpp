@@ -24,8 +24,6 @@ using namespace testing;
 using Kind = CornerAttribute::Kind;
 
 TexturedSurface repaired(const TexturedSoup& input, RepairOptions options = {}) {
-  options.simplify = kDefaultSimplify;
-  options.keep_valid = true;
   keep_attributes(input.soup, input.attributes, options);
   RepairReport report;
   TexturedSurface result;

@@ -60,8 +60,6 @@ struct Wall {
 Wall wall_of(const TriangleSoup& soup, const Attributes& attributes, double thickness) {
   RepairOptions options;
   options.thicken.thickness = thickness;
-  options.simplify = kDefaultSimplify;
-  options.keep_valid = true;
   keep_attributes(soup, attributes, options);
   RepairResult result = repair(soup, options);
   EXPECT_TRUE(result.report.certify.passed());

@@ -381,6 +381,8 @@ TEST(Certify, TellsOfEachGroupHowFarItIs) {
   RepairOptions options;
   options.certify.precision = Precision::float32;
   options.progress = &observer;
+  options.all_cells = true;
+  options.simplify = 0;
   ASSERT_TRUE(repair(many_crossing_cubes(), options).report.certify.passed());
   const std::vector<double>& shares = observer.shares;
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));

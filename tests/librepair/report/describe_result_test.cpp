@@ -12,10 +12,10 @@ namespace {
 
 using namespace testing;
 
-RepairReport report_of(const TriangleSoup& soup, Precision precision, bool keep_valid) {
+RepairReport report_of(const TriangleSoup& soup, Precision precision, bool all_cells) {
   RepairOptions options;
   options.certify.precision = precision;
-  options.keep_valid = keep_valid;
+  options.all_cells = all_cells;
   RepairReport report;
   (void)repair(soup, options, report);
   return report;
@@ -25,8 +25,8 @@ RepairReport report_of(const TriangleSoup& soup, Precision precision, bool keep_
 TriangleSoup thirds() { return moved(scaled(cube(), 1.0 / 3), {1.0 / 3, 1.0 / 3, 1.0 / 3}); }
 
 TEST(DescribeResult, RoundedTrianglesAreWholeAllTheSame) {
-  for (const bool keep_valid : {false, true}) {
-    const RepairReport report = report_of(thirds(), Precision::float32, keep_valid);
+  for (const bool all_cells : {false, true}) {
+    const RepairReport report = report_of(thirds(), Precision::float32, all_cells);
     EXPECT_EQ(report.triangles.untouched, 0U);
     EXPECT_EQ(report.triangles.cut, 12U);
     EXPECT_EQ(report.triangles.rounded, 12U);

@@ -29,7 +29,6 @@ struct Explained {
 
 Explained explained(const TriangleSoup& soup, RepairOptions options = {}) {
   options.explain = true;
-  options.keep_valid = true;
   const RepairResult result = repair(soup, options);
   EXPECT_EQ(result.report.explanation.fates.size(), soup.triangles.size());
   EXPECT_EQ(result.report.explanation.origins.size(), result.surface.mesh.triangles.size());

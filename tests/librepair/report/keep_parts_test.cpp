@@ -30,7 +30,6 @@ TriangleSoup nested_blocks() {
 RepairResult kept(const TriangleSoup& soup, const KeepPartsOptions& keep) {
   RepairOptions options;
   options.keep = keep;
-  options.keep_valid = true;
   RepairResult result = repair(soup, options);
   expect_closed_manifold(result.surface.mesh);
   EXPECT_TRUE(result.report.keep.asked);

@@ -68,8 +68,6 @@ class MemoryStore : public StateStore {
 RepairOptions options_with(StateStore* store) {
   RepairOptions options;
   options.states = store;
-  options.keep_valid = true;
-  options.simplify = kDefaultSimplify;
   return options;
 }
 

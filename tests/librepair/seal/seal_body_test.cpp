@@ -17,7 +17,6 @@ using namespace testing;
 // Slits so wide that each patch lies in one: so sealing is left to another repair.
 RepairOptions sealing_with_repair(double size) {
   RepairOptions options;
-  options.keep_valid = true;
   options.certify.precision = Precision::float32;
   options.slit_steps = 1 << 20;
   options.seal = {.size = size, .most_cubes = std::size_t{1} << 20};

@@ -29,7 +29,6 @@ constexpr double kBall = 4 * std::numbers::pi / 3;
 
 RepairResult sealed(const TriangleSoup& soup, double size) {
   RepairOptions options;
-  options.keep_valid = true;
   options.seal = {.size = size, .most_cubes = std::size_t{1} << 20};
   return repair(soup, options);
 }
@@ -204,7 +203,7 @@ TEST(SealOpenings, BodiesFarApartAreSealedOneByOne) {
   append(far, moved(sphere(500, 3), {100, 20, -7}));
   const double rest = signed_volume(sphere(500, 3));
   RepairOptions options;
-  options.keep_valid = options.explain = true;
+  options.explain = true;
   for (const bool automatic : {false, true}) {
     options.seal = {.size = automatic ? 0 : 0.2, .automatic = automatic};
     const RepairResult result = repair(far, options);
@@ -266,7 +265,6 @@ TEST(SealOpenings, PinholesAreClosedWhereverTheyLie) {
 
 TEST(SealOpenings, TheSizeMayBeFound) {
   RepairOptions options;
-  options.keep_valid = true;
   options.seal.automatic = true;
   const RepairResult full = repair(pierced_shell(0.05, 0.1, 48), options);
   EXPECT_EQ(full.report.seal.openings, 1u);
@@ -284,7 +282,6 @@ TEST(SealOpenings, SizesAreFoundForAllThatStandTogether) {
   append(three, moved(pierced_shell(0.1, 0.1, 48), {2.2, 0, 0}));
   append(three, moved(revolved(kMug, 48), {4.5, 0, 0}));
   RepairOptions options;
-  options.keep_valid = true;
   options.seal.automatic = true;
   const RepairResult full = repair(three, options);
   EXPECT_EQ(full.report.seal.openings, 2u);
@@ -326,7 +323,6 @@ TEST(SealOpenings, CrevicesOfAnyKindAreSealed) {
     const RepairResult open = sealed(soup, 0);
     for (const double share : {0.06, 0.15}) {
       RepairOptions options;
-      options.keep_valid = true;
       options.seal = {.size = share, .is_share = true, .most_cubes = std::size_t{1} << 20};
       const RepairResult result = repair(open.surface.mesh, options);
       const SealReport& seal = result.report.seal;

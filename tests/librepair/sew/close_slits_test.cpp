@@ -174,7 +174,6 @@ TEST(CloseSlits, SparesTheCellsOfAWholeMesh) {
   split(soup, 3, {0.5});
   soup.triangles.push_back({a, b, fresh});
   RepairOptions options;
-  options.keep_valid = true;
   RepairReport report;
   const Surface surface = repair(soup, options, report);
   EXPECT_EQ(report.clean.dropped_degenerate, 1u);

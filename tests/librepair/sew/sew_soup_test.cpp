@@ -39,7 +39,6 @@ TriangleSoup torn(const TriangleSoup& soup, double noise, std::uint64_t seed) {
 RepairReport report_of(const TriangleSoup& soup, Surface* surface = nullptr) {
   RepairOptions options;
   options.sew.mode = SewMode::automatic;
-  options.keep_valid = true;
   RepairReport report;
   Surface result = repair(soup, options, report);
   if (surface != nullptr) *surface = std::move(result);

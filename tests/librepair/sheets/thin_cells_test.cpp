@@ -24,6 +24,7 @@ constexpr double kSlit = 0x1p-22;
 RepairResult repaired(const TriangleSoup& soup, Precision precision) {
   RepairOptions options;
   options.certify.precision = precision;
+  options.all_cells = true;
   return repair(soup, options);
 }
 
@@ -173,6 +174,8 @@ TEST(ThinCells, SlitsCanBeLeftAlone) {
   options.certify.precision = Precision::float32;
   options.certify.most_rounds = 0;
   options.slit_steps = 0;
+  options.simplify = 0;  // an attempt of its own where it has to go
+  options.all_cells = true;
   for_each_seed(3, [&](std::uint64_t seed) {
     const RepairReport report = repair(nearly_equal_balls(seed), options).report;
     EXPECT_EQ(report.thin_cells.filled + report.thin_cells.emptied, 0u);
@@ -202,6 +205,7 @@ TriangleSoup turned_box(Random& random) {
 RepairResult repaired_without(const TriangleSoup& soup) {
   RepairOptions options;
   options.slit_steps = 0;
+  options.all_cells = true;
   return repair(soup, options);
 }
 

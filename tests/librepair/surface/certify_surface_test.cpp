@@ -39,7 +39,6 @@ TEST(CertifySurface, SewsNothing) {
   CleanReport cleaned;
   const Grid grid = clean_soup(soup, cleaned).grid;
   RepairOptions options;
-  options.keep_valid = true;
   options.sew = {.mode = SewMode::distance, .distance = 2 * kGap};
   CertifyReport report;
   SimplifyReport simplified;

@@ -73,7 +73,6 @@ void expect_same(const RepairResult& cut, const RepairResult& whole, Dividing di
 
 // By cells around tangles alone, if that way applies.
 std::optional<RepairResult> repair_around_tangles(const TriangleSoup& soup, RepairOptions options) {
-  options.keep_valid = true;
   RepairReport report;
   std::optional<Surface> surface;
   {
@@ -99,7 +98,7 @@ bool cuts_tangles(const TriangleSoup& soup, RepairOptions options,
   if (!around || around->report.set_aside == 0) return false;
   const RepairResult& cut = *around;
   EXPECT_TRUE(cut.report.certify.passed());
-  options.keep_valid = false;
+  options.all_cells = true;
   const RepairResult whole = repair(soup, options);
   // Once points are moved, in which direction is chance.
   if (whole.report.certify.pairs_at_first == 0 && cut.report.certify.pairs_at_first == 0) {
@@ -187,10 +186,14 @@ TEST(CutTangles, BoxesOnALatticeComeOutAsFromAllCells) {
   EXPECT_GT(cut, expected_cases(kScenes / 5));
 }
 
+RepairOptions by_cells(RepairOptions options = {}) {
+  options.all_cells = true;
+  return options;
+}
+
 RepairResult repair_sparing(const TriangleSoup& soup, RepairOptions options = {}) {
   std::optional<RepairResult> around = repair_around_tangles(soup, options);
   if (around) return std::move(*around);
-  options.keep_valid = true;
   return repair(soup, options);
 }
 
@@ -199,7 +202,7 @@ TEST(CutTangles, SetsAsideWhatNothingMeets) {
   const RepairResult result = repair_sparing(soup);
   EXPECT_GT(result.report.set_aside, soup.triangles.size() * 8 / 10);
   EXPECT_LT(result.report.set_aside, soup.triangles.size());
-  EXPECT_LT(result.report.cells, repair(soup).report.cells / 2);
+  EXPECT_LT(result.report.cells, repair(soup, by_cells()).report.cells / 2);
   EXPECT_EQ(result.report.triangles.untouched + result.report.triangles.cut +
                 result.report.parts.inside_triangles,
             soup.triangles.size());
@@ -268,7 +271,7 @@ TEST(CutTangles, SlitsAreFilledAroundTangles) {
   for (const double x : {-16.0, 16.0}) {
     TriangleSoup scene = soup;
     append(scene, moved(scaled(divided(cube(), 4), 8), {x, 1, 2}));
-    const RepairResult all = repair(scene, options);
+    const RepairResult all = repair(scene, by_cells(options));
     ASSERT_GT(all.report.thin_cells.filled, 0u);
     const RepairResult result = repair_sparing(scene, options);
     EXPECT_GT(result.report.set_aside, 0u);
@@ -286,7 +289,7 @@ TEST(CutTangles, SlitsOfTheGridCostNoMoreAttempts) {
   append(soup, flipped(box({0.25, 0.25, 0.5}, {0.75, 0.75, 0.5 + kGap})));
   append(soup, box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8}));
   append(soup, moved(scaled(divided(cube(), 5), 8), {16, 1, 2}));
-  const RepairResult all = repair(soup), result = repair_sparing(soup);
+  const RepairResult all = repair(soup, by_cells()), result = repair_sparing(soup);
   EXPECT_GT(all.report.thin_cells.filled, 0u);
   EXPECT_GT(result.report.set_aside, 0u);
   const std::vector<StageReport>& stages = result.report.stages;
@@ -317,7 +320,6 @@ TEST(CutTangles, IsCertifiedInSinglePrecision) {
   RepairOptions options;
   options.certify.precision = Precision::float32;
   options.certify.welded = true;
-  options.simplify = kDefaultSimplify;
   for (std::uint64_t seed = 1; seed <= share_of_cases(8u); ++seed) {
     SCOPED_TRACE(seed);
     const RepairResult result = repair_sparing(random_scene(seed), options);

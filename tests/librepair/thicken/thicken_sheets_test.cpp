@@ -21,7 +21,6 @@ RepairOptions walls_of(double thickness, ThickenSide side = ThickenSide::middle)
   RepairOptions options;
   options.thicken.thickness = thickness;
   options.thicken.side = side;
-  options.keep_valid = true;
   return options;
 }
 
@@ -249,7 +248,6 @@ TEST(ThickenSheets, WhereNothingIsSolidAThicknessIsNamed) {
 
 TEST(ThickenSheets, AFittingThicknessWhereMostIsSheet) {
   RepairOptions options;
-  options.keep_valid = true;
   options.thicken.automatic = true;
   TriangleSoup soup = cube();
   EXPECT_EQ(repair(soup, options).report.thicken.triangles, 0u);

@@ -44,7 +44,6 @@ TriangleSoup unwelded(const TriangleSoup& soup) {
 
 RepairOptions keeping_valid() {
   RepairOptions options;
-  options.keep_valid = true;
   return options;
 }
 
@@ -200,7 +199,9 @@ TEST(ValidSolid, IsReportedLikeARepair) {
   EXPECT_EQ(result.report.triangles.untouched, soup.triangles.size());
   EXPECT_EQ(result.report.triangles.cut, 0u);
   EXPECT_EQ(result.report.output.parts, 1u);
-  const RepairResult whole = repair(soup);
+  RepairOptions by_cells;
+  by_cells.all_cells = true;
+  const RepairResult whole = repair(soup, by_cells);
   EXPECT_FALSE(whole.report.kept_valid);
   EXPECT_DOUBLE_EQ(result.report.output_volume, whole.report.output_volume);
   EXPECT_DOUBLE_EQ(result.report.input_area, whole.report.input_area);
