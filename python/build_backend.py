@@ -79,7 +79,7 @@ def _install(build, folder):
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         _run("cmake", "-S", ROOT, "-B", build, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DMESHREPAIR_BUILD_PYTHON=ON",
              f"-DPython3_EXECUTABLE={sys.executable}", "-DMESHREPAIR_BUILD_TESTS=OFF",
-             "-DMESHREPAIR_WARNINGS_AS_ERRORS=OFF")
+             "-DMESHREPAIR_WARNINGS_AS_ERRORS=OFF", "-DCMAKE_UNITY_BUILD=ON")
     _run("cmake", "--build", build, "--parallel", os.cpu_count() or 1, "--target", "meshrepair_python", "app_meshrepair")
     for component in ("python", "python-program"):
         _run("cmake", "--install", build, "--prefix", folder, "--component", component, "--strip")

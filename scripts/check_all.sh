@@ -37,7 +37,7 @@ run_tests() { ctest --test-dir "$1" --output-on-failure --parallel "$jobs" --sch
 
 check_release() {
   cmake --preset release -B build/check &&
-    cmake build/check -DMESHREPAIR_PRECOMPILE=OFF &&
+    cmake build/check -DMESHREPAIR_PRECOMPILE=OFF -DCMAKE_UNITY_BUILD=OFF &&
     cmake --build build/check --parallel "$jobs" &&
     run_tests build/check
 }

@@ -33,6 +33,7 @@ TEXT
 
 build_packages=(
   ca-certificates
+  ccache
   cmake
   g++
   git
