@@ -51,11 +51,11 @@ commands, source, root = sys.argv[1:]
 entry = next(one for one in json.load(open(commands)) if one["file"] == source)
 words = shlex.split(entry["command"])
 words = [word for at, word in enumerate(words) if word not in ("-c", "-o") and words[at - 1] != "-o"]
-text = subprocess.run([*words, "-E", "-CC", "-P", "-Wno-everything"], cwd=entry["directory"], check=True, capture_output=True).stdout
+text = subprocess.run([*words, "-E", "-C", "-P", "-Wno-everything"], cwd=entry["directory"], check=True, capture_output=True).stdout
 known = " ".join(words).replace(root, "") + text.decode(errors="replace").replace(root, "")
 print(hashlib.sha256(known.encode()).hexdigest())
 PYTHON
-  )
+  ) || return
   key=$(printf '%s' "$key" "$checks" "$(cat .clang-tidy)" "$(clang-tidy --version)" | sha256sum | cut -d ' ' -f 1)
   if [ -e "$remembered/$key" ]; then return; fi
   said=$(clang-tidy --quiet -p "$folder" --checks="$checks" --extra-arg=-Wno-sign-conversion \

@@ -229,6 +229,7 @@ void require_same_without_cells(const RepairRequest& request, const Outcome& out
   const Outcome spared = repair_at_once(request.soup, options);
   require_sound(spared, request.soup, options);
   if (options.seal.wanted() || options.thicken.wanted() || options.keep.wanted()) return;
+  if (!options.opacity.empty()) return;  // cells may take the rule that is surer
   const bool by_chambers = is_made_by_chambers(spared.report);
   if (!by_chambers && !spared.report.spared_cells && spared.report.set_aside == 0) return;
   if (by_chambers) require(spared.report.certify.passed(), "chambers give what is not certified");

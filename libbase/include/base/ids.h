@@ -132,7 +132,7 @@ class IdVector {
   }
 
   IdType push_back_and_grow(const Value& value) {
-    const Value copy = value;  // it may live in this array
+    const Value copy = value;  // NOLINT(performance-unnecessary-copy-initialization): may be here
     grow(values_.size() + 1);
     values_.push_back(copy);
     return IdType(values_.size() - 1);
