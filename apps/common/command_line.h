@@ -1,6 +1,5 @@
 // The command line of a program: its arguments and options, and what help says of them. CLI11
-// parses it; only the sources that make and parse one know CLI11, as its headers take seconds to
-// compile.
+// parses it, which command_line.cpp alone knows, as its headers take seconds to compile.
 //
 //   CommandLine line("Checks a mesh.", "meshcheck");
 //   line.add_option("IN", input, "Mesh")->check(names_file(".stl"))->required();
