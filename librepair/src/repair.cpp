@@ -7,9 +7,9 @@
 // - As given, when the soup is the boundary of a solid: promises the soup itself, bit for bit.
 // - Mended, when it is one once copies are dropped, holes closed and parts turned: promises its
 //   triangles, with their own coordinates, and patches.
-// - By chambers, when it is closed, and the inside rule finds no contradiction: triangles that meet
-//   are cut in their own planes, and space is not divided. Promises what all cells would give,
-//   certified.
+// - By chambers, when hardly any sheet is loose: triangles that meet are cut in their own planes,
+// and
+//   space is not divided. Promises what all cells would give, certified.
 // - Around tangles, when winding numbers are a matter of fact and few triangles meet others:
 //   promises the same.
 // - Cells everywhere, always: promises a surface as near to a certified one as could be had.

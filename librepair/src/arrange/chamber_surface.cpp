@@ -7,7 +7,6 @@
 
 #include <check/self_intersections.h>
 #include <extract/arrange.h>
-#include <mesh/edge_table.h>
 #include <mesh/topology.h>
 #include <mesh/triangle_measures.h>
 #include <repair/chamber_graph.h>
@@ -18,9 +17,11 @@
 namespace meshrepair::internal {
 namespace {
 
-// Of the surface, how much may lie in slits and fins: little slivers are no reason for cells. So
-// many pieces tell.
-constexpr double kSlitShare = 1e-3;
+// Of the surface, how much may lie in slits and fins, or in loose sheets: little slivers are no
+// reason for cells.
+constexpr double kLittleOfSurface = 1e-3;
+
+// So many pieces tell whether there are slits.
 constexpr std::size_t kMostPieces = 1024;
 
 double area_of_triangle(const TriangleSoup& mesh, std::uint32_t t) {
@@ -63,7 +64,7 @@ bool has_slits(const CleanSoup& soup, const Surface& surface, const RepairOption
     area += std::min(area_of_triangle(mesh, a), area_of_triangle(mesh, b));
   }
   const double share_of_pieces = area_of_triangles(mesh, pieces) / surface_area(mesh);
-  return area * share_of_pieces > kSlitShare * area_of_triangles(mesh, some);
+  return area * share_of_pieces > kLittleOfSurface * area_of_triangles(mesh, some);
 }
 
 class ChamberSurface {
@@ -73,7 +74,6 @@ class ChamberSurface {
       : soup_(soup), orientation_(orientation), options_(options), report_(report), meter_(meter) {}
 
   std::optional<Surface> run() {
-    if (has_open_edges()) return std::nullopt;
     meter_.begin("arrange");
     const std::optional<Arrangement> arrangement =
         Arrangement::make(soup_, report_.arrange, options_.progress);
@@ -86,24 +86,27 @@ class ChamberSurface {
   }
 
  private:
-  // Around them windings contradict each other.
-  [[nodiscard]] bool has_open_edges() const {
-    const std::vector<IndexTriangle> triangles = index_triangles(soup_);
-    bool any = false;
-    EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
-      any = any || (sides.size() == 1 && orientation_.winding[TriangleId(sides[0] / 3)] != 0);
-    });
-    return any;
-  }
-
   std::optional<std::vector<char>> label(const Arrangement& arrangement) {
     const CellGraph graph = graph_of_chambers(arrangement, soup_, orientation_);
     report_.links = graph.links().size();
     InsideOptions inside = options_.inside;
     inside.solve.progress = options_.progress;
     CellLabels labels = label_cells(graph, orientation_, inside, report_.inside);
-    if (!report_.inside.exact) return std::nullopt;
+    if (!report_.inside.exact && may_bound_more(graph)) return std::nullopt;
     return std::move(labels.solid);
+  }
+
+  // Whether sheets with the same chamber on both sides are more than little of the surface:
+  // together with surface that is made up they may bound what is in no chamber of its own.
+  [[nodiscard]] bool may_bound_more(const CellGraph& graph) const {
+    const InsideRule rule = options_.inside.rule;
+    if (rule != InsideRule::automatic && rule != InsideRule::winding) return true;
+    double all = 0, loose = 0;
+    for (const Link& link : graph.links()) {
+      all += link.area;
+      if (link.below == link.above && link.winding != 0) loose += link.area;
+    }
+    return loose > kLittleOfSurface * all;
   }
 
   const CleanSoup& soup_;

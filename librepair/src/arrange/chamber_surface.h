@@ -15,10 +15,11 @@
 
 namespace meshrepair::internal {
 
-// The surface of the solid that all cells would give, if the soup is closed: the regions into which
-// its triangles divide space are labelled as cells are. Nothing if the inside rule finds a
-// contradiction, if sheets are so near to each other that cells would fill what is between, or in
-// rare cases (Arrangement); then the report may hold what was found so far.
+// The surface of the solid that all cells would give, if the soup is closed but for little: the
+// regions into which its triangles divide space are labelled as cells are. Nothing if sheets have
+// the same region on both sides, if solidity or parity contradicts itself, if sheets are so near to
+// each other that cells would fill what is between, or in rare cases (Arrangement); then the report
+// may hold what was found so far.
 [[nodiscard]] std::optional<Surface> surface_of_chambers(const CleanSoup& soup,
                                                          const Orientation& orientation,
                                                          const RepairOptions& options,

@@ -152,6 +152,32 @@ INSTANTIATE_TEST_SUITE_P(
                       Scenes{"PairsOfSolids", 60, 40, pair_of_solids}),
     [](const auto& scene) { return scene.param.name; });
 
+// With one more triangle on an edge of the sphere, so wide beside it.
+TriangleSoup sphere_with_fin(double width) {
+  TriangleSoup soup = sphere(2000, 1);
+  const IndexTriangle c = soup.triangles[0];
+  const Vec3d middle = 0.5 * (soup.points[c[0]] + soup.points[c[1]]);
+  soup.triangles.push_back({c[0], c[1], static_cast<std::uint32_t>(soup.points.size())});
+  soup.points.push_back((1 + width) * middle);
+  return soup;
+}
+
+TEST(ChamberSurface, LooseSheetsThatAreLittleOfTheSurfaceAreNoReasonForCells) {
+  RepairOptions options;
+  options.holes.mode = HoleMode::none;
+  EXPECT_TRUE(is_as_from_cells(sphere_with_fin(0.1), options));
+  EXPECT_FALSE(is_as_from_cells(sphere_with_fin(2), options));
+}
+
+TEST(ChamberSurface, AVesselWithoutItsLidIsLeftToCells) {
+  TriangleSoup vessel = box({0, 0, 0}, {1, 1, 1});
+  vessel.triangles.resize(10);
+  append(vessel, box({2, 0, 0}, {3, 1, 1}));
+  RepairOptions options;
+  options.holes.mode = HoleMode::none;
+  EXPECT_FALSE(is_as_from_cells(vessel, options));
+}
+
 // Unit cubes of a lattice of 3 x 3 x 3; bit x + 3 y + 9 z of the mask says whether there is one.
 TriangleSoup lattice_cubes(std::uint32_t mask) {
   TriangleSoup soup;
