@@ -1,8 +1,7 @@
 // What the states of a repair are made of.
 //
 // fields_of() names all members of a type, or the compiler complains: none is forgotten when one is
-// added. RepairReport is without what is found after the last state; ExtractReport without
-// `facet_of`, which nobody asks for here.
+// added. RepairReport is without what is found after the last state.
 #pragma once
 
 #include <tuple>
@@ -59,12 +58,6 @@ template <Is<PartFates> T>
 auto fields_of(T& fates) {
   auto& [nothing, inside, bounding, inside_triangles, outside_triangles, places] = fates;
   return std::tie(nothing, inside, bounding, inside_triangles, outside_triangles, places);
-}
-
-template <Is<ExtractReport> T>
-auto fields_of(T& report) {
-  auto& [facets, unmerged, regions, edges, vertices, middle, polygons, facet_of] = report;
-  return std::tie(facets, unmerged, regions, edges, vertices, middle, polygons);
 }
 
 template <Is<InsideReport> T>

@@ -53,7 +53,7 @@ constexpr std::array<Attempt, 5> kAttempts = {{
 Surface extract(const CoveredCells& covered, std::vector<char> solid, const RepairOptions& options,
                 RepairReport& report) {
   report.extract = {};
-  fill_slits(covered, options, {}, {}, solid, report);
+  fill_slits(covered, options, solid, report);
   if (std::count(solid.begin(), solid.end(), 1) == 0) {
     throw NoSolidError("the triangles enclose nothing: open sheets, as thick as their rounding");
   }
