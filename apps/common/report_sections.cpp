@@ -333,7 +333,6 @@ Json result_of(const Findings& findings) {
           {"same_triangles", repair.same_triangles},
           {"kept_as_given", repair.kept_valid},
           {"spared_cells", repair.spared_cells},
-          {"set_aside_triangles", repair.set_aside},
           {"parts", output.parts},
           {"dropped_solids", findings.dropped_solids},
           {"closed", output.closed()},

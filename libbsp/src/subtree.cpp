@@ -54,8 +54,6 @@ class SubtreeBuilder {
         attach(next, TreeRef(built_.leaves.push_back({})));
       } else if (is_part(fragments(next).size())) {
         put_off(next);
-      } else if (options_.divides && !options_.divides(next.low, next.high)) {
-        leave_undivided(next);
       } else {
         divide(next);
       }
@@ -72,7 +70,7 @@ class SubtreeBuilder {
     Region inside;
     for (const BoxPlane& side : sides) {
       distribute(inside, side.plane);
-      add_node(inside, side.plane, side.plane);
+      add_node(inside, side.plane);
       // add_node() left both children; the outer one has no fragments.
       const Region front = regions_.back();
       const Region back = regions_[regions_.size() - 2];
@@ -80,9 +78,6 @@ class SubtreeBuilder {
       inside = side.inside_is_front ? front : back;
       attach(side.inside_is_front ? back : front, TreeRef(built_.leaves.push_back({})));
     }
-    const GridBox box = bounding_box(task_.soup);
-    inside.low = as_vector(box.low);
-    inside.high = as_vector(box.high);
     return inside;
   }
 
@@ -131,14 +126,6 @@ class SubtreeBuilder {
     }
   }
 
-  void leave_undivided(const Region& region) {
-    for (const FragmentId id : fragments(region)) pool_.release(id);
-    stack_.resize(region.begin);
-    Leaf leaf;
-    leaf.undivided = true;
-    attach(region, TreeRef(built_.leaves.push_back(leaf)));
-  }
-
   [[nodiscard]] std::span<const FragmentId> fragments(const Region& region) const {
     return {stack_.data() + region.begin, stack_.size() - region.begin};
   }
@@ -158,7 +145,7 @@ class SubtreeBuilder {
     if (chosen.cost > judged(region) / (many ? 2 : 1) && divide_by_edge(region, chosen.cost))
       return;
     distribute(region, chosen.plane);
-    add_node(region, pool_.soup_plane(chosen.plane), chosen.plane);
+    add_node(region, pool_.soup_plane(chosen.plane));
   }
 
   bool divide_spatially(const Region& region) {
@@ -205,7 +192,7 @@ class SubtreeBuilder {
       stack_.insert(stack_.end(), back_.begin(), back_.end());
       return false;
     }
-    add_node(region, plane, pool_plane);
+    add_node(region, plane);
     return true;
   }
 
@@ -228,7 +215,7 @@ class SubtreeBuilder {
     stack_.resize(region.begin);
   }
 
-  void add_node(const Region& region, PlaneId plane, PlaneId pool_plane) {
+  void add_node(const Region& region, PlaneId plane) {
     TreeNode node;
     node.plane = plane;
     node.first_triangle = begin_of_list(built_.node_triangles.size(), on_plane_.size());
@@ -239,28 +226,10 @@ class SubtreeBuilder {
     // The front is divided first, so it goes on top.
     const std::size_t back_begin = stack_.size();
     stack_.insert(stack_.end(), back_.begin(), back_.end());
-    regions_.push_back(part_of(region, 1, id, pool_plane, back_begin));
+    regions_.push_back({id, 1, back_begin, region.depth + 1});
     const std::size_t front_begin = stack_.size();
     stack_.insert(stack_.end(), front_.begin(), front_.end());
-    regions_.push_back(part_of(region, 0, id, pool_plane, front_begin));
-  }
-
-  // The part of a region on one side of a node. A plane across an axis makes its box smaller.
-  [[nodiscard]] Region part_of(const Region& region, int side, NodeId node, PlaneId pool_plane,
-                               std::size_t begin) const {
-    Region part{node, side, begin, region.depth + 1, region.low, region.high};
-    const Plane& plane = pool_.planes()[pool_plane];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int64_t n = plane.normal[axis];
-      if (n == 0 || plane.normal[(axis + 1) % 3] != 0 || plane.normal[(axis + 2) % 3] != 0)
-        continue;
-      const double at = -static_cast<double>(plane.offset) / static_cast<double>(n);
-      const bool is_above = (side == 0) == (n > 0);
-      double& bound = is_above ? part.low[static_cast<Eigen::Index>(axis)]
-                               : part.high[static_cast<Eigen::Index>(axis)];
-      bound = is_above ? std::max(bound, at) : std::min(bound, at);
-    }
-    return part;
+    regions_.push_back({id, 0, front_begin, region.depth + 1});
   }
 
   // Done is what has left the stack and was not put off; fragments born from cuts make it grow

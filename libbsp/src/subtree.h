@@ -18,7 +18,6 @@ struct Region {
   int side = 0;
   std::size_t begin = 0;
   std::size_t depth = 0;
-  Vec3d low = Vec3d::Zero(), high = Vec3d::Zero();  // a box around it
 };
 
 struct BoxPlane {

@@ -1,22 +1,20 @@
 // The whole way, and the table of its contents.
 //
-// A soup becomes a solid by the first of five ways that applies. They are tried from the cheapest
+// A soup becomes a solid by the first of four ways that applies. They are tried from the cheapest
 // to the one that always does; where two apply they give the same solid, but for the last bits of
 // new points. Each is a function of one shape: a surface, or nothing and the next way.
 //
 // - As given, when the soup is the boundary of a solid: promises the soup itself, bit for bit.
 // - Mended, when it is one once copies are dropped, holes closed and parts turned: promises its
 //   triangles, with their own coordinates, and patches.
-// - By chambers, when hardly any sheet is loose: triangles that meet are cut in their own planes,
-// and
-//   space is not divided. Promises what all cells would give, certified.
-// - Around tangles, when winding numbers are a matter of fact and few triangles meet others:
-//   promises the same.
+// - By chambers, when hardly any sheet is loose, with one chamber on both sides: triangles are cut
+//   in their own planes, and space is not divided. Promises what all cells would give,
+//   certified.
 // - Cells everywhere, always: promises a surface as near to a certified one as could be had.
 //
-// The last two make cells (cells/). The last three say what is solid (arrange/, tangles/, solid/),
-// by the rules of inside/. In surface/ the boundary is extracted, simplified and certified: attempt
-// by attempt (make_surface.cpp), each with rounds of repairing it again on coarser grids
+// The last one makes cells (cells/). The last two say what is solid (arrange/, solid/), by the
+// rules of inside/. In surface/ the boundary is extracted, simplified and certified: attempt by
+// attempt (make_surface.cpp), each with rounds of repairing it again on coarser grids
 // (certify_surface.cpp). Last of all, solids that are not wanted go.
 #include <array>
 #include <optional>
@@ -83,10 +81,8 @@ struct Job {
   void keep_repaired(const Surface& surface) {
     if (!prepared) return;
     states.save(internal::kRepairedState, surface, report);
-    for (const char* const name :
-         {internal::kPreparedState, internal::kChambersState, internal::kTanglesState}) {
-      states.drop(name);
-    }
+    states.drop(internal::kPreparedState);
+    states.drop(internal::kChambersState);
   }
 
  private:
@@ -117,12 +113,6 @@ std::optional<Surface> by_chambers(Job& job) {
                                        job.report, job.meter);
 }
 
-std::optional<Surface> around_tangles(Job& job) {
-  job.prepare();
-  return internal::surface_around_tangles(job.clean, job.orientation, job.options, job.states,
-                                          job.report, job.meter);
-}
-
 std::optional<Surface> cells_everywhere(Job& job) {
   job.prepare();
   // The sheets of a soup are looked for when it is known what is solid.
@@ -130,7 +120,7 @@ std::optional<Surface> cells_everywhere(Job& job) {
                                     job.orientation, job.options, job.report, job.meter);
 }
 
-constexpr std::array kWays = {as_given, mended, by_chambers, around_tangles, cells_everywhere};
+constexpr std::array kWays = {as_given, mended, by_chambers, cells_everywhere};
 
 // By the first way that applies; the last one always does.
 std::optional<Surface> first_way(Job& job) {

@@ -189,18 +189,6 @@ void require_unchanged(const RepairRequest& request, const Outcome& outcome) {
   }
 }
 
-// Before anything is simplified or moved, two surfaces differ at most in the last bits of new
-// points, and in how polygons with corners on a circle are divided.
-void require_same_size(const RepairReport& a, const RepairReport& b, const RepairOptions& options) {
-  require(a.inside.used == b.inside.used, "all cells are decided otherwise");
-  require(a.inside.left_out_folds == b.inside.left_out_folds, "all cells have other folds");
-  require(a.parts.bounding_triangles == b.parts.bounding_triangles, "all cells keep others");
-  // Along edges that touch, a vertex in the middle may stay where another partition cut the edge.
-  if (options.simplify > 0 || a.extract.singular_edges + b.extract.singular_edges > 0) return;
-  require(a.output.triangles == b.output.triangles, "all cells give more triangles, or fewer");
-  require(a.output.parts == b.output.parts, "all cells give more parts, or fewer");
-}
-
 // Chambers know no edges of cells: they give fewer triangles at times, of the same solid.
 void require_same_solid(const RepairReport& a, const RepairReport& b) {
   constexpr double kLastBits = 1e-9;
@@ -221,8 +209,8 @@ bool has_thin_cells(const RepairReport& report) {
   return report.thin_cells.filled + report.thin_cells.emptied > 0;
 }
 
-// The usual way: what is made without cells, or with few, is sound, and what the cells give. What
-// is sealed, thickened or left out then follows from last bits.
+// The usual way: what is made without cells is sound, and what the cells give. What is sealed,
+// thickened or left out then follows from last bits.
 void require_same_without_cells(const RepairRequest& request, const Outcome& outcome) {
   RepairOptions options = request.options;
   options.all_cells = false;
@@ -231,7 +219,7 @@ void require_same_without_cells(const RepairRequest& request, const Outcome& out
   if (options.seal.wanted() || options.thicken.wanted() || options.keep.wanted()) return;
   if (!options.opacity.empty()) return;  // cells may take the rule that is surer
   const bool by_chambers = is_made_by_chambers(spared.report);
-  if (!by_chambers && !spared.report.spared_cells && spared.report.set_aside == 0) return;
+  if (!by_chambers && !spared.report.spared_cells) return;
   if (by_chambers) require(spared.report.certify.passed(), "chambers give what is not certified");
   require(outcome.surface.has_value(), "cells find no solid");
   if (spared.report.spared_cells) {
@@ -242,7 +230,6 @@ void require_same_without_cells(const RepairRequest& request, const Outcome& out
   const bool is_moved =
       spared.report.certify.pairs_at_first + outcome.report.certify.pairs_at_first > 0;
   if (is_moved || options.certify.precision != Precision::float64) return;
-  if (!by_chambers) return require_same_size(outcome.report, spared.report, options);
   if (!has_thin_cells(outcome.report)) require_same_solid(outcome.report, spared.report);
 }
 

@@ -187,58 +187,6 @@ TEST(BuildTree, OrientationOfTrianglesDoesNotMatter) {
   }
 }
 
-bool meet(const Vec3d& low, const Vec3d& high, const Vec3d& other_low, const Vec3d& other_high) {
-  return (low.array() <= other_high.array()).all() && (other_low.array() <= high.array()).all();
-}
-
-std::size_t undivided_leaves(const Tree& tree) {
-  return static_cast<std::size_t>(std::count_if(tree.leaves.begin(), tree.leaves.end(),
-                                                [](const Leaf& leaf) { return leaf.undivided; }));
-}
-
-TEST(BuildTree, DividesOnlyWhatItIsToldTo) {
-  const TriangleSoup soup = sphere(2000);
-  CleanReport clean_report;
-  const CleanSoup clean = clean_soup(soup, clean_report);
-  const GridBox all = bounding_box(clean);
-  const Vec3d low = as_vector(all.low), high = as_vector(all.low) + Vec3d::Constant(1 << 22);
-  BuildTreeOptions options;
-  options.divides = [&](const Vec3d& a, const Vec3d& b) {
-    EXPECT_TRUE((a.array() >= as_vector(all.low).array()).all());
-    EXPECT_TRUE((b.array() <= as_vector(all.high).array()).all());
-    return meet(a, b, low, high);
-  };
-  BuildTreeReport report, whole_report;
-  const Tree tree = build_tree(clean, options, report);
-  expect_valid_structure(tree);
-  EXPECT_GT(undivided_leaves(tree), 0u);
-  EXPECT_LT(report.nodes, build_tree(clean, {}, whole_report).nodes.size() / 4);
-  std::vector<char> placed(clean.triangles.size(), 0);
-  for (const TriangleId t : tree.node_triangles) placed[t.index()] = 1;
-  for (TriangleId t(0u); t < clean.triangles.end_id(); ++t.value) {
-    Vec3d from = Vec3d::Constant(kGridRadius), to = -from;
-    for (const PointId p : clean.triangles[t].corners) {
-      from = from.cwiseMin(as_vector(clean.grid_points[p]));
-      to = to.cwiseMax(as_vector(clean.grid_points[p]));
-    }
-    if ((from.array() >= low.array()).all() && (to.array() <= high.array()).all()) {
-      EXPECT_NE(placed[t.index()], 0);
-    }
-  }
-}
-
-TEST(BuildTree, MayDivideNothing) {
-  CleanReport clean_report;
-  const CleanSoup clean = clean_soup(sphere(2000), clean_report);
-  BuildTreeOptions options;
-  options.divides = [](const Vec3d&, const Vec3d&) { return false; };
-  BuildTreeReport report;
-  const Tree tree = build_tree(clean, options, report);
-  EXPECT_EQ(report.nodes, 6u);
-  EXPECT_EQ(undivided_leaves(tree), 1u);
-  EXPECT_TRUE(tree.node_triangles.empty());
-}
-
 TEST(BuildTree, NothingIsOneLeaf) {
   BuildTreeReport report;
   const Tree tree = tree_of(TriangleSoup{}, report);

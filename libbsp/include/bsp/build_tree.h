@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 
 #include <base/progress.h>
 #include <bsp/clean_soup.h>
@@ -26,10 +25,6 @@ struct BuildTreeOptions {
   std::size_t judged_fragments = 128;
   // An offer's cost is split_weight * (fragments cut) + |front - back|.
   std::size_t split_weight = 8;
-  // Asked whether to divide a region that has fragments, which lies in this closed box, in grid
-  // units; if not, it is left as a leaf (Leaf::undivided). Empty: all are divided. Several threads
-  // ask at once.
-  std::function<bool(const Vec3d& low, const Vec3d& high)> divides;
   ProgressObserver* progress = nullptr;
 };
 
@@ -43,8 +38,7 @@ struct BuildTreeReport {
   std::size_t lost_fragments = 0;  // that fell on no side of a plane; 0 with exact predicates
 };
 
-// Every triangle ends, in fragments, at nodes with its plane, or in leaves that were not to be
-// divided. The same soup gives the same tree;
+// Every triangle ends, in fragments, at nodes with its plane. The same soup gives the same tree;
 // the orientation of its triangles does not matter. Takes over the soup.
 [[nodiscard]] Tree build_tree(CleanSoup soup, const BuildTreeOptions& options,
                               BuildTreeReport& report);

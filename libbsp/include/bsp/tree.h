@@ -47,7 +47,6 @@ struct Leaf {
   Label label = Label::unknown;
   float confidence =
       0;  // |s| of the solidity, or the distance of the winding from 1/2, doubled; 0 to 1
-  bool undivided = false;  // triangles pass through it: BuildTreeOptions::divides; not in files
 };
 
 // Invariants: every node and every leaf is referred to exactly once (by a parent or as the root),

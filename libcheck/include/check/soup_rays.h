@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,18 +20,8 @@ class SoupRays {
   // At a point that lies on no triangle, exactly.
   [[nodiscard]] std::int32_t winding_at(const Vec3d& point) const;
 
-  // Right above the triangle, on the side of it to which z grows, at a place inside it near its
-  // first corner, exactly. Nothing if it is parallel to z. No other triangle passes through it.
-  [[nodiscard]] std::optional<std::int32_t> winding_above(std::uint32_t triangle) const;
-
-  // 1 where the triangle, turned as its corners are, faces up, to where z grows, -1 where it faces
-  // down, 0 where it is parallel to z.
-  [[nodiscard]] int facing(std::uint32_t triangle) const;
-
-  static constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
-  // Whether certainly nothing lies between the two points, or nothing but that triangle.
-  [[nodiscard]] bool sees(const Vec3d& from, const Vec3d& to,
-                          std::uint32_t but = kNoTriangle) const;
+  // Whether certainly nothing lies between the two points.
+  [[nodiscard]] bool sees(const Vec3d& from, const Vec3d& to) const;
 
  private:
   const TriangleSoup& soup_;

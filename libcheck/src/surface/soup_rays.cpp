@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -113,48 +112,30 @@ bool certainly_misses(const Vec3d& from, const Vec3d& to, const Vec3d& a, const 
   return any(1) && any(-1);
 }
 
-// Of the triangles that the ray passes, but for one.
-std::int32_t sum_above(const TriangleSoup& soup, std::span<const std::int32_t> winding,
-                       const BoxTree& tree, const RayStart& start, std::uint32_t but) {
-  std::int32_t sum = 0;
-  internal::visit_column(tree, start.corner, [&](std::uint32_t t) {
-    if (t == but) return;
-    const auto& c = soup.triangles[t];
-    sum += winding[t] *
-           internal::passed_upward(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]], start);
-  });
-  return sum;
-}
-
 }  // namespace
 
 SoupRays::SoupRays(const TriangleSoup& soup, std::span<const std::int32_t> winding)
     : soup_(soup), winding_(winding), tree_(boxes_of(soup)) {}
 
 std::int32_t SoupRays::winding_at(const Vec3d& point) const {
-  return sum_above(soup_, winding_, tree_, RayStart::at(point), kNoTriangle);
+  const RayStart start = RayStart::at(point);
+  std::int32_t sum = 0;
+  internal::visit_column(tree_, start.corner, [&](std::uint32_t t) {
+    const auto& c = soup_.triangles[t];
+    sum += winding_[t] * internal::passed_upward(soup_.points[c[0]], soup_.points[c[1]],
+                                                 soup_.points[c[2]], start);
+  });
+  return sum;
 }
 
-std::optional<std::int32_t> SoupRays::winding_above(std::uint32_t triangle) const {
-  if (facing(triangle) == 0) return std::nullopt;
-  return sum_above(soup_, winding_, tree_, RayStart::in(soup_, soup_.triangles[triangle]),
-                   triangle);
-}
-
-int SoupRays::facing(std::uint32_t triangle) const {
-  const auto& c = soup_.triangles[triangle];
-  return orientation_along(2, soup_.points[c[0]], soup_.points[c[1]], soup_.points[c[2]]);
-}
-
-bool SoupRays::sees(const Vec3d& from, const Vec3d& to, std::uint32_t but) const {
+bool SoupRays::sees(const Vec3d& from, const Vec3d& to) const {
   const SegmentReach reach(from, to);
   bool free = true;
   tree_.visit([&](const Box& box) { return free && reach(box); },
               [&](std::uint32_t t) {
                 const auto& c = soup_.triangles[t];
-                free =
-                    free && (t == but || certainly_misses(from, to, soup_.points[c[0]],
-                                                          soup_.points[c[1]], soup_.points[c[2]]));
+                free = free && certainly_misses(from, to, soup_.points[c[0]], soup_.points[c[1]],
+                                                soup_.points[c[2]]);
               });
   return free;
 }

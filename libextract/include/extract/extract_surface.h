@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include <extract/cell_complex.h>
@@ -21,10 +20,6 @@ struct ExtractOptions {
   // what is to be repaired once more.
   bool may_touch_itself = false;
   ProgressObserver* progress = nullptr;
-  // Of each triangle of the soup, whether it is not cut, though only a part of it may be among the
-  // cells' facets: nothing is merged with it. Empty: what is cut is seen there.
-  std::span<const char> whole = {};
-  bool tell_facets = false;  // ExtractReport::facet_of
 };
 
 struct ExtractReport {
@@ -35,7 +30,6 @@ struct ExtractReport {
   std::size_t singular_vertices = 0;
   std::size_t middle_vertices = 0;  // put into edges at which solids touch, see MiddleVertices
   std::size_t polygons_apart = 0;   // in a loose complex: facets that could not be merged
-  std::vector<FacetId> facet_of;    // of each triangle, if asked for: one in the same region
 };
 
 // `solid` has one entry for each cell. Points of the input keep their original coordinates bit for

@@ -42,13 +42,13 @@ struct MergedFacets {
 // such an edge. Regions are in the order of the input
 // triangles that cover them; those that are not covered come last. Combinatorial: no tolerance is
 // involved, but in a loose complex that of its points says what a straight line is. `alone` marks
-// polygons that are regions of their own and keep all their vertices, `whole` triangles of the soup
-// that are not cut, though not all that is left of them is one region here; empty is none.
+// polygons that are regions of their own and keep all their vertices; empty is none. What is cut of
+// several triangles in one plane is one region if `merges_triangles`.
 [[nodiscard]] MergedFacets merge_facets(const CellComplex& complex,
                                         const IdVector<FacetId, Cover>& cover,
                                         const std::vector<char>& solid, const Boundary& boundary,
                                         const ManifoldCorners& corners,
                                         std::span<const char> alone = {},
-                                        std::span<const char> whole = {});
+                                        bool merges_triangles = true);
 
 }  // namespace meshrepair

@@ -26,15 +26,14 @@ class FacetMerger {
  public:
   FacetMerger(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
               const std::vector<char>& solid, const Boundary& boundary,
-              const ManifoldCorners& corners, std::span<const char> alone,
-              std::span<const char> whole)
+              const ManifoldCorners& corners, std::span<const char> alone, bool merges_triangles)
       : complex_(complex),
         cover_(cover),
         solid_(solid),
         boundary_(boundary),
         corners_(corners),
         alone_(alone),
-        whole_(whole) {}
+        merges_triangles_(merges_triangles) {}
 
   MergedFacets run() {
     find_regions();
@@ -73,10 +72,12 @@ class FacetMerger {
       }
     };
     dissolve([&](std::uint32_t p, std::uint32_t q) { return same_surface(p, q); });
-    const std::vector<char> cut = find_cut_polygons(joined);
-    dissolve([&](std::uint32_t p, std::uint32_t q) {
-      return cut[p] != 0 && cut[q] != 0 && plane_of(p) == plane_of(q);
-    });
+    if (merges_triangles_) {
+      const std::vector<char> cut = find_cut_polygons(joined);
+      dissolve([&](std::uint32_t p, std::uint32_t q) {
+        return cut[p] != 0 && cut[q] != 0 && plane_of(p) == plane_of(q);
+      });
+    }
     number_regions(joined);
   }
 
@@ -102,8 +103,7 @@ class FacetMerger {
     std::vector<char> cut(boundary_.polygons(), 0);
     for (std::uint32_t p = 0; p < boundary_.polygons(); ++p) {
       const TriangleId t = cover_[boundary_.facet[p]].triangle;
-      if (!t.valid() || (!whole_.empty() && whole_[t.index()] != 0)) continue;
-      cut[p] = polygons[joined.root(p)] < facets[t.index()];
+      if (t.valid()) cut[p] = polygons[joined.root(p)] < facets[t.index()];
     }
     return cut;
   }
@@ -283,7 +283,8 @@ class FacetMerger {
   const std::vector<char>& solid_;
   const Boundary& boundary_;
   const ManifoldCorners& corners_;
-  std::span<const char> alone_, whole_;
+  std::span<const char> alone_;
+  const bool merges_triangles_;
   // Of each vertex: how many regions meet there, up to 3, and a side between regions that starts
   // there.
   std::vector<char> sectors_;
@@ -296,8 +297,8 @@ class FacetMerger {
 MergedFacets merge_facets(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
                           const std::vector<char>& solid, const Boundary& boundary,
                           const ManifoldCorners& corners, std::span<const char> alone,
-                          std::span<const char> whole) {
-  return FacetMerger(complex, cover, solid, boundary, corners, alone, whole).run();
+                          bool merges_triangles) {
+  return FacetMerger(complex, cover, solid, boundary, corners, alone, merges_triangles).run();
 }
 
 }  // namespace meshrepair

@@ -28,8 +28,8 @@ struct MergedBoundary {
   ManifoldCorners corners;
   MergedFacets merged;
   MiddleVertices middles;
-  std::vector<char> whole;  // of each triangle of the soup: nothing is merged with it; empty: none
   std::vector<char> alone;  // of each polygon: not to be merged with others; empty: none
+  bool merges_triangles = true;
 };
 
 class SurfaceExtractor {
@@ -79,14 +79,6 @@ class SurfaceExtractor {
   [[nodiscard]] const std::vector<std::uint32_t>& failed() const { return failed_; }
   [[nodiscard]] const std::vector<std::uint32_t>& region_of_triangle() const {
     return region_of_triangle_;
-  }
-  [[nodiscard]] std::vector<FacetId> facets_of_triangles() const {
-    std::vector<FacetId> facets;
-    facets.reserve(region_of_triangle_.size());
-    for (const std::uint32_t region : region_of_triangle_) {
-      facets.push_back(boundary_.facet[merged_.polygons_of(region)[0]]);
-    }
-    return facets;
   }
 
  private:
@@ -299,7 +291,7 @@ class LooseExtractor {
     for (std::size_t round = 0;; ++round) {
       if (round == kMostRounds) set_all_apart();
       parts_.merged = merge_facets(complex_, cover_, solid_, parts_.boundary, parts_.corners,
-                                   parts_.alone, parts_.whole);
+                                   parts_.alone, parts_.merges_triangles);
       if (!internal::set_apart_odd_regions(parts_.boundary, parts_.corners, parts_.merged,
                                            parts_.alone)) {
         break;
@@ -344,18 +336,15 @@ Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cove
   parts.boundary = find_boundary(complex, solid);
   parts.corners =
       cut_nonmanifold(complex, parts.boundary, solid, options.touching, options.progress);
-  if (!options.merges_triangles) parts.whole.assign(complex.soup().triangles.size(), 1);
+  parts.merges_triangles = options.merges_triangles;
   if (complex.loose) {
     return LooseExtractor(complex, cover, solid, std::move(parts)).run(report, options.progress);
   }
   parts.merged = merge_facets(complex, cover, solid, parts.boundary, parts.corners, {},
-                              options.merges_triangles ? options.whole : parts.whole);
+                              options.merges_triangles);
   parts.middles = separate_common_edges(complex, parts.boundary, parts.corners);
   const InputPoints input_points(complex.soup());
-  SurfaceExtractor extractor(complex, cover, solid, parts, input_points);
-  Surface surface = extractor.run(report, options.progress);
-  if (options.tell_facets) report.facet_of = extractor.facets_of_triangles();
-  return surface;
+  return SurfaceExtractor(complex, cover, solid, parts, input_points).run(report, options.progress);
 }
 
 }  // namespace meshrepair

@@ -26,11 +26,9 @@ struct Link {
 class CellGraph {
  public:
   // `layers` as cover_facets() gives them; without them set_windings() takes every facet to be
-  // covered by one triangle alone. Cells with a flag in `left_out`, empty for none, have no links.
-  // `progress` is asked whether to go on.
+  // covered by one triangle alone. `progress` is asked whether to go on.
   CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-            ProgressObserver* progress = nullptr, std::span<const CoverLayer> layers = {},
-            std::span<const char> left_out = {});
+            ProgressObserver* progress = nullptr, std::span<const CoverLayer> layers = {});
 
   // Of any regions, with the links between them; those that are not bounded have a flag. A layer is
   // one more triangle on a link.
@@ -45,10 +43,6 @@ class CellGraph {
   // normals of their planes.
   void set_windings(const IdVector<TriangleId, std::int32_t>& winding);
 
-  // Says that the cell is not bounded, though no facet of it lies on the outer box: a way leads out
-  // of it that is not in the graph.
-  void set_unbounded(CellId cell) { unbounded_[cell.index()] = 1; }
-
   // Sets the opacities of covered links, 1 until then, to those of triangles, of several the most.
   void set_opacities(const IdVector<TriangleId, float>& opacity);
 
@@ -61,8 +55,7 @@ class CellGraph {
   }
   // In cubic grid steps, rounded; of an unbounded cell without meaning.
   [[nodiscard]] double volume(CellId cell) const { return volume_[cell.index()]; }
-  // Whether a facet of the cell lies on the outer box, or set_unbounded() said so: such cells are
-  // empty by definition.
+  // Whether a facet of the cell lies on the outer box: such cells are empty by definition.
   [[nodiscard]] bool unbounded(CellId cell) const { return unbounded_[cell.index()] != 0; }
 
  private:

@@ -38,12 +38,6 @@ inline constexpr std::uint8_t kOutside = 4;
 // Beside kOnBoundary: of a sheet that was thickened, whose walls bound the solid.
 inline constexpr std::uint8_t kThickened = 8;
 
-// Of a piece that has what is solid, or not, on its two sides.
-[[nodiscard]] constexpr std::uint8_t place_between(bool one_solid, bool other_solid) {
-  if (one_solid != other_solid) return kOnBoundary;
-  return one_solid ? kInside : kOutside;
-}
-
 // Of each triangle of the soup the places of all its pieces among the facets, those where several
 // coincide only for the first. `solid` has one entry for each cell.
 [[nodiscard]] std::vector<std::uint8_t> places_of_triangles(const CellComplex& complex,

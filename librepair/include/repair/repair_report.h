@@ -33,8 +33,6 @@ namespace meshrepair {
 struct RepairReport {
   bool kept_valid = false;    // nothing was wrong, and the rest of the work was not done
   bool spared_cells = false;  // cleaned, closed and turned it was a solid: all about cells is 0
-  // Triangles that meet no others: no cells were made of them; 0 also where cells are of all.
-  std::size_t set_aside = 0;
   CleanReport clean;
   Topology input;         // of the clean soup
   double input_area = 0;  // of the clean soup, in the input's units, squared

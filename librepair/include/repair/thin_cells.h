@@ -18,25 +18,10 @@ struct ThinCellsReport {
   // without what only open parts surround, no thicker than rounding.
   double filled_area = 0;
   double emptied_area = 0;
-  // A cell that had to stay would have changed.
-  bool reaches_fixed = false;
-};
-
-// What may become of a cell.
-enum class CellState : char {
-  free,
-  fixed,    // stays as it is
-  unknown,  // stays, and nobody knows whether it is solid; it has no facet in common with a free
-            // one
 };
 
 struct ThinCellsOptions {
-  double within = 0;                  // how thin, in grid units
-  std::span<const CellState> states;  // of each cell; empty: all are free
-  // Of each triangle of the soup, whether it is to come out as it went in: cells that touch it in
-  // more than points stay, and are none that ThinCellsReport::reaches_fixed tells of. Empty: of
-  // none.
-  std::span<const char> stays;
+  double within = 0;  // how thin, in grid units
   // Of each triangle, whether it is of a part with open edges: it may go as a whole, and with what
   // is no thicker than rounding and has no other triangles around it, whatever its volume. Empty:
   // none is.

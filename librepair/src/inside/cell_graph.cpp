@@ -23,11 +23,10 @@ constexpr std::size_t kCellsPerTask = 16384;
 class LinkMaker {
  public:
   LinkMaker(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-            std::span<const CoverLayer> layers, std::span<const char> left_out)
+            std::span<const CoverLayer> layers)
       : complex_(complex),
         cover_(cover),
         layers_(layers),
-        left_out_(left_out),
         tasks_(tasks_of(complex.facets.size(), kFacetsPerTask)) {}
 
   // The number of links; the cells beside facets of the outer box get a flag.
@@ -83,19 +82,15 @@ class LinkMaker {
 
   void look_at(FacetId f, Task& task) const {
     const Facet& facet = complex_.facets[f];
-    if (!facet.above.valid() || !facet.below.valid()) {
+    if (is_link(facet)) {
+      ++task.links;
+    } else {
       task.unbounded.push_back(facet.above.valid() ? facet.above : facet.below);
     }
-    task.links += is_link(facet);
   }
 
-  [[nodiscard]] bool is_link(const Facet& facet) const {
-    return facet.above.valid() && facet.below.valid() && !is_left_out(facet.below) &&
-           !is_left_out(facet.above);
-  }
-
-  [[nodiscard]] bool is_left_out(CellId c) const {
-    return !left_out_.empty() && left_out_[c.index()] != 0;
+  [[nodiscard]] static bool is_link(const Facet& facet) {
+    return facet.above.valid() && facet.below.valid();
   }
 
   [[nodiscard]] std::span<const CoverLayer>::iterator layers_from(FacetId first) const {
@@ -122,19 +117,17 @@ class LinkMaker {
   const CellComplex& complex_;
   const IdVector<FacetId, Cover>& cover_;
   std::span<const CoverLayer> layers_;
-  std::span<const char> left_out_;
   std::vector<Task> tasks_;
 };
 
 }  // namespace
 
 CellGraph::CellGraph(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
-                     ProgressObserver* progress, std::span<const CoverLayer> layers,
-                     std::span<const char> left_out)
+                     ProgressObserver* progress, std::span<const CoverLayer> layers)
     : first_(complex.cells.size() + 1, 0),
       volume_(complex.cells.size()),
       unbounded_(complex.cells.size(), 0) {
-  LinkMaker maker(complex, cover, layers, left_out);
+  LinkMaker maker(complex, cover, layers);
   const std::size_t count = maker.count(unbounded_);
   links_.resize(count);
   const auto moments = std::make_unique_for_overwrite<double[]>(count);

@@ -14,6 +14,12 @@ bool is_solid(const std::vector<char>& solid, CellId cell) {
   return cell.valid() && solid[cell.index()] != 0;
 }
 
+// Of a piece that has what is solid, or not, on its two sides.
+std::uint8_t place_between(bool one_solid, bool other_solid) {
+  if (one_solid != other_solid) return kOnBoundary;
+  return one_solid ? kInside : kOutside;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> places_of_triangles(const CellComplex& complex,

@@ -1,8 +1,7 @@
 // What the states of a repair are made of.
 //
 // fields_of() names all members of a type, or the compiler complains: none is forgotten when one is
-// added. RepairReport is without what is found after the last state; ExtractReport without
-// `facet_of`, which tangles ask for and do not keep.
+// added. RepairReport is without what is found after the last state.
 #pragma once
 
 #include <tuple>
@@ -61,12 +60,6 @@ auto fields_of(T& fates) {
   return std::tie(nothing, inside, bounding, inside_triangles, outside_triangles, places);
 }
 
-template <Is<ExtractReport> T>
-auto fields_of(T& report) {
-  auto& [facets, unmerged, regions, edges, vertices, middle, polygons, facet_of] = report;
-  return std::tie(facets, unmerged, regions, edges, vertices, middle, polygons);
-}
-
 template <Is<InsideReport> T>
 auto fields_of(T& report) {
   auto& [asked, used, reason, exact, contradictions, solve, distance, contradiction, loose, turned,
@@ -78,14 +71,14 @@ auto fields_of(T& report) {
 
 template <Is<RepairReport> T>
 auto fields_of(T& report) {
-  auto& [kept_valid, spared_cells, set_aside, clean, input, input_area, sew, holes, seal, thicken,
-         tree, predicates, epsilon, arrange, cells, facets, clip, cover, orient, links, inside,
+  auto& [kept_valid, spared_cells, clean, input, input_area, sew, holes, seal, thicken, tree,
+         predicates, epsilon, arrange, cells, facets, clip, cover, orient, links, inside,
          open_regions, parts, extract, thin_cells, precision, slits_area, fins_area, crumbs,
          simplify, certify, keep, triangles, same_triangles, explanation, output, output_volume,
          output_area, closing_area, stages] = report;
-  return std::tie(kept_valid, spared_cells, set_aside, clean, input, input_area, sew, holes, seal,
-                  thicken, tree, predicates, epsilon, arrange, cells, facets, clip, cover, orient,
-                  links, inside, open_regions, parts, extract, thin_cells, precision, slits_area,
+  return std::tie(kept_valid, spared_cells, clean, input, input_area, sew, holes, seal, thicken,
+                  tree, predicates, epsilon, arrange, cells, facets, clip, cover, orient, links,
+                  inside, open_regions, parts, extract, thin_cells, precision, slits_area,
                   fins_area, crumbs, simplify, certify, triangles, same_triangles, output,
                   output_volume, output_area, closing_area, stages);
 }

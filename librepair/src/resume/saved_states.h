@@ -18,7 +18,6 @@ namespace meshrepair::internal {
 // In the order in which they come; the last makes the others needless.
 inline constexpr const char* kPreparedState = "prepared";  // clean, closed and turned
 inline constexpr const char* kChambersState = "chambers";  // what came of that way, not finished
-inline constexpr const char* kTanglesState = "tangles";    // the same
 inline constexpr const char* kRepairedState = "repaired";
 
 // Those of other soups in the same store have other names. Without a store none is there, and none

@@ -29,9 +29,8 @@ bool widens_slits(const CoveredCells& covered, const RepairOptions& options) {
          !covered.complex.loose;
 }
 
-void fill_slits(const CoveredCells& covered, const RepairOptions& options,
-                std::span<const CellState> states, std::span<const char> stays,
-                std::vector<char>& solid, RepairReport& report) {
+void fill_slits(const CoveredCells& covered, const RepairOptions& options, std::vector<char>& solid,
+                RepairReport& report) {
   report.thin_cells = {};
   report.precision = options.certify.precision;
   report.slits_area = report.fins_area = 0;
@@ -39,8 +38,6 @@ void fill_slits(const CoveredCells& covered, const RepairOptions& options,
   const CleanSoup& soup = covered.complex.soup();
   ThinCellsOptions thin;
   thin.within = widest_slit(soup, options);
-  thin.states = states;
-  thin.stays = stays;
   const std::vector<char> open = triangles_of_open_parts(index_triangles(soup), soup.points.size());
   thin.open = open;
   thin.progress = options.progress;

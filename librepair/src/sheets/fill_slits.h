@@ -1,7 +1,6 @@
 // Slits and fins of a solid that are thinner than its numbers tell.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <repair/repair_options.h>
@@ -19,9 +18,8 @@ namespace meshrepair::internal {
 [[nodiscard]] bool widens_slits(const CoveredCells& covered, const RepairOptions& options);
 
 // Changes `solid`, of each cell, where sheets are nearer to each other than widest_slit(); says so
-// in the report. `states` and `stays` as ThinCellsOptions has them.
-void fill_slits(const CoveredCells& covered, const RepairOptions& options,
-                std::span<const CellState> states, std::span<const char> stays,
-                std::vector<char>& solid, RepairReport& report);
+// in the report.
+void fill_slits(const CoveredCells& covered, const RepairOptions& options, std::vector<char>& solid,
+                RepairReport& report);
 
 }  // namespace meshrepair::internal

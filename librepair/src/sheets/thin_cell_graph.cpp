@@ -40,16 +40,12 @@ ThinCellGraph::ThinCellGraph(const CellComplex& complex, const IdVector<FacetId,
   find_cut_triangles();
   find_thin_cells();
   if (nodes_.empty()) return;
-  find_what_stays();
   find_costs();
 }
 
 void ThinCellGraph::find_cut_triangles() {
   for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
-    if (!cover_[f].opaque() || is_boundary(f)) continue;
-    const Facet& facet = complex_.facets[f];
-    if (is_unknown(facet.above) || is_unknown(facet.below)) continue;
-    cut_[cover_[f].triangle.index()] = 1;
+    if (cover_[f].opaque() && !is_boundary(f)) cut_[cover_[f].triangle.index()] = 1;
   }
 }
 
@@ -59,7 +55,7 @@ void ThinCellGraph::find_thin_cells() {
   CellWidths widths(complex_, options_.within);
   const auto visit = [&](CellId cell) {
     cancel_.tick();
-    if (!cell.valid() || node_of_[cell.index()] != kUnseen || is_unknown(cell)) return;
+    if (!cell.valid() || node_of_[cell.index()] != kUnseen) return;
     const std::optional<CellWidth> width = widths.measure(cell);
     node_of_[cell.index()] = width ? static_cast<std::uint32_t>(nodes_.size()) : kWide;
     if (width) nodes_.push_back({cell, *width});
@@ -72,23 +68,6 @@ void ThinCellGraph::find_thin_cells() {
   for (std::size_t next = 0; next < nodes_.size(); ++next) {
     const CellId cell = nodes_[next].cell;
     complex_.for_each_facet(cell, [&](FacetId f) { visit(across(f, cell)); });
-  }
-}
-
-// Beside an edge of a triangle that stays, new boundary would divide the edge.
-void ThinCellGraph::find_what_stays() {
-  if (options_.stays.empty()) return;
-  std::vector<char> edge_stays(complex_.edges.size(), 0);
-  for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
-    if (!cover_[f].opaque() || options_.stays[cover_[f].triangle.index()] == 0) continue;
-    complex_.for_each_use(f, [&](UseId use) { edge_stays[complex_.uses[use].edge().index()] = 1; });
-  }
-  for (Node& node : nodes_) {
-    complex_.for_each_facet(node.cell, [&](FacetId f) {
-      complex_.for_each_use(f, [&](UseId use) {
-        if (edge_stays[complex_.uses[use].edge().index()] != 0) node.stays = true;
-      });
-    });
   }
 }
 
@@ -109,7 +88,7 @@ void ThinCellGraph::find_costs() {
       if (other < kWide) {
         if (other > n) between.push_back({n, other, area});
       } else {
-        (is_solid_beside(side.other, node.cell) ? beside[n].empty : beside[n].solid) += area;
+        (is_solid(side.other) ? beside[n].empty : beside[n].solid) += area;
       }
     }
     (is_solid(node.cell) ? beside[n].empty : beside[n].solid) += kCostOfChange * broad;

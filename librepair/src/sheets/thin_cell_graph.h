@@ -61,16 +61,9 @@ class ThinCellGraph {
   [[nodiscard]] bool is_solid(CellId cell) const {
     return cell.valid() && solid_[cell.index()] != 0;
   }
-  [[nodiscard]] CellState state_of(CellId cell) const {
-    return cell.valid() && !options_.states.empty() ? options_.states[cell.index()]
-                                                    : CellState::free;
-  }
-  [[nodiscard]] bool is_unknown(CellId cell) const { return state_of(cell) == CellState::unknown; }
-
   [[nodiscard]] bool is_boundary(FacetId f) const {
     const Facet& facet = complex_.facets[f];
-    return !is_unknown(facet.above) && !is_unknown(facet.below) &&
-           is_solid(facet.above) != is_solid(facet.below);
+    return is_solid(facet.above) != is_solid(facet.below);
   }
   [[nodiscard]] bool is_cut(FacetId f) const {
     return !cover_[f].opaque() || cut_[cover_[f].triangle.index()] != 0;
@@ -89,14 +82,9 @@ class ThinCellGraph {
 
   void find_cut_triangles();
   void find_thin_cells();
-  void find_what_stays();
   void find_costs();
   void scale_costs(const std::vector<Costs>& beside, const std::vector<Between>& between,
                    double scale);
-  // What is unknown is taken for the same as the cell beside it.
-  [[nodiscard]] bool is_solid_beside(CellId other, CellId cell) const {
-    return is_solid(is_unknown(other) ? cell : other);
-  }
 
   const CellComplex& complex_;
   const IdVector<FacetId, Cover>& cover_;

@@ -69,7 +69,7 @@ class ThinCells {
       change_reached();
       break;
     }
-    return emptied_volume_ <= kMostFins * known_volume() ? report_ : ThinCellsReport{};
+    return emptied_volume_ <= kMostFins * volume_at_first() ? report_ : ThinCellsReport{};
   }
 
  private:
@@ -152,9 +152,7 @@ class ThinCells {
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       const Change& change = changes_[n];
       if (!change.wanted) continue;
-      const bool is_fixed = graph_.state_of(nodes_[n].cell) != CellState::free;
-      if (change.moved < kFar && !is_fixed) continue;
-      report_.reaches_fixed = report_.reaches_fixed || (change.moved < kFar && is_fixed);
+      if (change.moved < kFar) continue;
       nodes_[n].stays = true;
       is_stable = false;
     }
@@ -228,14 +226,14 @@ class ThinCells {
   }
 
   // Of what was solid at first; looked at only where something became empty.
-  [[nodiscard]] double known_volume() const {
+  [[nodiscard]] double volume_at_first() const {
     double volume = emptied_volume_;
     if (emptied_volume_ == 0) return volume;
     std::vector<char> changed(solid_.size(), 0);
     for (const std::uint32_t n : reached_) changed[nodes_[n].cell.index()] = 1;
     for (CellId c(0u); c < complex_.cells.end_id(); ++c.value) {
       const bool was_solid = graph_.is_solid(c) && changed[c.index()] == 0;
-      if (was_solid && !graph_.is_unknown(c)) volume += cell_volume(complex_, c);
+      if (was_solid) volume += cell_volume(complex_, c);
     }
     return volume;
   }

@@ -73,12 +73,6 @@ class RepairAgain {
     return surface_by_chambers(clean_, orientation_, options_, none, report_, meter_);
   }
 
-  // With cells only where sheets cross.
-  std::optional<Surface> around_tangles() {
-    SavedStates none;
-    return surface_around_tangles(clean_, orientation_, options_, none, report_, meter_);
-  }
-
   // To be called last.
   Surface by_cells() {
     return surface_by_cells(std::move(clean_), orientation_, options_, report_, meter_);
@@ -96,7 +90,6 @@ class RepairAgain {
 Surface repair_again(const Surface& surface, const RepairOptions& options) {
   RepairAgain again(surface, options);
   if (auto mended = again.by_chambers()) return std::move(*mended);
-  if (auto mended = again.around_tangles()) return std::move(*mended);
   return again.by_cells();
 }
 

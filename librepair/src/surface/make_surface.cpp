@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <utility>
 
@@ -15,7 +14,6 @@
 #include "arrange/chamber_surface.h"
 #include "sheets/fill_slits.h"
 #include "solid/find_solid.h"
-#include "tangles/cut_tangles.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -55,7 +53,7 @@ constexpr std::array<Attempt, 5> kAttempts = {{
 Surface extract(const CoveredCells& covered, std::vector<char> solid, const RepairOptions& options,
                 RepairReport& report) {
   report.extract = {};
-  fill_slits(covered, options, {}, {}, solid, report);
+  fill_slits(covered, options, solid, report);
   if (std::count(solid.begin(), solid.end(), 1) == 0) {
     throw NoSolidError("the triangles enclose nothing: open sheets, as thick as their rounding");
   }
@@ -147,34 +145,6 @@ class SurfaceMaker {
   Surface surface_;             // the best so far
 };
 
-// A way to make the surface without all cells. It may give up soon, as others follow.
-struct Shortcut {
-  const char* state;  // of a run that can be resumed
-  bool gives_up;
-  std::function<std::optional<Surface>(RepairReport&)> make;
-};
-
-std::optional<Surface> by_shortcut(const Shortcut& way, const CleanSoup& soup,
-                                   const RepairOptions& options, SavedStates& states,
-                                   RepairReport& report, StageMeter& meter) {
-  RepairReport attempt = report;
-  std::optional<Surface> surface = made_once(states, way.state, attempt, report.stages, meter,
-                                             [&] { return way.make(attempt); });
-  if (!surface) return std::nullopt;
-  RepairOptions finishing = options;
-  finishing.examine = nullptr;
-  if (way.gives_up) {
-    finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kRoundsBeforeCells);
-    finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
-  }
-  surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
-  if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
-  attempt.stages = std::move(report.stages);
-  report = std::move(attempt);
-  if (options.examine) options.examine(report);
-  return surface;
-}
-
 }  // namespace
 
 Surface make_surface(CoveredCells covered, const std::vector<char>& solid,
@@ -197,21 +167,24 @@ Surface surface_by_cells(CleanSoup soup, const Orientation& orientation,
 std::optional<Surface> surface_by_chambers(const CleanSoup& soup, const Orientation& orientation,
                                            const RepairOptions& options, SavedStates& states,
                                            RepairReport& report, StageMeter& meter) {
-  const auto make = [&](RepairReport& attempt) {
-    return surface_of_chambers(soup, orientation, options, attempt, meter);
-  };
+  RepairReport attempt = report;
+  std::optional<Surface> surface =
+      made_once(states, kChambersState, attempt, report.stages, meter,
+                [&] { return surface_of_chambers(soup, orientation, options, attempt, meter); });
+  if (!surface) return std::nullopt;
+  RepairOptions finishing = options;
+  finishing.examine = nullptr;
   // In single precision cells fill slits.
-  const bool gives_up = options.certify.precision == Precision::float32;
-  return by_shortcut({kChambersState, gives_up, make}, soup, options, states, report, meter);
-}
-
-std::optional<Surface> surface_around_tangles(const CleanSoup& soup, const Orientation& orientation,
-                                              const RepairOptions& options, SavedStates& states,
-                                              RepairReport& report, StageMeter& meter) {
-  const auto make = [&](RepairReport& attempt) {
-    return cut_tangles(soup, orientation, options, attempt, meter);
-  };
-  return by_shortcut({kTanglesState, true, make}, soup, options, states, report, meter);
+  if (options.certify.precision == Precision::float32) {
+    finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kRoundsBeforeCells);
+    finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
+  }
+  surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
+  if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;
+  attempt.stages = std::move(report.stages);
+  report = std::move(attempt);
+  if (options.examine) options.examine(report);
+  return surface;
 }
 
 }  // namespace meshrepair::internal

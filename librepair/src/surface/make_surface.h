@@ -31,11 +31,6 @@ namespace meshrepair::internal {
                                                          SavedStates& states, RepairReport& report,
                                                          StageMeter& meter);
 
-// The same with cells only where triangles meet, where cut_tangles() can.
-[[nodiscard]] std::optional<Surface> surface_around_tangles(
-    const CleanSoup& soup, const Orientation& orientation, const RepairOptions& options,
-    SavedStates& states, RepairReport& report, StageMeter& meter);
-
 // The boundary between the cells that are solid and the others, simplified and certified as the
 // options say: the first attempt that passes, else the one with the fewest faults. `covered` is
 // destroyed as soon as it is not needed any more; its soup has to outlive the call.

@@ -61,6 +61,11 @@ void describe_mended(const CleanSoup& soup, const MendedSolid& solid, const Repa
   internal::describe_result(soup, solid.surface, report);
 }
 
+// Whether the rule may fill what is hollow.
+bool may_fill(const InsideOptions& options) {
+  return options.rule == InsideRule::solidity || options.cavities == Cavities::fill;
+}
+
 // Whether cleaning, closing holes and turning triangles has changed nothing.
 bool is_as_given(const RepairReport& report) {
   const CleanReport& clean = report.clean;
@@ -73,7 +78,7 @@ bool is_as_given(const RepairReport& report) {
 }  // namespace
 
 std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
-  if (internal::may_fill(options.inside)) return std::nullopt;
+  if (may_fill(options.inside)) return std::nullopt;
   CancelOnly quiet(options.progress);
   return valid_solid(soup, written_as(options), &quiet);
 }
@@ -82,10 +87,6 @@ namespace internal {
 
 bool may_spare_cells(const RepairOptions& options) {
   return !options.all_cells && options.predicates == Predicates::exact && !options.check_cells;
-}
-
-bool may_fill(const InsideOptions& options) {
-  return options.rule == InsideRule::solidity || options.cavities == Cavities::fill;
 }
 
 std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptions& options,

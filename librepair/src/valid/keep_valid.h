@@ -19,9 +19,6 @@ namespace meshrepair::internal {
 // Where they may, opacity tells nothing: what is solid is a matter of fact.
 [[nodiscard]] bool may_spare_cells(const RepairOptions& options);
 
-// Whether the rule may fill what is hollow.
-[[nodiscard]] bool may_fill(const InsideOptions& options);
-
 // The soup, if it is the boundary of a solid; else what `invalid` is set to was found, if it was
 // looked for.
 [[nodiscard]] std::optional<Surface> keep_as_given(const TriangleSoup& soup,

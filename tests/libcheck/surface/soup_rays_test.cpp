@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <check/soup_rays.h>
+#include <exact/double_predicates.h>
 
 #include "each_seed.h"
 #include "random_geometry.h"
 #include "shapes.h"
+#include "surface/column_ray.h"
 
 namespace meshrepair {
 namespace {
@@ -51,53 +53,63 @@ TEST(SoupRays, WindingsCountAsOftenAsTheySay) {
   EXPECT_EQ(rays.winding_at({4, 4, -9}), 0);
 }
 
-// Above a triangle that faces up lies what is in front of it, else what is behind.
-TEST(SoupRays, KnowsWhatIsAboveATriangle) {
-  TriangleSoup soup = sphere(500, 2);
-  append(soup, sphere(500, 1));
-  const std::vector<std::int32_t> winding = once(soup);
-  const SoupRays rays(soup, winding);
-  std::size_t asked = 0;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-    const auto above = rays.winding_above(t);
-    ASSERT_EQ(above.has_value(), rays.facing(t) != 0);
-    if (!above) continue;
-    ++asked;
-    const bool inner = soup.points[soup.triangles[t][0]].norm() < 1.5;
-    EXPECT_EQ(*above, (inner ? 1 : 0) + (rays.facing(t) > 0 ? 0 : 1));
-  }
-  EXPECT_GT(asked, soup.triangles.size() / 2);
+// 1 where the triangle faces up, -1 where it faces down, 0 where it is upright.
+int facing(const TriangleSoup& soup, std::uint32_t triangle) {
+  const auto& c = soup.triangles[triangle];
+  return orientation_along(2, soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
 }
 
-// Of the rays from the first corners of all triangles that are not upright.
-std::vector<CornerRay> rays_of_first_corners(const TriangleSoup& soup, const SoupRays& rays) {
+// From the first corners of all triangles that are not upright.
+std::vector<CornerRay> rays_of_first_corners(const TriangleSoup& soup) {
   std::vector<CornerRay> first;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-    if (rays.facing(t) != 0) first.push_back({t, 0});
+    if (facing(soup, t) != 0) first.push_back({t, 0});
   }
   return first;
 }
 
-void expect_above_tells_winding(const TriangleSoup& soup) {
-  const std::vector<std::int32_t> winding = once(soup);
-  const SoupRays rays(soup, winding);
-  const std::vector<CornerRay> asked = rays_of_first_corners(soup, rays);
+// One by one.
+std::vector<std::uint32_t> passed_by(const TriangleSoup& soup, const CornerRay& ray) {
+  const auto start = internal::RayStart::in(soup, soup.triangles[ray.triangle]);
+  std::vector<std::uint32_t> passed;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto& c = soup.triangles[t];
+    const int way =
+        internal::passed_upward(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]], start);
+    if (t != ray.triangle && way != 0) passed.push_back(t);
+  }
+  return passed;
+}
+
+TEST(TrianglesAbove, AreThoseThatTheRayPasses) {
+  for_each_seed(100, [&](std::uint64_t seed) {
+    const TriangleSoup soup = random_soup(10 + 3 * seed, seed % 2 == 0 ? 4 : 1 << 12, seed);
+    const std::vector<CornerRay> asked = rays_of_first_corners(soup);
+    const auto above = triangles_above(soup, asked);
+    ASSERT_EQ(above.size(), asked.size());
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      EXPECT_EQ(above[i], passed_by(soup, asked[i])) << "ray " << i;
+    }
+  });
+}
+
+// Above a triangle that faces up lies what is in front of it, else what is behind. By several
+// threads.
+TEST(TrianglesAbove, TellTheWinding) {
+  TriangleSoup soup = sphere(50'000, 2);
+  append(soup, sphere(500, 1));
+  const std::vector<CornerRay> asked = rays_of_first_corners(soup);
+  EXPECT_GT(asked.size(), soup.triangles.size() / 2);
   const auto above = triangles_above(soup, asked);
   ASSERT_EQ(above.size(), asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    std::int32_t sum = 0;
-    for (const std::uint32_t t : above[i]) sum += rays.facing(t);
-    EXPECT_EQ(sum, rays.winding_above(asked[i].triangle)) << "ray " << i;
+    const std::uint32_t own = asked[i].triangle;
+    const int in_front = soup.points[soup.triangles[own][0]].norm() < 1.5 ? 1 : 0;
+    int sum = 0;
+    for (const std::uint32_t t : above[i]) sum += facing(soup, t);
+    EXPECT_EQ(sum, in_front + (facing(soup, own) > 0 ? 0 : 1)) << "ray " << i;
     EXPECT_TRUE(std::is_sorted(above[i].begin(), above[i].end()));
-    EXPECT_EQ(std::count(above[i].begin(), above[i].end(), asked[i].triangle), 0);
   }
-}
-
-TEST(TrianglesAbove, AreThoseThatTellTheWinding) {
-  for_each_seed(100, [&](std::uint64_t seed) {
-    expect_above_tells_winding(random_soup(10 + 3 * seed, seed % 2 == 0 ? 4 : 1 << 12, seed));
-  });
-  expect_above_tells_winding(sphere(50'000, 2));  // by several threads
 }
 
 // Each corner has its own ray, beside the other ones of its triangle.
@@ -129,17 +141,6 @@ TEST(SoupRays, SeesOnlyWhatIsCertainlyFree) {
     EXPECT_FALSE(rays.sees(inside, outside));
     EXPECT_TRUE(rays.sees(outside, outside + Vec3d(random.real(-9, 9), random.real(-9, 9), 9)));
   }
-}
-
-TEST(SoupRays, MayLookThroughOneTriangle) {
-  const TriangleSoup soup = box({0, 0, 0}, {8, 8, 8});
-  const std::vector<std::int32_t> winding = once(soup);
-  const SoupRays rays(soup, winding);
-  std::size_t through = 0;
-  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-    through += rays.sees({4, 3, 4}, {4.1, 3.2, 40}, t) ? 1 : 0;
-  }
-  EXPECT_EQ(through, 1u);
 }
 
 }  // namespace

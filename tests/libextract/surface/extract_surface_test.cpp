@@ -95,29 +95,8 @@ TEST(ExtractSurface, EveryTriangleLiesInItsSource) {
   EXPECT_GT(with_source, 100u);
 }
 
-TEST(ExtractSurface, TellsAFacetOfEachTriangle) {
-  Cells cells = cells_of(random_cubes(4, 1));
-  const auto cover = cover_of(cells);
-  const std::vector<char> solid = enclosed_cells(cells.complex, cover);
-  ExtractOptions options;
-  options.tell_facets = true;
-  ExtractReport report;
-  const Surface surface = extract_surface(cells.complex, cover, solid, report, options);
-  ASSERT_EQ(report.facet_of.size(), surface.mesh.triangles.size());
-  for (std::size_t t = 0; t < report.facet_of.size(); ++t) {
-    const Facet& facet = cells.complex.facets[report.facet_of[t]];
-    EXPECT_NE(solid[facet.above.index()], solid[facet.below.index()]);
-    const Plane& plane = cells.complex.planes[facet.plane];
-    const auto& grid = cells.complex.soup().grid;
-    for (const std::uint32_t p : surface.mesh.triangles[t]) {
-      const Vec3d at = (surface.mesh.points[p] - grid.origin) / grid.unit;
-      EXPECT_NEAR(signed_distance({at.x(), at.y(), at.z()}, plane), 0, 1);
-    }
-  }
-}
-
-// Coplanar pieces that are cut are merged; with what is said to be whole nothing is.
-TEST(ExtractSurface, MergesNothingWithWhatIsWhole) {
+// Coplanar pieces that are cut are merged, unless each is to lie in its source.
+TEST(ExtractSurface, TrianglesAreMergedOnlyIfTheyMay) {
   TriangleSoup soup = box({0, 0, 0}, {4, 4, 4});
   append(soup, box({1, 1, 2}, {3, 3, 5}));
   Cells cells = cells_of(soup);
@@ -126,9 +105,8 @@ TEST(ExtractSurface, MergesNothingWithWhatIsWhole) {
   ExtractReport report;
   (void)extract_surface(cells.complex, cover, solid, report);
   const std::size_t merged = report.regions;
-  const std::vector<char> whole(cells.complex.soup().triangles.size(), 1);
   ExtractOptions options;
-  options.whole = whole;
+  options.merges_triangles = false;
   (void)extract_surface(cells.complex, cover, solid, report, options);
   EXPECT_GT(report.regions, merged);
 }

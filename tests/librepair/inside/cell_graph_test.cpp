@@ -108,35 +108,6 @@ TEST(CellGraph, ACubeHasOneBoundedCellBehindTwelveTriangles) {
   EXPECT_EQ(bounded, 1u);
 }
 
-// Also where several triangles lie on one facet.
-TEST(CellGraph, CellsThatAreLeftOutHaveNoLinks) {
-  const Graph g = graph_of(random_cubes(5, 1));
-  const CellComplex& complex = g.cells.complex;
-  std::vector<char> left_out(complex.cells.size(), 0);
-  for (std::size_t c = 0; c < left_out.size(); c += 3) left_out[c] = 1;
-  const CellGraph graph(complex, g.cover, nullptr, {}, left_out);
-  for (CellId c(0u); c.index() < graph.cells(); ++c.value) {
-    if (left_out[c.index()] != 0) {
-      EXPECT_TRUE(graph.links_of(c).empty());
-      continue;
-    }
-    std::size_t expected = 0;
-    for (const std::uint32_t l : g.graph.links_of(c)) {
-      expected += left_out[other_end(g.graph.links()[l], c).index()] == 0;
-    }
-    EXPECT_EQ(graph.links_of(c).size(), expected);
-  }
-}
-
-TEST(CellGraph, MayBeToldThatACellIsUnbounded) {
-  Graph g = graph_of(cube());
-  for (CellId c(0u); c.index() < g.graph.cells(); ++c.value) {
-    if (g.graph.unbounded(c)) continue;
-    g.graph.set_unbounded(c);
-    EXPECT_TRUE(g.graph.unbounded(c));
-  }
-}
-
 TEST(CellGraph, WindingsThatAreSetAreThoseOfTheCover) {
   TriangleSoup soup = random_grid_boxes(8, 4, 3);
   append(soup, cube());

@@ -8,7 +8,6 @@
 #include <check/mesh_distance.h>
 #include <repair/repair.h>
 
-#include "complexes.h"
 #include "each_seed.h"
 #include "shapes.h"
 #include "share_of_cases.h"
@@ -79,31 +78,6 @@ TEST(ThinCells, WhatIsNothingButThinStays) {
   EXPECT_EQ(result.report.thin_cells.emptied, 0u);
   EXPECT_EQ(result.report.fins_area, 0);
   EXPECT_NEAR(result.report.output_area, 4 * 4, 1e-4);
-}
-
-Cells cells_with_slit() {
-  const TriangleSoup post = box({0.7, 0.7, 0.2}, {0.9, 0.9, 1.8});
-  return cells_of(together(together(cube(), lid), post));
-}
-
-// Twice the width of that slit, in grid units.
-double bound_above_slit(const Cells& cells) { return 2 * kSlit / cells.complex.soup().grid.unit; }
-
-TEST(ThinCells, FixedCellsStay) {
-  Cells cells = cells_with_slit();
-  const auto cover = cover_of(cells);
-  ThinCellsOptions options;
-  options.within = bound_above_slit(cells);
-  std::vector<char> solid = enclosed_cells(cells.complex, cover);
-  const std::vector<char> before = solid;
-  const std::vector<CellState> fixed(solid.size(), CellState::fixed);
-  options.states = fixed;
-  const ThinCellsReport report = relabel_thin_cells(cells.complex, cover, options, solid);
-  EXPECT_EQ(report.filled, 0u);
-  EXPECT_TRUE(report.reaches_fixed);
-  EXPECT_EQ(solid, before);
-  options.states = {};
-  EXPECT_GT(relabel_thin_cells(cells.complex, cover, options, solid).filled, 0u);
 }
 
 TEST(ThinCells, TheVolumeChangesByAFewStepsOfTheNumbers) {
@@ -278,21 +252,6 @@ TEST(ThinCells, WhatNearlyCoincidesStaysAValidSolidOfItsVolume) {
     }
   }
   EXPECT_GT(changed, 0u);
-}
-
-TEST(ThinCells, TrianglesThatAreToStayStay) {
-  Cells cells = cells_with_slit();
-  const auto cover = cover_of(cells);
-  ThinCellsOptions options;
-  options.within = bound_above_slit(cells);
-  const std::vector<char> at_first = enclosed_cells(cells.complex, cover);
-  const std::vector<char> stays(cells.complex.soup().triangles.size(), 1);
-  std::vector<char> solid = at_first;
-  options.stays = stays;
-  const ThinCellsReport report = relabel_thin_cells(cells.complex, cover, options, solid);
-  EXPECT_EQ(report.filled + report.emptied, 0u);
-  EXPECT_FALSE(report.reaches_fixed);
-  EXPECT_EQ(solid, at_first);
 }
 
 }  // namespace

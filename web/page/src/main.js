@@ -6,7 +6,7 @@ import {PackageEngine} from './engine.js';
 const MESHES = /\.(stl|obj|off|ply|glb|gltf|3mf|om|xyz|pts|pwn|pcd)(\.(gz|zst|zip))?$/i;
 const STAGES = {
   read: 'Reading', valid: 'Looking', clean: 'Cleaning', sew: 'Sewing', holes: 'Closing holes', orient: 'Turning triangles',
-  arrange: 'Cutting triangles', tangles: 'Untangling', tree: 'Dividing space', cells: 'Making cells', cover: 'Covering cells',
+  arrange: 'Cutting triangles', tree: 'Dividing space', cells: 'Making cells', cover: 'Covering cells',
   inside: 'Finding what is solid', extract: 'Taking the surface', simplify: 'Simplifying', certify: 'Certifying', check: 'Checking',
   write: 'Writing', html: 'Drawing',
 };
