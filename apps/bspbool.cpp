@@ -87,7 +87,7 @@ Operand read_mesh_operand(const BoolOptions& options, const RepairOptions& repai
   const PictureRequest& picture = options.command.step.picture;
   ReadOptions reading = read_options(run);
   reading.may_be_empty = true;
-  reading.attributes = options.command.step.assets.attributes &&
+  reading.attributes = !options.command.step.assets.drops_all() &&
                        (options.carries_attributes || shows_operands(options));
   auto [soup, attributes, scene, report] = read_mesh_stage(reading, run, findings);
   intake.unit.apply(findings.unit, soup);
@@ -205,7 +205,7 @@ ExitCode combine_files(BoolOptions options, Run& run) {
     combining.repair = certified_for(*format.format, combining.repair);
   }
   options.carries_attributes =
-      options.command.step.assets.attributes && format.format && holds_attributes(*format.format);
+      !options.command.step.assets.drops_all() && format.format && holds_attributes(*format.format);
   options.output_has_unit = format.format && has_unit(*format.format);
   Json facts = Json::array();
   Operands operands;
@@ -239,7 +239,7 @@ ExitCode combine_files(BoolOptions options, Run& run) {
 // What is asked of a mesh to write says nothing about a tree.
 void refuse_mesh_options(const CommandLine& app) {
   for (const char* name :
-       {"--format", "--attributes", "--drop", "--precision", "--strict", "--picture", "--html"}) {
+       {"--format", "--drop", "--precision", "--strict", "--picture", "--html"}) {
     if (app.option(name).count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }

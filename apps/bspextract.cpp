@@ -32,7 +32,6 @@ int main(int argc, char** argv) {
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   add_predicates_options(app, options.repair);
-  add_check_cells_option(app, options.repair.check_cells);
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
   add_certify_options(app, options.repair.certify, options.strict);

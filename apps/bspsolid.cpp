@@ -31,6 +31,5 @@ int main(int argc, char** argv) {
   add_inside_options(app, options.repair.inside);
   add_holes_option(app, options.repair.holes);
   add_predicates_options(app, options.repair);
-  add_check_cells_option(app, options.repair.check_cells);
   return run_steps(program, argc, argv, options, label);
 }

@@ -18,7 +18,7 @@ namespace {
 void convert(const StepOptions& options, Run& run, Findings& findings) {
   WriteOptions format = mesh_format(options);
   ReadOptions reading = read_options(run);
-  reading.attributes = options.assets.attributes;
+  reading.attributes = !options.assets.drops_all();
   reading.by_mesh = options.assets.by_mesh;
   ReadResult input = read_mesh_stage(reading, run, findings);
   const TriangleSoup& soup = input.soup;
@@ -49,7 +49,7 @@ int run_program(int argc, char** argv) {
   StepOptions options;
   Program program("meshconvert", "Writes a mesh in another format, as it is: nothing is repaired.",
                   "  meshconvert part.obj part.glb\n"
-                  "  meshconvert --attributes drop part.obj plain.stl\n"
+                  "  meshconvert --drop all part.obj plain.stl\n"
                   "  meshconvert - part.off < part.stl\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", options.input,
@@ -61,7 +61,7 @@ int run_program(int argc, char** argv) {
       ->check(names_file(mesh_extensions()))
       ->required();
   add_format_option(app, options.format);
-  add_attributes_options(app, options.assets);
+  add_drop_option(app, options.assets);
   add_scene_option(app, options.assets, "Output");
   add_units_option(app, options.assets);
   add_picture_options(app, options.picture, "IN and OUT side by side");

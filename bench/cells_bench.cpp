@@ -1,10 +1,15 @@
-// How long does clipping all cells take, and how long finding what covers their facets?
+// cells_bench [MESH...]: how long does clipping all cells take, and how long finding what covers
+// their facets? cells_bench --check [MESH...]: proves the invariants of the cells after each cut,
+// with exact predicates and with floating ones.
+#include <cstdio>
+#include <exception>
 #include <memory>
 #include <string>
 
 #include <bsp/build_tree.h>
 #include <extract/build_cells.h>
 #include <extract/cover_facets.h>
+#include <extract/float_engine.h>
 #include <repair/orient_parts.h>
 
 #include "bench_cases.h"
@@ -31,9 +36,37 @@ Cells make_cells(const TriangleSoup& soup) {
   return cells;
 }
 
+// Throws InternalError where a cell is none.
+std::string check_cells(const Tree& tree, PredicateEngine* engine) {
+  BuildCellsOptions options;
+  options.engine = engine;
+  options.check_every_clip = true;
+  ClipReport report;
+  const CellComplex complex = build_cells(tree, options, report);
+  return std::to_string(complex.cells.size()) + " cells, " + std::to_string(report.fallbacks()) +
+         " fallbacks";
+}
+
+int check_all(int argc, char** argv) {
+  try {
+    for (const bench::Case& input : bench::cases_of(argc, argv)) {
+      const Cells cells = make_tree_only(input.soup);
+      FloatEngine floating(cells.tree->input, kDefaultEpsilon);
+      const std::string exact = check_cells(*cells.tree, nullptr);
+      std::printf("%s: exact: %s; floating: %s\n", input.name.c_str(), exact.c_str(),
+                  check_cells(*cells.tree, &floating).c_str());
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cells_bench: %s\n", error.what());
+    return 1;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "--check") return check_all(argc - 1, argv + 1);
   bench::run_cases<Cells>(argc, argv, "build_cells", make_tree_only, [](Cells& cells) {
     ClipReport report;
     const CellComplex complex = build_cells(*cells.tree, {}, report);

@@ -26,7 +26,6 @@ def arguments():
     parser.add_argument("folder", type=Path, help="with STL, OBJ, OFF and PLY files")
     parser.add_argument("--eps", help="of the floating predicates (default: the program's own)")
     parser.add_argument("--timeout", type=float, default=120, help="seconds for a run (default: %(default)s)")
-    parser.add_argument("--check-cells", action="store_true", help="prove the cells' invariants after each floating cut")
     parser.add_argument("--totals", action="store_true", help="print the totals alone")
     return parser.parse_args()
 
@@ -60,11 +59,10 @@ def error_of(exact, floating):
 
 class Row:
     def __init__(self, args, mesh):
-        floating = ["--predicates", "float"] + (["--eps", args.eps] if args.eps else [])
+        floating = ["--always", "--predicates", "float"] + (["--eps", args.eps] if args.eps else [])
         self.name = mesh.name
         self.exact_code, self.exact = run(args.program, mesh, ["--always"], args.timeout)
-        checked = ["--check-cells"] if args.check_cells else []
-        self.code, self.report = run(args.program, mesh, floating + checked, args.timeout)
+        self.code, self.report = run(args.program, mesh, floating, args.timeout)
         self.error = error_of(self.exact, self.report)
 
     def cells(self):

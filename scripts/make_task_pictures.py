@@ -45,7 +45,7 @@ def make_meshes(folder: pathlib.Path) -> None:
 
 def triangles_of(mesh: pathlib.Path, programs: pathlib.Path) -> list[Triangle]:
     """With z up."""
-    text = subprocess.run([programs / "meshconvert", "--quiet", "--attributes", "drop", "--format", "obj", mesh, "-"],
+    text = subprocess.run([programs / "meshconvert", "--quiet", "--drop", "all", "--format", "obj", mesh, "-"],
                           stdout=subprocess.PIPE, check=True).stdout.decode()
     points, triangles = [], []
     for line in text.splitlines():

@@ -31,7 +31,7 @@ CERTIFIED, WRITTEN, SANITIZER = 0, (0, 1), 99
 DOCUMENTED = (0, 1, 3, 4, 5, 6)
 OPTIONS = ([], [], [], ["--inside", "solidity"], ["--inside", "winding"], ["--inside", "parity"],
            ["--holes", "extend"], ["--holes", "none"], ["--touching", "join"], ["--cavities", "fill"],
-           ["--attributes", "drop"], ["--units", "mm"])
+           ["--drop", "all"], ["--units", "mm"])
 EACH_MESH = ["--scene", "each"]  # only where the output says what stands where
 # What a sanitizer ends with is to differ from all exit codes of ours.
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS=f"exitcode={SANITIZER}:detect_leaks=1",

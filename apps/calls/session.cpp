@@ -16,6 +16,7 @@
 #include "common/command_line.h"
 #include "common/logging.h"
 #include "common/memory_limit.h"
+#include "common/removed_options.h"
 
 namespace meshrepair {
 namespace {
@@ -78,6 +79,8 @@ void Session::parse(const Keywords& keywords, const std::vector<std::string_view
   for (const Keyword& keyword : keywords) {
     const std::string name = option_name(keyword.first);
     const CommandOption* const option = app_.find("--" + name);
+    const std::string why = why_removed(app_, "--" + name, Spelling::keywords);
+    if (!why.empty()) throw UsageError(keyword.first + ": " + why);
     if (option == nullptr || is_among(kOfPrograms, name)) {
       throw UsageError(keyword.first + ": there is no such option");
     }

@@ -14,8 +14,6 @@ namespace {
 
 using Kind = CornerAttribute::Kind;
 
-constexpr std::array<Choice<bool>, 2> kAttributes = {{{"keep", true}, {"drop", false}}};
-
 constexpr std::array<Choice<bool>, 2> kScenes = {{{"join", false}, {"each", true}}};
 
 constexpr std::array<Choice<LengthUnit>, 6> kUnits = {{{"um", LengthUnit::micron},
@@ -31,9 +29,11 @@ constexpr std::array<Choice<Kind>, 5> kCornerKinds = {{{"textures", Kind::textur
                                                        {"colours", Kind::colour},
                                                        {"others", Kind::other}}};
 
+constexpr const char* kAllKinds = "all";
+
 std::vector<std::string> kinds() {
-  std::vector<std::string> names;
-  names.reserve(kCornerKinds.size() + 2);
+  std::vector<std::string> names = {kAllKinds};
+  names.reserve(kCornerKinds.size() + 3);
   for (const auto& [name, kind] : kCornerKinds) names.emplace_back(name);
   names.insert(names.end(), {"materials", "groups"});
   return names;
@@ -61,17 +61,13 @@ void drop_chosen(const std::vector<std::string>& drops, bool keeps_scene, Attrib
 
 }  // namespace
 
-void add_attributes_options(CommandLine& app, AssetOptions& options) {
-  add_choice(
-      app, "--attributes", kAttributes, [&options](bool value) { options.attributes = value; },
-      "Texture coordinates, normals, colours, materials and groups:\n"
-      "  keep  bring them onto the result, where IN has them and OUT can hold them\n"
-      "  drop  do not even read them")
-      ->default_str("keep")
-      ->group("Output");
+bool AssetOptions::drops_all() const { return is_among(drops, kAllKinds); }
+
+void add_drop_option(CommandLine& app, AssetOptions& options) {
   app.add_option("--drop", options.drops,
-                 "Leave out some of them: textures, normals, tangents, colours, others,\n"
-                 "materials, groups; separated by commas")
+                 "Leave out of what IN has and OUT can hold: textures, normals, tangents,\n"
+                 "colours, others, materials, groups; separated by commas. all: all of them,\n"
+                 "which are not even read")
       ->delimiter(',')
       ->check(is_one_of(kinds()))
       ->type_name("KIND,...")
@@ -103,11 +99,11 @@ void add_root_option(CommandLine& app, AssetOptions& options) {
          "IN lies in this folder of meshes, and OUT at its place in a copy of it: names of\n"
          "files may lead anywhere in this folder, and names of pictures stay as they are")
       ->type_name("FOLDER")
-      ->group("Output");
+      ->group("");
 }
 
 ReadOptions reading_for(SoupFormat format, const AssetOptions& assets, ReadOptions options) {
-  options.attributes = assets.attributes && holds_attributes(format);
+  options.attributes = !assets.drops_all() && holds_attributes(format);
   options.within = assets.root;
   options.by_mesh = assets.by_mesh;
   return options;
@@ -115,6 +111,8 @@ ReadOptions reading_for(SoupFormat format, const AssetOptions& assets, ReadOptio
 
 Attributes chosen_for(std::optional<SoupFormat> format, const AssetOptions& options,
                       Attributes attributes) {
+  // Objects of a scene are its meshes; of a file nothing else was read.
+  if (options.drops_all() && !options.by_mesh) return {};
   if (format) attributes = held_by(*format, std::move(attributes));
   drop_chosen(options.drops, options.by_mesh, attributes);
   return attributes;

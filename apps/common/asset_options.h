@@ -15,21 +15,25 @@
 namespace meshrepair {
 
 struct AssetOptions {
-  bool attributes = true;          // texture coordinates, materials and the like, where formats can
-  std::vector<std::string> drops;  // kinds of them that do not come along
-  bool by_mesh = false;            // each mesh of a scene by itself
+  // Kinds of what triangles carry, texture coordinates, materials and the like, that do not come
+  // along where formats can hold them.
+  std::vector<std::string> drops;
+  bool by_mesh = false;             // each mesh of a scene by itself
   std::optional<LengthUnit> units;  // of numbers in files that do not say
   std::string root;                 // of a folder of meshes that has a copy; empty: there is none
+
+  // Then they are not even read.
+  [[nodiscard]] bool drops_all() const;
 };
 
-// --attributes and --drop.
-void add_attributes_options(CommandLine& app, AssetOptions& options);
+// --drop.
+void add_drop_option(CommandLine& app, AssetOptions& options);
 // --scene.
 void add_scene_option(CommandLine& app, AssetOptions& options, const std::string& group = "Repair");
 // --units.
 void add_units_option(CommandLine& app, AssetOptions& options);
 
-// --root.
+// --root, for scripts: not in the help.
 void add_root_option(CommandLine& app, AssetOptions& options);
 
 // What is to be read for a file of this format.

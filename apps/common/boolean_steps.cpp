@@ -27,9 +27,6 @@ std::array<Choice<SetOperation>, 4> named_operations() {
   return named;
 }
 
-constexpr std::array<Choice<RegionTest>, 2> kRegionTests = {
-    {{"cells", RegionTest::cells}, {"programs", RegionTest::linear_programs}}};
-
 void add_operation_options(CommandLine& app, BooleanCommand& command) {
   static const auto operations = named_operations();
   add_choice(
@@ -40,12 +37,6 @@ void add_operation_options(CommandLine& app, BooleanCommand& command) {
       "  difference    what is in the first and in no other\n"
       "  xor           what is in an odd number of solids")
       ->required();
-  add_choice(
-      app, "--regions", kRegionTests, [&command](RegionTest value) { command.test = value; },
-      "How to tell whether a plane cuts a region; the result is the same:\n"
-      "  cells     by carrying the cell of the region along\n"
-      "  programs  by linear programs\n")
-      ->default_str("cells");
   app.add_flag("--always", command.always,
                "Merge trees of all solids, also where cutting their triangles alone would do;\n"
                "the result is the same");
@@ -142,7 +133,7 @@ void add_boolean_command(CommandLine& app, BooleanCommand& command) {
   add_operation_options(app, command);
   add_predicates_options(app, repair);
   add_format_option(app, command.step.format);
-  add_attributes_options(app, command.step.assets);
+  add_drop_option(app, command.step.assets);
   add_units_option(app, command.step.assets);
   add_certify_options(app, repair.certify, command.step.strict);
 }
@@ -203,7 +194,6 @@ void Operands::join() {
 
 BooleanOptions boolean_options(const BooleanCommand& command, Run& run) {
   BooleanOptions options;
-  options.test = command.test;
   options.by_trees = command.always;
   options.repair = command.step.repair;
   options.repair.progress = &run.progress;

@@ -19,7 +19,6 @@ namespace meshrepair {
 struct BooleanCommand {
   std::vector<std::string> inputs;  // names of the operands, for people
   SetOperation operation = SetOperation::unite;
-  RegionTest test = RegionTest::cells;
   bool always = false;
   StepOptions step;
 };

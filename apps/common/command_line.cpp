@@ -14,6 +14,8 @@
 #include <base/decimal.h>
 #include <base/error.h>
 
+#include "common/removed_options.h"
+
 namespace meshrepair {
 namespace {
 
@@ -290,11 +292,22 @@ CommandLine::Parsed CommandLine::parsed(const Parse& parse) {
   }
 }
 
+// Before CLI11 says that it did not expect them.
+void CommandLine::refuse_removed(const std::vector<std::string>& words) const {
+  for (const std::string& word : words) {
+    if (word == "--") return;
+    const std::string name = word.substr(0, word.find('='));
+    const std::string why = why_removed(*this, name, Spelling::command_line);
+    if (!why.empty()) throw UsageError(std::string(name).append(": ").append(why));
+  }
+}
+
 CommandLine::Parsed CommandLine::parse(int argc, const char* const* argv) {
-  return parsed([&] { app_->parse(argc, argv); });
+  return parse(std::vector<std::string>(argv + std::min(argc, 1), argv + argc));
 }
 
 CommandLine::Parsed CommandLine::parse(const std::vector<std::string>& words) {
+  refuse_removed(words);
   // CLI11 takes them from the end.
   return parsed([&] { app_->parse(std::vector<std::string>(words.rbegin(), words.rend())); });
 }

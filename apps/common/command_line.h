@@ -124,6 +124,7 @@ class CommandLine {
   [[nodiscard]] CommandOption& option(const std::string& name) const;
 
  private:
+  void refuse_removed(const std::vector<std::string>& words) const;
   CommandOption* own(CLI::Option* option);
   template <class Parse>
   Parsed parsed(const Parse& parse);

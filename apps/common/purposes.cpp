@@ -12,24 +12,22 @@
 namespace meshrepair {
 namespace {
 
+// What differs from the defaults.
 struct Setting {
   std::string_view option;
   std::string_view value;
 };
 
 // Nothing that can be seen from outside needs to be hollow, and crumbs do not print.
-constexpr std::array kPrint = {Setting{"--sew", "auto"}, Setting{"--seal", "auto"},
-                               Setting{"--thicken", "auto"}, Setting{"--cavities", "fill"},
-                               Setting{"--min-part", "1e-6"}};
+constexpr std::array kPrint = {Setting{"--seal", "auto"}, Setting{"--thicken", "auto"},
+                               Setting{"--cavities", "fill"}, Setting{"--min-part", "1e-6"}};
 // A void is part of a body that bears a load; crumbs make elements that are far too small.
-constexpr std::array kSimulation = {Setting{"--sew", "auto"}, Setting{"--cavities", "keep"},
-                                    Setting{"--min-part", "1e-6"}};
+constexpr std::array kSimulation = {Setting{"--min-part", "1e-6"}};
 // What nobody sees goes, and what is seen stays where it is.
-constexpr std::array kRender = {Setting{"--sew", "auto"}, Setting{"--thicken", "auto"},
-                                Setting{"--only", "outer"}, Setting{"--simplify", "0"}};
+constexpr std::array kRender = {Setting{"--thicken", "auto"}, Setting{"--cavities", "fill"},
+                                Setting{"--simplify", "0"}};
 // An operand is to be what it was.
-constexpr std::array kBoolean = {Setting{"--sew", "auto"}, Setting{"--cavities", "keep"},
-                                 Setting{"--keep", "all"}, Setting{"--simplify", "0"}};
+constexpr std::array kBoolean = {Setting{"--simplify", "0"}};
 
 struct Bundle {
   std::string_view name;

@@ -67,17 +67,17 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   add_scene_option(app, options.assets);
-  app.add_flag("--always", command.always,
-               "Do the whole work, also for a mesh that is the boundary of a solid already,\n"
-               "or that needs only its holes closed and its triangles turned")
-      ->group("Repair");
-  add_predicates_options(app, options.repair);
-  add_check_cells_option(app, options.repair.check_cells);
+  const CommandOption* always =
+      app.add_flag("--always", command.always,
+                   "Do the whole work, also for a mesh that is the boundary of a solid already,\n"
+                   "or that needs only its holes closed and its triangles turned")
+          ->group("Repair");
+  add_predicates_options(app, options.repair, always);
   add_format_option(app, options.format);
   add_sources_option(app, options.sources);
   add_staging_option(app, options.staging);
   add_root_option(app, options.assets);
-  add_attributes_options(app, options.assets);
+  add_drop_option(app, options.assets);
   add_units_option(app, options.assets);
   add_certify_options(app, options.repair.certify, options.strict);
   add_explain_option(app, options.explained);
@@ -94,7 +94,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
   // Pictures and pages show also what the output cannot hold.
   const bool is_shown = options.picture.wanted() || options.html.wanted();
-  if (is_shown) reading.attributes = options.assets.attributes;
+  if (is_shown) reading.attributes = !options.assets.drops_all();
   AnySoup input = read_any_stage(command.points, reading, run, findings);
   check_picture(options.picture, input.attributes);
   const Attributes given = is_shown ? input.attributes : Attributes();

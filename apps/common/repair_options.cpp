@@ -147,7 +147,7 @@ void add_inside_options(CommandLine& app, InsideOptions& inside) {
       app, "--cavities", kCavities, [&inside](Cavities value) { inside.cavities = value; },
       "Voids that no way leads into from outside:\n"
       "  keep  as the rule of --inside says\n"
-      "  fill  solid, whatever the rule\n")
+      "  fill  solid, with all that is in them, whatever the rule\n")
       ->default_str("keep")
       ->group("Repair");
 }
@@ -270,14 +270,6 @@ void add_keep_options(CommandLine& app, KeepPartsOptions& keep) {
       ->type_name("SHARE")
       ->capture_default_str()
       ->group("Repair");
-  app.add_option_function(
-         "--only", [&keep](const std::string&) { keep.fill_voids = true; },
-         "What stays of each solid:\n"
-         "  outer  its outer surface: voids are filled, and what is in them goes")
-      ->check(is_one_of({"outer"}))
-      ->type_name("NAME")
-      ->default_str("all")
-      ->group("Repair");
 }
 
 void add_touching_option(CommandLine& app, Touching& touching) {
@@ -334,7 +326,7 @@ void add_staging_option(CommandLine& app, std::string& folder) {
          "Write OUT and the files beside it into this folder, from where they can be moved\n"
          "to their place: names of pictures are right there")
       ->type_name("FOLDER")
-      ->group("Output");
+      ->group("");
 }
 
 void add_certify_options(CommandLine& app, CertifyOptions& certify, bool& strict) {
@@ -348,15 +340,17 @@ void add_certify_options(CommandLine& app, CertifyOptions& certify, bool& strict
       ->group("Output");
 }
 
-void add_predicates_options(CommandLine& app, RepairOptions& repair) {
-  add_choice(
-      app, "--predicates", kPredicates, [&repair](Predicates value) { repair.predicates = value; },
-      "How to tell on which side of a plane a point lies, while cells are cut:\n"
-      "  exact  with integers that are long enough\n"
-      "  float  with rounded distances and a tolerance, for comparison; the result is\n"
-      "         certified, but not mended\n")
-      ->default_str(std::string(predicates_name(repair.predicates)))
-      ->group("Repair");
+void add_predicates_options(CommandLine& app, RepairOptions& repair, const CommandOption* always) {
+  const CommandOption* predicates =
+      add_choice(
+          app, "--predicates", kPredicates,
+          [&repair](Predicates value) { repair.predicates = value; },
+          "How to tell on which side of a plane a point lies, while cells are cut:\n"
+          "  exact  with integers that are long enough\n"
+          "  float  with rounded distances and a tolerance, for comparison; the result is\n"
+          "         certified, but not mended\n")
+          ->default_str(std::string(predicates_name(repair.predicates)))
+          ->group("Repair");
   const CommandOption* epsilon =
       app.add_option("--eps", repair.epsilon,
                      "With --predicates float: a point this near to a plane is on it, as a share\n"
@@ -365,7 +359,10 @@ void add_predicates_options(CommandLine& app, RepairOptions& repair) {
           ->type_name("SHARE")
           ->capture_default_str()
           ->group("Repair");
-  app.parse_complete_callback([&repair, epsilon] {
+  app.parse_complete_callback([&repair, predicates, epsilon, always] {
+    if (predicates->count() > 0 && always != nullptr && always->count() == 0) {
+      throw UsageError("--predicates: needs --always");
+    }
     if (epsilon->count() > 0 && repair.predicates == Predicates::exact) {
       throw UsageError("--eps: needs --predicates float");
     }
@@ -373,12 +370,6 @@ void add_predicates_options(CommandLine& app, RepairOptions& repair) {
       throw UsageError("--seal: needs --predicates exact");
     }
   });
-}
-
-void add_check_cells_option(CommandLine& app, bool& check_cells) {
-  app.add_flag("--check-cells", check_cells,
-               "For debugging: prove the invariants of the cells after each cut; slow")
-      ->group("Repair");
 }
 
 }  // namespace meshrepair

@@ -29,8 +29,9 @@ const CommandOption& add_max_hole_option(CommandLine& app, HoleOptions& holes);
 // --thicken and --thicken-side: open sheets become walls. With `max_hole`, the option, what it says
 // decides alone which holes are closed.
 void add_thicken_options(CommandLine& app, const CommandOption& max_hole, ThickenOptions& thicken);
-// --touching: what becomes of solids that touch along an edge.
+// --keep and --min-part: which solids of the result stay.
 void add_keep_options(CommandLine& app, KeepPartsOptions& keep);
+// --touching: what becomes of solids that touch along an edge.
 void add_touching_option(CommandLine& app, Touching& touching);
 
 // --simplify: how far the surface may move to have fewer triangles.
@@ -46,15 +47,15 @@ void add_format_option(CommandLine& app, std::optional<SoupFormat>& format);
 // --sources: write of each triangle which one of the input it lies in.
 void add_sources_option(CommandLine& app, bool& sources);
 
+// --staging: where files are until they are moved to their places; for scripts, not in the help.
 void add_staging_option(CommandLine& app, std::string& folder);
 
 // --precision and --strict: what is to be certified, and what happens when it cannot be.
 void add_certify_options(CommandLine& app, CertifyOptions& certify, bool& strict);
 
 // --predicates and --eps: who says on which side of a plane a point of the cells lies.
-void add_predicates_options(CommandLine& app, RepairOptions& repair);
-
-// --check-cells: the debugging aid RepairOptions::check_cells.
-void add_check_cells_option(CommandLine& app, bool& check_cells);
+// `always`: the option that they need; null: none.
+void add_predicates_options(CommandLine& app, RepairOptions& repair,
+                            const CommandOption* always = nullptr);
 
 }  // namespace meshrepair

@@ -31,8 +31,8 @@ constexpr const char* kGone = "the folder of this server is gone: start it anew"
 constexpr std::array<std::string_view, 6> kResults = {".stl", ".obj", ".off",
                                                       ".ply", ".glb", ".3mf"};
 constexpr std::array<std::string_view, 13> kOpenOptions = {
-    "for",      "inside",   "sew",      "seal",  "holes",      "max-hole", "thicken",
-    "min-part", "touching", "simplify", "units", "attributes", "keep"};
+    "for",      "inside",   "sew",      "seal",  "holes", "max-hole", "thicken",
+    "min-part", "touching", "simplify", "units", "drop",  "keep"};
 constexpr std::array<std::string_view, 2> kOpenFlags = {"always", "strict"};
 
 template <class List>

@@ -16,6 +16,9 @@
 // rules of inside/. In surface/ the boundary is extracted, simplified and certified: attempt by
 // attempt (make_surface.cpp), each with rounds of repairing it again on coarser grids
 // (certify_surface.cpp). Last of all, solids that are not wanted go.
+//
+// Voids are filled in two ways: where it is asked what is solid, they are; where it is not, they
+// are parts of the surface, whose walls go last of all, and what stays is as it was given.
 #include <array>
 #include <optional>
 #include <utility>
@@ -218,6 +221,18 @@ Surface repair_what_is_there(const TriangleSoup& soup, const RepairOptions& opti
                                   : repair_solids(soup, options, report);
 }
 
+// Solids that are not wanted, and voids that are to be filled.
+void keep_wanted_parts(const TriangleSoup& soup, const RepairOptions& options, Surface& surface,
+                       RepairReport& report) {
+  KeepPartsOptions keep = options.keep;
+  keep.fill_voids |= options.inside.cavities == Cavities::fill;
+  if (!keep.wanted()) return;
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("keep");
+  keep_parts(soup, surface, keep, report, options.progress);
+  if (keep.fill_voids) report.inside.filled_voids += report.keep.voids;
+}
+
 std::vector<char> solid_cells(const Tree& tree, const CellComplex& complex) {
   std::vector<char> solid;
   solid.reserve(complex.cells.size());
@@ -248,11 +263,7 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
                                    report);
   }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
-  if (options.keep.wanted()) {
-    StageMeter meter(report.stages, options.progress);
-    meter.begin("keep");
-    keep_parts(soup, surface, options.keep, report, options.progress);
-  }
+  keep_wanted_parts(soup, options, surface, report);
   internal::compare_with_input(soup, surface, report);
   return surface;
 }

@@ -42,7 +42,6 @@ class FolderRun:
         self.selector = selectors.DefaultSelector()
         self.catch_signals()
         self.command = self.worker_command(program)
-        self.knows_roots = program.knows_roots
         self.memory_allowed = options.max_memory
         if options.max_memory and program.limits_memory:
             self.memory_allowed = int(MEMORY_SLACK * options.max_memory)
@@ -202,9 +201,8 @@ class FolderRun:
         os.mkdir(folder)
         if not self.unpack(job, folder + b".in"):
             return None
-        command = [*self.command, *(["--root", job.root] if self.knows_roots else [])]
         try:
-            worker = Worker(job, command, folder, self.out.locks, self.options.html)
+            worker = Worker(job, [*self.command, "--root", job.root], folder, self.out.locks, self.options.html)
         except (OSError, subprocess.SubprocessError) as error:
             job.clear()
             row = job.row(INTERNAL, f"meshrepair cannot be started: {error}")

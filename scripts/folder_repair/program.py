@@ -28,7 +28,7 @@ class Program:
         if not re.fullmatch(r"meshrepair \S+", self.version):
             raise Stop(USAGE, f"{self.path} is not meshrepair")
         options = self.ask("--help")
-        self.limits_memory, self.knows_roots = "--max-memory" in options, "--root" in options
+        self.limits_memory = "--max-memory" in options
         self.makes_pages = "--html" in options and "--picture" in options
         with open(self.path, "rb") as file:
             self.digest = hashlib.file_digest(file, "sha256").hexdigest()[:16]

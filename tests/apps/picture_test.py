@@ -40,7 +40,7 @@ def main() -> int:
                     for program in ("meshrepair", "meshconvert") for mesh in ("crate.3mf", "globe.obj")]
         commands += [("bspbool", "globe.obj", "vase.ply", "--op", "union", "-o", "OUT.mesh", "--format", mesh_format)
                      for mesh_format in FORMATS]
-        commands += [("meshrepair", "crate.3mf", "OUT.obj", "--attributes", "drop")]
+        commands += [("meshrepair", "crate.3mf", "OUT.obj", "--drop", "all")]
         for command in commands:
             plain = files_of(programs, folder, *command)
             drawn = files_of(programs, folder, *command, "--picture", "OUT.png", "--picture-size", "40x30", "--report", "r.json")

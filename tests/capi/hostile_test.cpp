@@ -81,6 +81,10 @@ TEST(CHostile, OptionsThatAreNoneAreNamed) {
   EXPECT_EQ(error_with({{"always", "yes"}}), "always: is a flag, and takes no value");
   EXPECT_EQ(error_with({{"sew", nullptr}}), "sew: needs a value");
   EXPECT_EQ(error_with({{"sources", nullptr}}), "sources: is for files, and here are none");
+  EXPECT_EQ(error_with({{"attributes", "drop"}}),
+            "attributes: is gone: use drop=\"all\" for attributes=\"drop\"");
+  EXPECT_EQ(error_with({{"check_cells", nullptr}}),
+            "check_cells: is gone: leave it out, the result is the same");
   EXPECT_EQ(error_with({{"help", nullptr}}), "help: there is no such option");
   EXPECT_NE(error_with({{"inside", "magic"}}).find("--inside: magic not in"), std::string::npos);
   const Options options = options_of({});

@@ -31,7 +31,6 @@ std::string wishes_of(const RepairOptions& o) {
     line += " --thicken-side " + std::string(thicken_side_name(o.thicken.side));
   }
   if (o.keep.outer) line += " --keep outer";
-  if (o.keep.fill_voids) line += " --only outer";
   if (o.keep.smallest_share > 0) line += " --min-part " + std::to_string(o.keep.smallest_share);
   if (o.keep.most > 0) line += " --keep " + std::to_string(o.keep.most);
   line += " --simplify " + std::to_string(o.simplify);
@@ -43,7 +42,7 @@ void show(const RepairRequest& request) {
   const RepairOptions& o = request.options;
   std::string line = "--inside " + std::string(rule_name(o.inside.rule));
   line += " --holes " + std::string(hole_mode_name(o.holes.mode));
-  if (o.inside.cavities == Cavities::fill) line += " --cavities fill";
+  if (o.inside.cavities == Cavities::fill || o.keep.fill_voids) line += " --cavities fill";
   if (o.extract.touching == Touching::join) line += " --touching join";
   if (o.certify.precision == Precision::float32) line += " --precision float32";
   if (o.certify.welded) line += " --format stl-ascii";

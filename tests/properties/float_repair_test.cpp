@@ -70,6 +70,7 @@ TEST_P(EverySoupInFloatingPoint, BecomesAClosedManifoldByEveryRule) {
                      std::to_string(epsilon));
         RepairOptions options = in_floating_point(epsilon);
         options.inside.rule = rule;
+        options.check_cells = rule == InsideRule::automatic;  // they are the same by every rule
         options.extract.touching = seed % 2 == 0 ? Touching::separate : Touching::join;
         const auto result = repaired(GetParam().make(seed), options);
         if (!result) continue;

@@ -59,6 +59,7 @@ class Errors(unittest.TestCase):
     def test_options_are_those_of_the_program(self):
         self.assert_refused("^--inside: magic not in {auto,solidity,parity,winding}", CUBE, TRIANGLES, inside="magic")
         self.assert_refused("^no_such: there is no such option$", CUBE, TRIANGLES, no_such=1)
+        self.assert_refused('^only: is gone: use cavities="fill" for only="outer"$', CUBE, TRIANGLES, only="outer")
         self.assert_refused("^scene: is for files, and here are none$", CUBE, TRIANGLES, scene="each")
         self.assert_refused("^always: is a flag, and takes no value$", CUBE, TRIANGLES, always="yes")
         self.assert_refused("^sew: needs a value$", CUBE, TRIANGLES, sew=False)

@@ -117,7 +117,7 @@ def faces(chance):
     return array
 
 
-OPTION_NAMES = ("inside", "sew", "seal", "holes", "max_hole", "thicken", "keep", "min_part", "only", "touching", "simplify", "for_",
+OPTION_NAMES = ("inside", "sew", "seal", "holes", "max_hole", "thicken", "keep", "min_part", "cavities", "only", "touching", "simplify", "for_",
                 "always", "format", "precision", "strict", "threads", "time_limit", "max_memory", "max_triangles", "nan",
                 "attributes", "progress", "drop", "eps", "predicates", "bogus", "help", "report", "verbose", "points",
                 "", "-", "a b", "ä", "inside\0", "distance", "no_such", "scene", "units")

@@ -234,8 +234,8 @@ class CommandLine(FolderTest):
         self.run_script("--jobs", "1", "--timeout", "7", "--max-memory", "2G", "--", "--inside", "solidity")
         call = json.loads(self.log.read_text())
         cores = str(len(os.sched_getaffinity(0)))
-        self.assertEqual(call[:11], ["--quiet", "--threads", cores, "--time-limit", "7", "--inside", "solidity",
-                                     "--max-memory", "2048M", "--format", "stl"])
+        self.assertEqual(call[:13], ["--quiet", "--threads", cores, "--time-limit", "7", "--inside", "solidity",
+                                     "--max-memory", "2048M", "--root", str(self.source), "--format", "stl"])
 
     def test_wrong_usage_is_one_line(self):
         for options in (["--frobnicate"], ["--jobs", "0"], ["--jobs", "many"], ["--timeout", "-1"],

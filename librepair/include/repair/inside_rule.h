@@ -24,7 +24,7 @@ enum class InsideRule {
 // What becomes of a void, a hollow space that no way leads into from outside.
 enum class Cavities {
   keep,  // what the rule says
-  fill,  // solid
+  fill,  // solid, with all that is in it
 };
 
 struct InsideOptions {

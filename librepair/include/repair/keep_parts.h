@@ -14,8 +14,9 @@ struct RepairReport;
 // A solid is a shell, connected through points, with the walls of its voids. What lies in such a
 // void is another solid. The options are applied in this order.
 struct KeepPartsOptions {
-  bool outer = false;       // only solids that lie in no void of another one
-  bool fill_voids = false;  // the walls of all voids go, and what is in them
+  bool outer = false;  // only solids that lie in no void of another one
+  // The walls of all voids go, and what is in them; repair() asks for that with Cavities::fill.
+  bool fill_voids = false;
   // Only solids of at least this share of the volume of the largest one that is left.
   double smallest_share = 0;
   std::size_t most = 0;  // only so many, those of most volume; 0: all

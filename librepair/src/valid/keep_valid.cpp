@@ -1,9 +1,13 @@
 #include "keep_valid.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <mesh/weld_points.h>
 #include <repair/inside_rule.h>
 
 #include "report/describe_result.h"
@@ -75,6 +79,22 @@ bool is_as_given(const RepairReport& report) {
          report.holes.triangles == 0 && report.orient.turned_triangles == 0;
 }
 
+// Solidity fills also what winding numbers leave empty.
+bool may_be_kept(const RepairOptions& options) {
+  return internal::may_spare_cells(options) && options.inside.rule != InsideRule::solidity;
+}
+
+// Whether voids that are to be filled are parts, as keep_parts() takes them: where a surface
+// touches itself, the wall of a void may hang together with what is around it.
+bool tells_voids(const Surface& surface, const InsideOptions& options) {
+  if (options.cavities == Cavities::keep) return true;
+  const std::vector<std::uint32_t> first = first_in_place(surface.mesh.points);
+  for (std::size_t p = 0; p < first.size(); ++p) {
+    if (first[p] != p) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
@@ -92,7 +112,7 @@ bool may_spare_cells(const RepairOptions& options) {
 std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptions& options,
                                      RepairReport& report, StageMeter& meter,
                                      std::optional<Invalid>& invalid) {
-  if (!may_spare_cells(options) || may_fill(options.inside)) return std::nullopt;
+  if (!may_be_kept(options)) return std::nullopt;
   meter.begin("validate");
   CancelOnly quiet(options.progress);
   Invalid why{};
@@ -101,6 +121,7 @@ std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptio
     invalid = why;
     return std::nullopt;
   }
+  if (!tells_voids(*surface, options.inside)) return std::nullopt;
   meter.begin("check");
   describe_as_given(soup, *surface, options, report);
   if (options.examine) options.examine(report);
@@ -110,12 +131,12 @@ std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptio
 std::optional<Surface> keep_mended(const CleanSoup& soup, const Orientation& orientation,
                                    std::optional<Invalid> invalid, const RepairOptions& options,
                                    RepairReport& report, StageMeter& meter) {
-  if (!may_spare_cells(options) || may_fill(options.inside)) return std::nullopt;
+  if (!may_be_kept(options)) return std::nullopt;
   if (invalid == Invalid::meets_itself && is_as_given(report)) return std::nullopt;
   meter.begin("validate");
   CancelOnly quiet(options.progress);
   std::optional<MendedSolid> solid = mended_solid(soup, orientation, written_as(options), &quiet);
-  if (!solid) return std::nullopt;
+  if (!solid || !tells_voids(solid->surface, options.inside)) return std::nullopt;
   meter.begin("check");
   describe_mended(soup, *solid, options, report);
   if (options.examine) options.examine(report);

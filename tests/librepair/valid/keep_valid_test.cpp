@@ -178,11 +178,28 @@ TEST(KeepValid, GivesWayToWhatOnlyCellsTell) {
   options.opacity.assign(soup.triangles.size(), 0.5f);
   EXPECT_TRUE(spares_cells(soup, options));  // it tells nothing where winding numbers do
   options = {};
-  options.inside.cavities = Cavities::fill;
+  options.inside.rule = InsideRule::solidity;
   EXPECT_FALSE(spares_cells(soup, options));
   options = {};
   options.predicates = Predicates::floating;
   EXPECT_FALSE(spares_cells(soup, options));
+}
+
+// As the cells would, with the triangles that were given.
+TEST(KeepValid, FillsVoidsByLeavingTheirWallsOut) {
+  TriangleSoup soup = without_some(sphere(300), 0.05, 1);
+  append(soup, flipped(moved(box({0, 0, 0}, {0.2, 0.2, 0.2}), {-0.1, -0.1, -0.1})));
+  append(soup, box({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
+  RepairOptions options;
+  options.inside.cavities = Cavities::fill;
+  const RepairResult result = repair(soup, options);
+  EXPECT_TRUE(result.report.spared_cells);
+  EXPECT_EQ(result.report.output.parts, 1u);
+  EXPECT_EQ(result.report.inside.filled_voids, 1u);
+  options.all_cells = true;
+  const RepairResult by_cells = repair(soup, options);
+  EXPECT_EQ(by_cells.report.inside.filled_voids, 1u);
+  EXPECT_EQ(contents(result.surface), contents(by_cells.surface));
 }
 
 // A triangle and the two halves of it: closed by a third one that has hardly any area, and nothing

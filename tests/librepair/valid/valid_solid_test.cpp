@@ -1,3 +1,4 @@
+#include <array>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -212,14 +213,48 @@ TEST(ValidSolid, GivesWayToOptionsThatAskForMore) {
   append(hollow, flipped(box({1, 1, 1}, {8, 8, 8})));
   RepairOptions options = keeping_valid();
   EXPECT_EQ(repair(hollow, options).report.output.parts, 2u);
-  options.inside.cavities = Cavities::fill;
-  EXPECT_EQ(repair(hollow, options).report.output.parts, 1u);
-  options = keeping_valid();
   options.inside.rule = InsideRule::solidity;
   EXPECT_EQ(repair(hollow, options).report.output.parts, 1u);
   options = keeping_valid();
   options.check_cells = true;
   EXPECT_FALSE(repair(hollow, options).report.kept_valid);
+}
+
+TEST(ValidSolid, StaysBitForBitWhereItsVoidsAreFilled) {
+  TriangleSoup nested = box({0, 0, 0}, {9, 9, 9});
+  append(nested, flipped(box({1, 1, 1}, {8, 8, 8})));
+  append(nested, box({2, 2, 2}, {7, 7, 7}));
+  append(nested, box({20, 0, 0}, {21, 1, 1}));
+  TriangleSoup outer = box({0, 0, 0}, {9, 9, 9});
+  append(outer, box({20, 0, 0}, {21, 1, 1}));
+  RepairOptions options = keeping_valid();
+  options.inside.cavities = Cavities::fill;
+  const RepairResult result = repair(nested, options);
+  EXPECT_TRUE(result.report.spared_cells);
+  EXPECT_EQ(result.report.inside.filled_voids, 1u);
+  EXPECT_EQ(result.surface.mesh.points, outer.points);
+  EXPECT_EQ(result.surface.mesh.triangles, outer.triangles);
+  EXPECT_TRUE(repair(outer, options).report.kept_valid);
+}
+
+// A void whose wall hangs together with what is around it, as solids that touch along an edge are
+// separate, is no part of its own.
+TEST(ValidSolid, VoidsThatTouchTheOutsideAreFilledToo) {
+  TriangleSoup soup = box({0, 0, 0}, {4, 4, 4});
+  const Vec3d a(1, 2, 4), b(3, 2, 4), c(2, 1, 2), d(2, 3, 2);
+  for (const auto& [p, q, r] : {std::array{a, b, c}, {b, a, d}, {c, d, a}, {d, c, b}}) {
+    add_triangle(soup, p, q, r);
+  }
+  for (const Touching touching : {Touching::separate, Touching::join}) {
+    RepairOptions options = keeping_valid();
+    options.extract.touching = touching;
+    const RepairResult hollow = repair(soup, options);
+    EXPECT_LT(hollow.report.output_volume, 63);
+    EXPECT_TRUE(repair(hollow.surface.mesh, options).report.kept_valid);
+    options.inside.cavities = Cavities::fill;
+    EXPECT_NEAR(repair(hollow.surface.mesh, options).report.output_volume, 64, 1e-6);
+    EXPECT_NEAR(repair(soup, options).report.output_volume, 64, 1e-6);
+  }
 }
 
 // What a repair gives needs none, and comes out of a second one as it is.
