@@ -31,15 +31,13 @@ checks=-bugprone-suspicious-include
 if [ "$all" = yes ]; then
   folder=build/tidy
   checks=clang-analyzer-*,-clang-analyzer-optin.*
-  cmake --preset asan-ubsan -B "$folder" -DCMAKE_UNITY_BUILD=OFF -DMESHREPAIR_PRECOMPILE=OFF -DMESHREPAIR_CCACHE=OFF \
-    -DMESHREPAIR_BUILD_BENCH=ON -DMESHREPAIR_BUILD_SAMPLES=ON >/dev/null
+  cmake --preset asan-ubsan -B "$folder" -DCMAKE_UNITY_BUILD=OFF -DMESHREPAIR_BUILD_BENCH=ON \
+    -DMESHREPAIR_BUILD_SAMPLES=ON >/dev/null
 else
   folder=build/tidy-joined
   checks+=,-performance-unnecessary-value-param
   cmake --preset asan-ubsan -B "$folder" -DCMAKE_UNITY_BUILD_BATCH_SIZE=40 -DMESHREPAIR_BUILD_TESTS=OFF \
-    -DMESHREPAIR_CCACHE=OFF >/dev/null
-  # The headers that are compiled before all others have to be there.
-  cmake --build "$folder" --target meshrepair_precompiled_common meshrepair_precompiled_apps >/dev/null
+    >/dev/null
 fi
 
 # Looks at one source, unless all that it includes, the checks and the program are as they were when nothing was found.
