@@ -35,6 +35,7 @@ class CellGraph {
   struct Layer {
     std::uint32_t link;
     TriangleId triangle;
+    bool given;  // it is of the input
   };
   CellGraph(std::vector<Link> links, std::vector<Layer> layers, std::vector<double> volumes,
             std::vector<char> unbounded);
@@ -45,6 +46,11 @@ class CellGraph {
 
   // Sets the opacities of covered links, 1 until then, to those of triangles, of several the most.
   void set_opacities(const IdVector<TriangleId, float>& opacity);
+
+  // The same regions between some of the triangles alone, which have a flag; links keep their
+  // opacities.
+  [[nodiscard]] CellGraph of_triangles(const IdVector<TriangleId, char>& wanted,
+                                       const IdVector<TriangleId, std::int32_t>& winding) const;
 
   [[nodiscard]] std::size_t cells() const { return first_.size() - 1; }
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }

@@ -30,6 +30,7 @@ struct OrientedPart {
   // Of the area of its triangles that say something, how much is turned; 1 when none does.
   double turned_share = 1;
   bool believed = false;  // its triangles tell which way is out
+  bool closed = false;    // no edge of it is open
   bool shell = false;     // closed but for holes that are small beside it
   int outward = 0;        // of a shell: 1 when it faces outward, -1 inward, 0 when it is flat
 };

@@ -76,7 +76,8 @@ CellGraph graph_of_chambers(const Arrangement& arrangement, const CleanSoup& sou
       const ChamberWall& wall = walls[layer.wall];
       add(kind_of(wall), wall.triangle, wall.area);
     }
-    layers.push_back({link_of[layer.wall], TriangleId(layer.triangle)});
+    const TriangleId t(layer.triangle);
+    layers.push_back({link_of[layer.wall], t, soup.triangles[t].source != Triangle::kNoSource});
   }
   WallMerger others;
   for (std::size_t i = 0; i < walls.size(); ++i) {

@@ -56,7 +56,8 @@ class LinkMaker {
             while (layer != layers_.end() && layer->facet < f) ++layer;
             if (!is_link(complex_.facets[f])) continue;
             for (; layer != layers_.end() && layer->facet == f; ++layer) {
-              tasks_[task].layers.push_back({static_cast<std::uint32_t>(next), layer->triangle});
+              tasks_[task].layers.push_back(
+                  {static_cast<std::uint32_t>(next), layer->triangle, is_given(layer->triangle)});
             }
             const FacetMeasure measure = measure_facet(complex_, f);
             moments[next] = measure.moment;
@@ -99,12 +100,15 @@ class LinkMaker {
         [](const CoverLayer& layer, FacetId facet) { return layer.facet < facet; });
   }
 
+  [[nodiscard]] bool is_given(TriangleId t) const {
+    return complex_.soup().triangles[t].source != Triangle::kNoSource;
+  }
+
   [[nodiscard]] Link link_of(FacetId f, double area) const {
     const Facet& facet = complex_.facets[f];
     // Triangles that close holes come after those of the input.
     const TriangleId first = cover_[f].triangle;
-    const bool given =
-        first.valid() && complex_.soup().triangles[first].source != Triangle::kNoSource;
+    const bool given = first.valid() && is_given(first);
     return {facet.below,
             facet.above,
             static_cast<float>(std::max(area, kLeastArea)),
@@ -183,6 +187,32 @@ void CellGraph::set_opacities(const IdVector<TriangleId, float>& opacity) {
 void CellGraph::set_windings(const IdVector<TriangleId, std::int32_t>& winding) {
   for (Link& link : links_) link.winding = link.opaque() ? winding[link.triangle] : 0;
   for (const Layer& layer : layers_) links_[layer.link].winding += winding[layer.triangle];
+}
+
+CellGraph CellGraph::of_triangles(const IdVector<TriangleId, char>& wanted,
+                                  const IdVector<TriangleId, std::int32_t>& winding) const {
+  CellGraph some = *this;
+  for (Link& link : some.links_) {
+    if (!link.opaque() || wanted[link.triangle] != 0) continue;
+    link.triangle = TriangleId();
+    link.given = false;
+  }
+  some.layers_.clear();
+  for (const Layer& layer : layers_) {
+    if (wanted[layer.triangle] == 0) continue;
+    Link& link = some.links_[layer.link];
+    if (link.opaque()) {
+      some.layers_.push_back(layer);
+    } else {
+      link.triangle = layer.triangle;
+      link.given = layer.given;
+    }
+  }
+  for (Link& link : some.links_) {
+    if (!link.opaque()) link.opacity = 0;
+  }
+  some.set_windings(winding);
+  return some;
 }
 
 }  // namespace meshrepair

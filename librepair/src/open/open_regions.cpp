@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <base/disjoint_sets.h>
+#include <mesh/topology.h>
 #include <repair/orient_parts.h>
 
 #include "flat_sheets.h"
@@ -14,6 +15,9 @@ namespace {
 // Of the area of the triangles around a region, what may be uncovered: as of a hole in a plane.
 constexpr double kMostUncovered = 0.95;
 
+// Of the area of an open part, what has to bound something solid for that to be what was meant.
+constexpr double kLeastBounding = 0.1;
+
 using RegionTriangle = std::pair<std::uint32_t, std::uint32_t>;
 
 // Regions are connected through uncovered facets: what is walled in has nothing to do with what is
@@ -24,12 +28,13 @@ class OpenRegions {
       : complex_(covered.complex),
         cover_(covered.cover),
         solid_(solid),
-        open_(triangles_of_open_parts(index_triangles(complex_.soup()),
-                                      complex_.soup().points.size())),
+        topology_(examine_topology(index_triangles(complex_.soup()), complex_.soup().points.size(),
+                                   &places_)),
         regions_(solid.size()) {}
 
   std::size_t run() {
-    if (std::count(open_.begin(), open_.end(), 1) == 0) return 0;
+    if (places_.open_sides.empty()) return 0;
+    find_parts();
     find_regions();
     find_walls();
     std::vector<char> opens(solid_.size(), 0);
@@ -45,6 +50,26 @@ class OpenRegions {
   }
 
  private:
+  // The open ones, and of these the ones that hardly bound anything.
+  void find_parts() {
+    open_.assign(topology_.parts, 0);
+    for (const std::uint32_t side : places_.open_sides) open_[places_.parts[side / 3]] = 1;
+    std::vector<double> area(topology_.parts, 0), bounding(topology_.parts, 0);
+    for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
+      const Facet& facet = complex_.facets[f];
+      if (!cover_[f].opaque()) continue;
+      const std::uint32_t part = part_of(cover_[f].triangle);
+      const double size = facet_area(complex_, f);
+      area[part] += size;
+      if (is_solid(facet.above) != is_solid(facet.below)) bounding[part] += size;
+    }
+    for (std::size_t p = 0; p < area.size(); ++p) {
+      hardly_bounds_.push_back(bounding[p] < kLeastBounding * area[p] ? 1 : 0);
+    }
+  }
+
+  [[nodiscard]] std::uint32_t part_of(TriangleId t) const { return places_.parts[t.index()]; }
+
   [[nodiscard]] bool is_solid(CellId c) const { return c.valid() && solid_[c.index()] != 0; }
 
   void find_regions() {
@@ -80,9 +105,12 @@ class OpenRegions {
   [[nodiscard]] bool is_open(std::size_t begin, std::size_t end) {
     const auto first = walls_.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = walls_.begin() + static_cast<std::ptrdiff_t>(end);
-    if (!std::all_of(first, last, [&](const auto& w) { return open_[w.second] != 0; })) {
-      return false;
-    }
+    const auto all_are = [&](const std::vector<char>& parts) {
+      return std::all_of(first, last,
+                         [&](const auto& w) { return parts[part_of(TriangleId(w.second))] != 0; });
+    };
+    if (!all_are(open_)) return false;
+    if (all_are(hardly_bounds_)) return true;
     const std::uint32_t region = first->first;
     if (uncovered_area_[region] > kMostUncovered * covered_area_[region]) return true;
     const CleanSoup& soup = complex_.soup();
@@ -98,7 +126,9 @@ class OpenRegions {
   const CellComplex& complex_;
   const IdVector<FacetId, Cover>& cover_;
   std::vector<char>& solid_;
-  const std::vector<char> open_;
+  TopologyPlaces places_;
+  const Topology topology_;
+  std::vector<char> open_, hardly_bounds_;  // of each part
   const double rounding_ = rounding_of(complex_.soup());
   DisjointSets regions_;
   std::vector<RegionTriangle> walls_;

@@ -201,7 +201,8 @@ class PartOrienter {
     if (turn) sum = sum.turned_round();
     part.turned_share = turned_share(sum);
     part.believed = says_which_way(sum);
-    part.shell = part_open_[p] == 0 || sum.nearly_closed();
+    part.closed = part_open_[p] == 0;
+    part.shell = part.closed || sum.nearly_closed();
     if (part.shell) part.outward = sum.outward();
     if (!part.believed && part.outward < 0) {
       part.outward = 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <base/error.h>
@@ -11,6 +12,7 @@
 #include <repair/zip_edges.h>
 
 #include "open/open_sheets.h"
+#include "two_layers.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -66,13 +68,14 @@ void measure(const CleanSoup& clean, RepairReport& report) {
 CleanSoup close_clean(CleanSoup clean, const TriangleSoup& soup, const RepairOptions& options,
                       RepairReport& report, StageMeter& meter) {
   report.sew = {};
-  report.input = examine_topology(index_triangles(clean), clean.points.size());
+  join_cuts(clean, options.progress);
   if (report.input.open_edges > 0 && options.sew.mode != SewMode::none) {
     meter.begin("sew");
     SewOptions sewing = options.sew;
     sewing.progress = options.progress;
     if (const auto sewn = sew_soup(soup, sewing, report.sew)) {
       clean = clean_sewn(*sewn, options, report, meter);
+      join_cuts(clean, options.progress);
     }
   }
   measure(clean, report);
@@ -86,6 +89,7 @@ CleanSoup close_clean(CleanSoup clean, const TriangleSoup& soup, const RepairOpt
     patch_holes(clean, options.holes, report.holes, options.progress);
     report.holes.loops += slits;
     report.holes.slits += slits;
+    join_cuts(clean, options.progress);
   }
   return clean;
 }
@@ -96,13 +100,17 @@ CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, Rep
                      StageMeter& meter) {
   meter.begin("clean");
   CleanSoup clean = clean_soup(soup, report.clean, options.progress);
-  return close_clean(std::move(clean), soup, options, report, meter);
+  report.input = examine_topology(index_triangles(clean), clean.points.size());
+  const std::optional<TriangleSoup> layered = bring_layers_together(soup, clean, options.progress);
+  if (layered) clean = clean_soup(*layered, report.clean, options.progress);
+  return close_clean(std::move(clean), layered ? *layered : soup, options, report, meter);
 }
 
 CleanSoup close_surface(const TriangleSoup& mesh, const RepairOptions& options,
                         RepairReport& report, StageMeter& meter) {
   meter.begin("clean");
   CleanSoup clean = clean_surface(mesh, report.clean, options.progress);
+  report.input = examine_topology(index_triangles(clean), clean.points.size());
   if (!zip_edges(clean, options.progress)) {
     return close_clean(std::move(clean), mesh, options, report, meter);
   }

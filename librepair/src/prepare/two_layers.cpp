@@ -1,0 +1,324 @@
+#include "two_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <base/disjoint_sets.h>
+#include <base/hash_index.h>
+#include <base/ids.h>
+#include <bsp/common_grid.h>
+#include <mesh/edge_table.h>
+#include <mesh/triangle_measures.h>
+#include <repair/orient_parts.h>
+
+#include "open/flat_sheets.h"
+
+namespace meshrepair::internal {
+namespace {
+
+// Of the area of a face, at least, the length of its vector area: corners of a quad may lie off
+// its plane by a fifth of its width.
+constexpr double kNearlyFlat = 0.9;
+
+// Of the angle between two triangles: 45 degrees, as quads need not be flat.
+constexpr double kLyingOnEachOther = 0.7;
+
+// In grid steps: layers whose corners are farther apart are two surfaces. Of the input's own
+// rounding, so many are as near.
+constexpr double kNear = 64;
+constexpr double kRoundings = 8;
+
+// Edges between the same places as a triangle's corners, whatever its direction.
+using Outline = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+struct Face {
+  std::vector<std::uint32_t> triangles;
+  Outline outline;  // sorted
+  Vec3d vector_area = Vec3d::Zero();
+  double area = 0;
+};
+
+Vec3d vector_area_of(const CleanSoup& soup, TriangleId t) {
+  const auto& c = soup.triangles[t].corners;
+  const Vec3d a = as_vector(soup.grid_points[c[0]]);
+  return (as_vector(soup.grid_points[c[1]]) - a).cross(as_vector(soup.grid_points[c[2]]) - a);
+}
+
+// What may have copies that are cut otherwise.
+class FaceFinder {
+ public:
+  FaceFinder(const CleanSoup& soup, ProgressObserver* progress)
+      : soup_(soup),
+        check_(progress),
+        triangles_(index_triangles(soup)),
+        sets_(triangles_.size()) {}
+
+  std::vector<Face> run() {
+    const EdgeTable table(triangles_);
+    table.for_each_edge([&](std::span<const std::uint32_t> sides) {
+      if (go_on_across(sides)) sets_.join(sides[0] / 3, sides[1] / 3);
+    });
+    face_of_.assign(triangles_.size(), kNone);
+    table.for_each_edge([&](std::span<const std::uint32_t> sides) {
+      check_.tick();
+      if (sides.size() < 2 || go_on_across(sides)) return;
+      for (const std::uint32_t side : sides) add_edge(side);
+    });
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      const std::uint32_t f = face_of_[sets_.root(t)];
+      if (f == kNone) continue;
+      const Vec3d area = vector_area_of(soup_, TriangleId(t));
+      faces_[f].triangles.push_back(t);
+      faces_[f].vector_area += area;
+      faces_[f].area += area.norm();
+    }
+    std::erase_if(faces_, [](const Face& face) { return !may_have_copies(face); });
+    for (Face& face : faces_) std::sort(face.outline.begin(), face.outline.end());
+    std::stable_sort(faces_.begin(), faces_.end(),
+                     [](const Face& a, const Face& b) { return a.outline < b.outline; });
+    return std::move(faces_);
+  }
+
+ private:
+  // Whether the surface goes on across the edge. At an edge of three or more triangles there may be
+  // copies, and at one of two that lie on each other, as the rim of a sheet with two sides.
+  [[nodiscard]] bool go_on_across(std::span<const std::uint32_t> sides) const {
+    if (sides.size() != 2) return false;
+    const auto at = [&](std::uint32_t side) {
+      return as_vector(soup_.grid_points[PointId(side_start(triangles_, side))]);
+    };
+    const std::uint32_t a = sides[0], b = sides[1];
+    return fold_cosine(at(a), at(next_side(a)), at(next_side(next_side(a))),
+                       at(next_side(next_side(b)))) < kLyingOnEachOther;
+  }
+
+  void add_edge(std::uint32_t side) {
+    std::uint32_t& face = face_of_[sets_.root(side / 3)];
+    if (face == kNone) {
+      face = static_cast<std::uint32_t>(faces_.size());
+      faces_.emplace_back();
+    }
+    const std::uint32_t a = side_start(triangles_, side);
+    const std::uint32_t b = side_start(triangles_, next_side(side));
+    faces_[face].outline.emplace_back(std::min(a, b), std::max(a, b));
+  }
+
+  // A triangle has one cut only; with corners inside, or open edges, there are more triangles than
+  // the outline tells.
+  static bool may_have_copies(const Face& face) {
+    return face.triangles.size() > 1 && face.outline.size() == face.triangles.size() + 2 &&
+           face.vector_area.norm() >= kNearlyFlat * face.area;
+  }
+
+  const CleanSoup& soup_;
+  CancelCheck check_;
+  std::vector<IndexTriangle> triangles_;
+  DisjointSets sets_;
+  std::vector<std::uint32_t> face_of_;  // of each root
+  std::vector<Face> faces_;
+};
+
+// Points in cells that are much wider than points may be apart, so that most look into one.
+class NearPoints {
+ public:
+  explicit NearPoints(double distance) : distance_(distance) {}
+
+  // The first of the points before that is within the distance; else itself, which is added.
+  PointId first_near(PointId point, const GridPoint& at) {
+    const Cell low = cell_of(as_vector(at).array() - distance_);
+    const Cell high = cell_of(as_vector(at).array() + distance_);
+    PointId best;
+    for (std::int32_t x = low[0]; x <= high[0]; ++x) {
+      for (std::int32_t y = low[1]; y <= high[1]; ++y) {
+        for (std::int32_t z = low[2]; z <= high[2]; ++z) look_into({x, y, z}, at, best);
+      }
+    }
+    if (best.valid()) return best;
+    add(point, at);
+    return point;
+  }
+
+ private:
+  static constexpr double kWidth = 16;
+  using Cell = std::array<std::int32_t, 3>;
+  struct Entry {
+    GridPoint at;
+    PointId point;
+    std::uint32_t next;  // in the same cell
+  };
+
+  [[nodiscard]] Cell cell_of(const Vec3d& place) const {
+    const auto along = [&](double x) {
+      return static_cast<std::int32_t>(std::floor(x / (kWidth * distance_)));
+    };
+    return {along(place.x()), along(place.y()), along(place.z())};
+  }
+
+  static std::uint64_t hash_of(const Cell& cell) {
+    std::uint64_t h = 0;
+    for (const std::int32_t x : cell) h = hash_mix(h, static_cast<std::uint32_t>(x));
+    return h;
+  }
+
+  void look_into(const Cell& cell, const GridPoint& at, PointId& best) const {
+    const std::uint32_t c =
+        index_.find(hash_of(cell), [&](std::uint32_t k) { return cells_[k].first == cell; });
+    if (c == kNone) return;
+    for (std::uint32_t e = cells_[c].second; e != kNone; e = entries_[e].next) {
+      if ((as_vector(entries_[e].at) - as_vector(at)).norm() > distance_) continue;
+      if (!best.valid() || entries_[e].point < best) best = entries_[e].point;
+    }
+  }
+
+  void add(PointId point, const GridPoint& at) {
+    if (index_.full(cells_.size())) {
+      index_.grow(static_cast<std::uint32_t>(cells_.size()),
+                  [&](std::uint32_t k) { return hash_of(cells_[k].first); });
+    }
+    const Cell cell = cell_of(as_vector(at));
+    const auto fresh = static_cast<std::uint32_t>(cells_.size());
+    const std::uint32_t c = index_.find_or_insert(
+        hash_of(cell), fresh, [&](std::uint32_t k) { return cells_[k].first == cell; });
+    if (c == fresh) cells_.emplace_back(cell, kNone);
+    entries_.push_back({at, point, cells_[c].second});
+    cells_[c].second = static_cast<std::uint32_t>(entries_.size() - 1);
+  }
+
+  double distance_;
+  std::vector<Entry> entries_;
+  std::vector<std::pair<Cell, std::uint32_t>> cells_;  // with the last entry in each
+  HashIndex index_{1024};
+};
+
+// The points that become one with another, by the first of them.
+using Firsts = IdVector<PointId, PointId>;
+
+Firsts find_firsts(const CleanSoup& clean, CancelCheck& check) {
+  NearPoints near(std::max(kNear, kRoundings * rounding_of(clean)));
+  Firsts firsts;
+  firsts.reserve(clean.points.size());
+  for (PointId p(0u); p < clean.points.end_id(); ++p.value) {
+    check.tick();
+    firsts.push_back(near.first_near(p, clean.grid_points[p]));
+  }
+  return firsts;
+}
+
+bool any_joined(const Firsts& firsts) {
+  for (PointId p(0u); p < firsts.end_id(); ++p.value) {
+    if (firsts[p] != p) return true;
+  }
+  return false;
+}
+
+// Where the points of a soup are on its grid.
+class PointsOnGrid {
+ public:
+  explicit PointsOnGrid(const CleanSoup& clean) : clean_(clean), index_(clean.points.size()) {
+    for (std::uint32_t p = 0; p < clean.points.size(); ++p) {
+      (void)index_.find_or_insert(hash_of(at(p)), p, [](std::uint32_t) { return false; });
+    }
+  }
+
+  // Invalid where it is none of the clean soup's.
+  [[nodiscard]] PointId find(const Vec3d& place) const {
+    if (!place.allFinite()) return {};
+    const GridPoint there = clean_.grid.to_grid(place);
+    const std::uint32_t p =
+        index_.find(hash_of(there), [&](std::uint32_t k) { return at(k) == there; });
+    return p == kNone ? PointId() : PointId(p);
+  }
+
+ private:
+  [[nodiscard]] const GridPoint& at(std::uint32_t p) const {
+    return clean_.grid_points[PointId(p)];
+  }
+  static std::uint64_t hash_of(const GridPoint& p) {
+    const auto part = [](std::int32_t x) { return std::uint64_t{static_cast<std::uint32_t>(x)}; };
+    return hash_mix(hash_mix(0, part(p.x) << 32 | part(p.y)), part(p.z));
+  }
+
+  const CleanSoup& clean_;
+  HashIndex index_;
+};
+
+TriangleSoup moved_to_firsts(const TriangleSoup& soup, const CleanSoup& clean,
+                             const PointsOnGrid& on_grid, const Firsts& firsts) {
+  TriangleSoup moved = soup;
+  for (Vec3d& place : moved.points) {
+    const PointId p = on_grid.find(place);
+    if (p.valid() && firsts[p] != p) place = clean.points[firsts[p]];
+  }
+  return moved;
+}
+
+// Whether the triangle that came first of those in one place was there both ways round before.
+bool was_doubled(const CleanSoup& clean, std::uint32_t source) {
+  const auto found = std::lower_bound(
+      clean.triangles.begin(), clean.triangles.end(), source,
+      [](const Triangle& triangle, std::uint32_t s) { return triangle.source < s; });
+  return found != clean.triangles.end() && found->source == source && found->winding == 0;
+}
+
+}  // namespace
+
+bool join_cuts(CleanSoup& soup, ProgressObserver* progress) {
+  const std::vector<Face> faces = FaceFinder(soup, progress).run();
+  std::vector<char> dropped;
+  for (std::size_t first = 0, last = 0; first < faces.size(); first = last) {
+    const Face& face = faces[first];
+    for (last = first + 1; last < faces.size() && faces[last].outline == face.outline;) ++last;
+    if (last == first + 1) continue;
+    dropped.resize(soup.triangles.size(), 0);
+    bool any_opposite = false;
+    for (std::size_t f = first + 1; f < last; ++f) {
+      any_opposite |= faces[f].vector_area.dot(face.vector_area) < 0;
+      for (const std::uint32_t t : faces[f].triangles) dropped[t] = 1;
+    }
+    if (!any_opposite) continue;
+    for (const std::uint32_t t : face.triangles) soup.triangles[TriangleId(t)].winding = 0;
+  }
+  if (dropped.empty()) return false;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < dropped.size(); ++t) {
+    if (dropped[t] == 0) soup.triangles[TriangleId(kept++)] = soup.triangles[TriangleId(t)];
+  }
+  soup.triangles.resize(kept);
+  return true;
+}
+
+std::optional<TriangleSoup> bring_layers_together(const TriangleSoup& soup, const CleanSoup& clean,
+                                                  ProgressObserver* progress) {
+  CancelCheck check(progress);
+  Firsts firsts = find_firsts(clean, check);
+  if (!any_joined(firsts)) return std::nullopt;
+  const PointsOnGrid on_grid(clean);
+  TriangleSoup moved = moved_to_firsts(soup, clean, on_grid, firsts);
+  CleanReport report;
+  CleanSoup joined = clean_soup(moved, clean.grid, report, progress);
+  join_cuts(joined, progress);
+  // Only where that joins two layers.
+  std::vector<char> is_on_both(clean.points.size(), 0);
+  for (const Triangle& t : joined.triangles) {
+    if (t.winding != 0 || was_doubled(clean, t.source)) continue;
+    for (const PointId corner : t.corners) {
+      const PointId p = on_grid.find(joined.points[corner]);
+      if (p.valid()) is_on_both[p.index()] = 1;
+    }
+  }
+  bool any_left_out = false;
+  for (PointId p(0u); p < firsts.end_id(); ++p.value) {
+    if (firsts[p] == p || is_on_both[firsts[p].index()] != 0) continue;
+    firsts[p] = p;
+    any_left_out = true;
+  }
+  if (!any_joined(firsts)) return std::nullopt;
+  return any_left_out ? moved_to_firsts(soup, clean, on_grid, firsts) : std::move(moved);
+}
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,28 @@
+// Surfaces that are there twice, one layer on the other: game engines and their exporters give each
+// face a copy that faces the other way. Copies with the same corners clean_soup() joins; these are
+// those that it does not see.
+#pragma once
+
+#include <optional>
+
+#include <base/progress.h>
+#include <bsp/clean_soup.h>
+#include <mesh/soup.h>
+
+namespace meshrepair::internal {
+
+// Copies of a face that are cut into triangles along other diagonals become copies of the first:
+// their triangles go, and those of the first wind as all of them together. A face is the triangles
+// between edges at which the surface does not simply go on; it is nearly flat and has no corner
+// inside. Returns
+// whether there were any.
+bool join_cuts(CleanSoup& soup, ProgressObserver* progress);
+
+// The soup, with the corners of a second layer moved to those of the first where they are apart by
+// rounding alone and then make faces of one layer faces of the other, turned round. `clean` is the
+// soup on the grid. Nothing where there is no second layer.
+[[nodiscard]] std::optional<TriangleSoup> bring_layers_together(const TriangleSoup& soup,
+                                                                const CleanSoup& clean,
+                                                                ProgressObserver* progress);
+
+}  // namespace meshrepair::internal
