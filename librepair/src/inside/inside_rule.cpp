@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <repair/flood.h>
@@ -55,78 +54,11 @@ class InsideDecider {
       case InsideRule::solidity:
         return by_solidity(Cavities::fill);
       case InsideRule::winding:
-        return by_winding(internal::winding_field(graph_, options_.solve, report_));
+        return by_winding_as_given();
       case InsideRule::automatic:
         break;
     }
-    std::vector<double> w = internal::winding_field(graph_, options_.solve, report_);
-    if (!report_.exact) {
-      if (std::optional<CellLabels> labels = closed_and_open_parts()) return std::move(*labels);
-    }
-    return by_trust(std::move(w));
-  }
-
-  // The orientation of the parts that are closed, or of those that are not. Nothing is to be said
-  // of the others.
-  [[nodiscard]] Orientation parts_that_are(bool closed, IdVector<TriangleId, char>& chosen) const {
-    Orientation some = orientation_;
-    chosen.clear();
-    for (const std::uint32_t part : some.part_of) {
-      chosen.push_back(some.parts[part].closed == closed ? 1 : 0);
-    }
-    for (OrientedPart& part : some.parts) {
-      if (part.closed != closed) part = {};
-    }
-    return some;
-  }
-
-  // What is closed by itself is solid whatever open sheets there are, and these enclose what they
-  // do without it: what is between the two is neither's. Nothing where all are closed, or none is,
-  // or where a closed part faces inward: it may be the wall of a void in what has open edges.
-  std::optional<CellLabels> closed_and_open_parts() {
-    IdVector<TriangleId, char> closed, open;
-    const Orientation closed_parts = parts_that_are(true, closed);
-    const Orientation open_parts = parts_that_are(false, open);
-    const auto any = [](const auto& flags) {
-      return std::any_of(flags.begin(), flags.end(), [](char flag) { return flag != 0; });
-    };
-    if (!any(closed) || !any(open)) return std::nullopt;
-    const bool any_inward =
-        std::any_of(orientation_.parts.begin(), orientation_.parts.end(),
-                    [](const OrientedPart& p) { return p.closed && p.believed && p.outward < 0; });
-    if (any_inward) return std::nullopt;
-    const auto labels_of = [&](const IdVector<TriangleId, char>& wanted, const Orientation& parts,
-                               InsideReport& report) {
-      const CellGraph graph = graph_.of_triangles(wanted, orientation_.winding);
-      return InsideDecider(graph, parts, options_, report)
-          .by_trust(internal::winding_field(graph, options_.solve, report));
-    };
-    InsideReport of_open;
-    CellLabels labels = labels_of(closed, closed_parts, report_);
-    const CellLabels others = labels_of(open, open_parts, of_open);
-    for (std::size_t c = 0; c < labels.solid.size(); ++c) {
-      if (labels.solid[c] == 0 && others.solid[c] != 0) {
-        labels.solid[c] = 1;
-        labels.confidence[c] = others.confidence[c];
-      }
-    }
-    if (any(others.solid)) report_open_parts(of_open);
-    report_.exact = false;
-    return labels;
-  }
-
-  // What is solid because of these is what can be doubted.
-  void report_open_parts(const InsideReport& of_open) {
-    const InsideReport of_closed = std::exchange(report_, of_open);
-    report_.asked = of_closed.asked;
-    report_.contradictions += of_closed.contradictions;
-    report_.turned_parts += of_closed.turned_parts;
-    report_.doubtful_parts += of_closed.doubtful_parts;
-    report_.cavity_walls += of_closed.cavity_walls;
-    report_.poking_walls += of_closed.poking_walls;
-    report_.poking_share = std::max(report_.poking_share, of_closed.poking_share);
-    report_.left_out_folds += of_closed.left_out_folds;
-    if (report_.other == InsideRule::automatic) report_.other = of_closed.other;
+    return by_trust();
   }
 
   std::vector<double> solidity() {
@@ -174,7 +106,14 @@ class InsideDecider {
     return labels;
   }
 
-  CellLabels by_trust(std::vector<double> w) {
+  CellLabels by_winding_as_given() {
+    const std::vector<double> w = internal::winding_field(graph_, options_.solve, report_);
+    measure_trust(w);
+    return by_winding(w);
+  }
+
+  CellLabels by_trust() {
+    std::vector<double> w = internal::winding_field(graph_, options_.solve, report_);
     measure_trust(w);
     report_.reason = why_not_winding(w);
     if (!report_.reason.empty()) {
@@ -278,12 +217,16 @@ class InsideDecider {
       const double change = w[link.below.index()] - w[link.above.index()];
       if (std::abs(change - link.winding) <= 0.5) continue;
       // A loose sheet between two places alike says nothing of the orientation of the rest.
-      const bool shell = orientation_.parts[orientation_.part_of[link.triangle]].shell;
-      (!shell && std::abs(change) < 0.5 ? loose : wrong) += link.area;
+      (!is_of_shell(link.triangle) && std::abs(change) < 0.5 ? loose : wrong) += link.area;
     }
     report_.winding_distance = weight > 0 ? distance / weight : 0;
     report_.winding_contradiction = covered > loose ? wrong / (covered - loose) : 0;
     report_.loose_share = covered > 0 ? loose / covered : 0;
+  }
+
+  [[nodiscard]] bool is_of_shell(TriangleId triangle) const {
+    const auto& parts = orientation_.parts;
+    return !parts.empty() && parts[orientation_.part_of[triangle]].shell;
   }
 
   const CellGraph& graph_;

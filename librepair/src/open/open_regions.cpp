@@ -20,63 +20,45 @@ constexpr double kLeastBounding = 0.1;
 
 using RegionTriangle = std::pair<std::uint32_t, std::uint32_t>;
 
-// Regions are connected through uncovered facets: what is walled in has nothing to do with what is
+// Regions are connected through uncovered links: what is walled in has nothing to do with what is
 // solid beside it. The lowest of its cells stands for a region.
 class OpenRegions {
  public:
-  OpenRegions(const CoveredCells& covered, std::vector<char>& solid)
-      : complex_(covered.complex),
-        cover_(covered.cover),
+  OpenRegions(const CellGraph& graph, const CleanSoup& soup, std::vector<char>& solid)
+      : graph_(graph),
+        soup_(soup),
         solid_(solid),
-        topology_(examine_topology(index_triangles(complex_.soup()), complex_.soup().points.size(),
-                                   &places_)),
-        regions_(solid.size()) {}
+        topology_(examine_topology(index_triangles(soup), soup.points.size(), &places_)),
+        open_(topology_.parts, 0),
+        regions_(solid.size()) {
+    for (const std::uint32_t side : places_.open_sides) open_[places_.parts[side / 3]] = 1;
+  }
 
   std::size_t run() {
     if (places_.open_sides.empty()) return 0;
-    find_parts();
     find_regions();
     find_walls();
-    std::vector<char> opens(solid_.size(), 0);
-    for (std::size_t i = 0; i < walls_.size();) {
-      const std::size_t first = i;
-      while (i < walls_.size() && walls_[i].first == walls_[first].first) ++i;
-      opens[walls_[first].first] = is_open(first, i) ? 1 : 0;
-    }
-    for (std::uint32_t c = 0; c < solid_.size(); ++c) {
-      if (solid_[c] != 0 && opens[regions_.root(c)] != 0) solid_[c] = 0;
-    }
-    return static_cast<std::size_t>(std::count(opens.begin(), opens.end(), 1));
+    const std::size_t open =
+        empty([&](std::size_t first, std::size_t last) { return is_open(first, last); });
+    const std::vector<char> crumbles = parts_that_bound_little();
+    return open + empty([&](std::size_t first, std::size_t last) {
+             return all_are(crumbles, first, last);
+           });
   }
 
  private:
-  // The open ones, and of these the ones that hardly bound anything.
-  void find_parts() {
-    open_.assign(topology_.parts, 0);
-    for (const std::uint32_t side : places_.open_sides) open_[places_.parts[side / 3]] = 1;
-    std::vector<double> area(topology_.parts, 0), bounding(topology_.parts, 0);
-    for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
-      const Facet& facet = complex_.facets[f];
-      if (!cover_[f].opaque()) continue;
-      const std::uint32_t part = part_of(cover_[f].triangle);
-      const double size = facet_area(complex_, f);
-      area[part] += size;
-      if (is_solid(facet.above) != is_solid(facet.below)) bounding[part] += size;
-    }
-    for (std::size_t p = 0; p < area.size(); ++p) {
-      hardly_bounds_.push_back(bounding[p] < kLeastBounding * area[p] ? 1 : 0);
-    }
+  [[nodiscard]] bool is_solid(CellId c) const { return solid_[c.index()] != 0; }
+  [[nodiscard]] bool bounds(const Link& link) const {
+    return is_solid(link.below) != is_solid(link.above);
+  }
+  [[nodiscard]] std::uint32_t part_of(std::uint32_t triangle) const {
+    return places_.parts[triangle];
   }
 
-  [[nodiscard]] std::uint32_t part_of(TriangleId t) const { return places_.parts[t.index()]; }
-
-  [[nodiscard]] bool is_solid(CellId c) const { return c.valid() && solid_[c.index()] != 0; }
-
   void find_regions() {
-    for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
-      const Facet& facet = complex_.facets[f];
-      if (!cover_[f].opaque() && is_solid(facet.above) && is_solid(facet.below)) {
-        regions_.join(facet.above.value, facet.below.value);
+    for (const Link& link : graph_.links()) {
+      if (!link.opaque() && is_solid(link.below) && is_solid(link.above)) {
+        regions_.join(link.above.value, link.below.value);
       }
     }
   }
@@ -85,51 +67,82 @@ class OpenRegions {
   void find_walls() {
     covered_area_.resize(solid_.size());
     uncovered_area_.resize(solid_.size());
-    for (FacetId f(0u); f < complex_.facets.end_id(); ++f.value) {
-      const Facet& facet = complex_.facets[f];
-      const bool is_covered = cover_[f].opaque();
-      if (!is_covered && is_solid(facet.above) == is_solid(facet.below)) continue;
-      const double area = facet_area(complex_, f);
-      for (const CellId cell : {facet.above, facet.below}) {
+    for (const Link& link : graph_.links()) {
+      if (!link.opaque() && !bounds(link)) continue;
+      for (const CellId cell : {link.above, link.below}) {
         if (!is_solid(cell)) continue;
         const std::uint32_t region = regions_.root(cell.value);
-        (is_covered ? covered_area_ : uncovered_area_)[region] += area;
-        if (is_covered) walls_.emplace_back(region, cover_[f].triangle.value);
+        (link.opaque() ? covered_area_ : uncovered_area_)[region] += link.area;
+        if (link.opaque()) walls_.emplace_back(region, link.triangle.value);
       }
     }
     std::sort(walls_.begin(), walls_.end());
     walls_.erase(std::unique(walls_.begin(), walls_.end()), walls_.end());
   }
 
-  // Of a range of walls, those of one region.
-  [[nodiscard]] bool is_open(std::size_t begin, std::size_t end) {
-    const auto first = walls_.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last = walls_.begin() + static_cast<std::ptrdiff_t>(end);
-    const auto all_are = [&](const std::vector<char>& parts) {
-      return std::all_of(first, last,
-                         [&](const auto& w) { return parts[part_of(TriangleId(w.second))] != 0; });
-    };
-    if (!all_are(open_)) return false;
-    if (all_are(hardly_bounds_)) return true;
-    const std::uint32_t region = first->first;
+  // The regions whose walls, a range of them, are so; says how many.
+  std::size_t empty(auto are_so) {
+    std::vector<char> chosen(solid_.size(), 0);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < walls_.size();) {
+      const std::size_t first = i;
+      const std::uint32_t region = walls_[first].first;
+      while (i < walls_.size() && walls_[i].first == region) ++i;
+      if (solid_[region] == 0 || !are_so(first, i)) continue;
+      chosen[region] = 1;
+      ++count;
+    }
+    for (std::uint32_t c = 0; c < solid_.size(); ++c) {
+      if (solid_[c] != 0 && chosen[regions_.root(c)] != 0) solid_[c] = 0;
+    }
+    return count;
+  }
+
+  // The open parts of which hardly anything bounds what is solid.
+  [[nodiscard]] std::vector<char> parts_that_bound_little() const {
+    std::vector<double> area(topology_.parts, 0), bounding(topology_.parts, 0);
+    for (const Link& link : graph_.links()) {
+      if (!link.opaque()) continue;
+      const std::uint32_t part = part_of(link.triangle.value);
+      area[part] += link.area;
+      if (bounds(link)) bounding[part] += link.area;
+    }
+    std::vector<char> little;
+    for (std::size_t p = 0; p < area.size(); ++p) {
+      little.push_back(open_[p] != 0 && bounding[p] < kLeastBounding * area[p] ? 1 : 0);
+    }
+    return little;
+  }
+
+  // Whether all walls of a range are of such parts.
+  [[nodiscard]] bool all_are(const std::vector<char>& parts, std::size_t first,
+                             std::size_t last) const {
+    for (std::size_t i = first; i < last; ++i) {
+      if (parts[part_of(walls_[i].second)] == 0) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_open(std::size_t first, std::size_t last) {
+    if (!all_are(open_, first, last)) return false;
+    const std::uint32_t region = walls_[first].first;
     if (uncovered_area_[region] > kMostUncovered * covered_area_[region]) return true;
-    const CleanSoup& soup = complex_.soup();
     corners_.clear();
-    for (auto wall = first; wall != last; ++wall) {
-      for (const PointId p : soup.triangles[TriangleId(wall->second)].corners) {
-        corners_.push_back(original_place(soup, p));
+    for (std::size_t i = first; i < last; ++i) {
+      for (const PointId p : soup_.triangles[TriangleId(walls_[i].second)].corners) {
+        corners_.push_back(original_place(soup_, p));
       }
     }
     return is_flat(corners_, rounding_);
   }
 
-  const CellComplex& complex_;
-  const IdVector<FacetId, Cover>& cover_;
+  const CellGraph& graph_;
+  const CleanSoup& soup_;
   std::vector<char>& solid_;
   TopologyPlaces places_;
   const Topology topology_;
-  std::vector<char> open_, hardly_bounds_;  // of each part
-  const double rounding_ = rounding_of(complex_.soup());
+  std::vector<char> open_;  // of each part
+  const double rounding_ = rounding_of(soup_);
   DisjointSets regions_;
   std::vector<RegionTriangle> walls_;
   std::vector<double> covered_area_, uncovered_area_;
@@ -138,8 +151,9 @@ class OpenRegions {
 
 }  // namespace
 
-std::size_t empty_open_regions(const CoveredCells& covered, std::vector<char>& solid) {
-  return OpenRegions(covered, solid).run();
+std::size_t empty_open_regions(const CellGraph& graph, const CleanSoup& soup,
+                               std::vector<char>& solid) {
+  return OpenRegions(graph, soup, solid).run();
 }
 
 }  // namespace meshrepair::internal

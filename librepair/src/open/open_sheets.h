@@ -5,8 +5,7 @@
 #include <vector>
 
 #include <bsp/clean_soup.h>
-
-#include "cells/covered_cells.h"
+#include <repair/cell_graph.h>
 
 namespace meshrepair::internal {
 
@@ -20,8 +19,11 @@ namespace meshrepair::internal {
 
 // Makes empty what only open parts surround, if all of their triangles around it lie in one plane
 // but for the rounding of their coordinates, or if what no triangle covers is about as large as
-// they are: under a sheet that is hardly bent, or a bump of one. `solid` has an entry for each
-// cell. Returns how many regions became empty; they are connected through what no triangle covers.
-std::size_t empty_open_regions(const CoveredCells& covered, std::vector<char>& solid);
+// they are: under a sheet that is hardly bent, or a bump of one; then, if less than a tenth of each
+// of these parts bounds something solid: crumbs of a sheet. The graph may be that of some of the
+// soup's triangles; `solid` has an entry for each of its cells. Returns how many regions became
+// empty; they are connected through what no triangle covers.
+std::size_t empty_open_regions(const CellGraph& graph, const CleanSoup& soup,
+                               std::vector<char>& solid);
 
 }  // namespace meshrepair::internal

@@ -7,7 +7,9 @@
 #include <base/error.h>
 #include <repair/cell_graph.h>
 #include <repair/flood.h>
+#include <repair/inside_rule.h>
 
+#include "closed_and_open.h"
 #include "open/open_sheets.h"
 
 namespace meshrepair::internal {
@@ -51,6 +53,67 @@ IdVector<TriangleId, float> opacities_of(const CleanSoup& soup,
   return opacity;
 }
 
+class SolidFinder {
+ public:
+  SolidFinder(const CleanSoup& soup, const RepairOptions& options, RepairReport& report)
+      : soup_(soup), options_(options), inside_(options.inside), report_(report) {
+    inside_.solve.progress = options.progress;
+  }
+
+  CellLabels run(const CellGraph& graph, const Orientation& orientation) {
+    const auto apart = inside_.rule == InsideRule::automatic
+                           ? closed_and_open_parts(graph, orientation, options_.progress)
+                           : std::nullopt;
+    if (!apart) return labels_of(graph, orientation, report_.inside);
+    CellLabels labels = labels_of(apart->closed.graph, apart->closed.orientation, report_.inside);
+    InsideReport of_open;
+    add(labels_of(apart->open.graph, apart->open.orientation, of_open), of_open, labels);
+    report_.inside.exact = false;
+    return labels;
+  }
+
+ private:
+  CellLabels labels_of(const CellGraph& graph, const Orientation& orientation,
+                       InsideReport& report) {
+    CellLabels labels = label_cells(graph, orientation, inside_, report);
+    if (leaves_sheets_open(options_)) drop_unsealed(graph, options_.progress, labels);
+    report_.open_regions += empty_open_regions(graph, soup_, labels.solid);
+    return labels;
+  }
+
+  // What is solid because of open parts is what can be doubted.
+  void add(const CellLabels& open, const InsideReport& of_open, CellLabels& labels) {
+    bool any = false;
+    for (std::size_t c = 0; c < labels.solid.size(); ++c) {
+      if (open.solid[c] == 0) continue;
+      any = true;
+      if (labels.solid[c] == 0) labels.confidence[c] = open.confidence[c];
+      labels.solid[c] = 1;
+    }
+    InsideReport& inside = report_.inside;
+    inside.contradictions += of_open.contradictions;
+    if (!any) return;
+    inside.used = of_open.used;
+    inside.reason = of_open.reason;
+    inside.other = of_open.other;
+    inside.solve = of_open.solve;
+    inside.winding_distance = of_open.winding_distance;
+    inside.winding_contradiction = of_open.winding_contradiction;
+    inside.loose_share = of_open.loose_share;
+    inside.turned_parts += of_open.turned_parts;
+    inside.doubtful_parts += of_open.doubtful_parts;
+    inside.cavity_walls += of_open.cavity_walls;
+    inside.poking_walls += of_open.poking_walls;
+    inside.poking_share = std::max(inside.poking_share, of_open.poking_share);
+    inside.left_out_folds += of_open.left_out_folds;
+  }
+
+  const CleanSoup& soup_;
+  const RepairOptions& options_;
+  InsideOptions inside_;
+  RepairReport& report_;
+};
+
 }  // namespace
 
 CellLabels find_solid(const CoveredCells& covered, const Orientation& orientation,
@@ -62,13 +125,8 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   }
   report.links = graph.links().size();
   meter.begin("inside");
-  InsideOptions inside_options = options.inside;
-  inside_options.solve.progress = options.progress;
-  CellLabels labels = label_cells(graph, orientation, inside_options, report.inside);
-  if (leaves_sheets_open(options)) {
-    drop_unsealed(graph, options.progress, labels);
-  }
-  report.open_regions = empty_open_regions(covered, labels.solid);
+  report.open_regions = 0;
+  CellLabels labels = SolidFinder(covered.complex.soup(), options, report).run(graph, orientation);
   report.inside.solid_cells =
       static_cast<std::size_t>(std::count(labels.solid.begin(), labels.solid.end(), 1));
   if (report.inside.solid_cells == 0) {
