@@ -54,7 +54,7 @@ class InsideDecider {
       case InsideRule::solidity:
         return by_solidity(Cavities::fill);
       case InsideRule::winding:
-        return by_winding(internal::winding_field(graph_, options_.solve, report_));
+        return by_winding_as_given();
       case InsideRule::automatic:
         break;
     }
@@ -104,6 +104,12 @@ class InsideDecider {
       labels.confidence.push_back(static_cast<float>(std::min(1.0, 2 * std::abs(x - 0.5))));
     }
     return labels;
+  }
+
+  CellLabels by_winding_as_given() {
+    const std::vector<double> w = internal::winding_field(graph_, options_.solve, report_);
+    measure_trust(w);
+    return by_winding(w);
   }
 
   CellLabels by_trust() {
@@ -211,12 +217,16 @@ class InsideDecider {
       const double change = w[link.below.index()] - w[link.above.index()];
       if (std::abs(change - link.winding) <= 0.5) continue;
       // A loose sheet between two places alike says nothing of the orientation of the rest.
-      const bool shell = orientation_.parts[orientation_.part_of[link.triangle]].shell;
-      (!shell && std::abs(change) < 0.5 ? loose : wrong) += link.area;
+      (!is_of_shell(link.triangle) && std::abs(change) < 0.5 ? loose : wrong) += link.area;
     }
     report_.winding_distance = weight > 0 ? distance / weight : 0;
     report_.winding_contradiction = covered > loose ? wrong / (covered - loose) : 0;
     report_.loose_share = covered > 0 ? loose / covered : 0;
+  }
+
+  [[nodiscard]] bool is_of_shell(TriangleId triangle) const {
+    const auto& parts = orientation_.parts;
+    return !parts.empty() && parts[orientation_.part_of[triangle]].shell;
   }
 
   const CellGraph& graph_;
