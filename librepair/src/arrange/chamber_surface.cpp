@@ -99,9 +99,8 @@ class ChamberSurface {
   // Together with surface that is made up, triangles that contradict each other, and sheets with
   // the same chamber on both sides, may bound what is in no chamber of its own.
   [[nodiscard]] bool may_bound_more() const {
-    const InsideRule rule = options_.inside.rule;
-    if (rule != InsideRule::automatic && rule != InsideRule::winding) return true;
     const InsideReport& inside = report_.inside;
+    if (inside.used != InsideRule::winding) return true;
     return inside.loose_share + inside.winding_contradiction > kLittleOfSurface;
   }
 
