@@ -9,7 +9,7 @@ usage() {
 Usage: scripts/fuzz.sh TARGET|all SECONDS [LIBFUZZER OPTION...]
 
 Installs what the checks need (scripts/setup.sh all), builds build/fuzz and runs a fuzz target for SECONDS, on
-the seeds in tests/fuzz/seeds and on what earlier runs found worth keeping, in build/fuzz/corpus. With 0
+the seeds in tests/fuzz/seeds and on what earlier runs found worth keeping, in FUZZ_CORPUS or build/fuzz/corpus. With 0
 seconds it only replays these. "all" runs each target for SECONDS, as many at a time as there are processors.
 
 Targets: ${all[*]}
@@ -58,7 +58,7 @@ limits=(-timeout=25 -rss_limit_mb=2048 -malloc_limit_mb=256)
 fuzz() {
   local target=$1
   shift
-  local seeds=$PWD/tests/fuzz/seeds/$target corpus=$PWD/build/fuzz/corpus/$target
+  local seeds=$PWD/tests/fuzz/seeds/$target corpus=${FUZZ_CORPUS:-$PWD/build/fuzz/corpus}/$target
   local findings=$PWD/build/fuzz/findings/$target dictionary=$PWD/tests/fuzz/dictionaries/$target.dict
   local options=("${limits[@]}" "-artifact_prefix=$findings/" -print_final_stats=1)
   mkdir -p "$corpus" "$findings"
