@@ -62,6 +62,7 @@ fuzz() {
   local findings=$PWD/build/fuzz/findings/$target dictionary=$PWD/tests/fuzz/dictionaries/$target.dict
   local options=("${limits[@]}" "-artifact_prefix=$findings/" -print_final_stats=1)
   mkdir -p "$corpus" "$findings"
+  corpus=$(realpath "$corpus")
   if [ -e "$dictionary" ]; then options+=("-dict=$dictionary"); fi
   # 0 is "for ever" to libFuzzer.
   if [ "$seconds" -eq 0 ]; then options+=(-runs=0); else options+=("-max_total_time=$seconds"); fi

@@ -273,15 +273,19 @@ TEST(Certify, PartsThinnerThanTheGridFaceOutward) {
   }
 }
 
+Surface certified_for_stl(const TriangleSoup& soup, CertifyReport& report) {
+  CertifyOptions options;
+  options.precision = Precision::float32;
+  options.welded = true;
+  return certified(as_surface(soup), options, report);
+}
+
 TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {1, 1, 0}));  // along an edge
   append(soup, moved(cube(), {2, 2, 1}));  // in a corner
-  CertifyOptions options;
-  options.precision = Precision::float32;
-  options.welded = true;
   CertifyReport report;
-  const Surface result = certified(as_surface(soup), options, report);
+  const Surface result = certified_for_stl(soup, report);
   EXPECT_TRUE(report.passed());
   const TriangleSoup back = as_read_back(result.mesh, SoupFormat::stl_binary);
   expect_closed_manifold(back);
@@ -292,11 +296,8 @@ TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
 TEST(Certify, PointsThatAreMovedApartAreNoneOfTheInput) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {1, 1, 0}));  // along an edge
-  CertifyOptions options;
-  options.precision = Precision::float32;
-  options.welded = true;
   CertifyReport report;
-  const Surface result = certified(as_surface(soup), options, report);
+  const Surface result = certified_for_stl(soup, report);
   ASSERT_TRUE(report.passed());
   std::size_t moved_points = 0;
   for (std::size_t p = 0; p < result.mesh.points.size(); ++p) {
