@@ -92,7 +92,7 @@ class ChamberSurface {
     InsideOptions inside = options_.inside;
     inside.solve.progress = options_.progress;
     CellLabels labels = label_cells(graph, orientation_, inside, report_.inside);
-    if (!report_.inside.exact && may_bound_more()) return std::nullopt;
+    if (may_bound_more()) return std::nullopt;
     return std::move(labels.solid);
   }
 
@@ -100,7 +100,7 @@ class ChamberSurface {
   // the same chamber on both sides, may bound what is in no chamber of its own.
   [[nodiscard]] bool may_bound_more() const {
     const InsideReport& inside = report_.inside;
-    if (inside.used != InsideRule::winding) return true;
+    if (!inside.exact && inside.used != InsideRule::winding) return true;
     return inside.loose_share + inside.winding_contradiction > kLittleOfSurface;
   }
 
