@@ -238,8 +238,8 @@ ExitCode combine_files(BoolOptions options, Run& run) {
 
 // What is asked of a mesh to write says nothing about a tree.
 void refuse_mesh_options(const CommandLine& app) {
-  for (const char* name :
-       {"--format", "--drop", "--precision", "--strict", "--picture", "--html"}) {
+  for (const char* name : {"--format", "--drop", "--precision", "--strict", "--picture", "--html",
+                           "--show", "--show-as"}) {
     if (app.option(name).count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }

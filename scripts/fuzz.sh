@@ -9,7 +9,7 @@ usage() {
 Usage: scripts/fuzz.sh TARGET|all SECONDS [LIBFUZZER OPTION...]
 
 Installs what the checks need (scripts/setup.sh all), builds build/fuzz and runs a fuzz target for SECONDS, on
-the seeds in tests/fuzz/seeds and on what earlier runs found worth keeping, in build/fuzz/corpus. With 0
+the seeds in tests/fuzz/seeds and on what earlier runs found worth keeping, in FUZZ_CORPUS or build/fuzz/corpus. With 0
 seconds it only replays these. "all" runs each target for SECONDS, as many at a time as there are processors.
 
 Targets: ${all[*]}
@@ -58,15 +58,17 @@ limits=(-timeout=25 -rss_limit_mb=2048 -malloc_limit_mb=256)
 fuzz() {
   local target=$1
   shift
-  local seeds=tests/fuzz/seeds/$target corpus=build/fuzz/corpus/$target
-  local findings=build/fuzz/findings/$target dictionary=tests/fuzz/dictionaries/$target.dict
+  local seeds=$PWD/tests/fuzz/seeds/$target corpus=${FUZZ_CORPUS:-$PWD/build/fuzz/corpus}/$target
+  local findings=$PWD/build/fuzz/findings/$target dictionary=$PWD/tests/fuzz/dictionaries/$target.dict
   local options=("${limits[@]}" "-artifact_prefix=$findings/" -print_final_stats=1)
   mkdir -p "$corpus" "$findings"
+  corpus=$(realpath "$corpus")
   if [ -e "$dictionary" ]; then options+=("-dict=$dictionary"); fi
   # 0 is "for ever" to libFuzzer.
   if [ "$seconds" -eq 0 ]; then options+=(-runs=0); else options+=("-max_total_time=$seconds"); fi
-  UBSAN_OPTIONS=print_stacktrace=1 \
-    "build/fuzz/bin/fuzz_$target" "${options[@]}" "$@" "$corpus" "$seeds" >"build/fuzz/$target.log" 2>&1
+  # With -jobs the logs of each go where it runs.
+  (cd build/fuzz && UBSAN_OPTIONS=print_stacktrace=1 \
+    "bin/fuzz_$target" "${options[@]}" "$@" "$corpus" "$seeds") >"build/fuzz/$target.log" 2>&1
 }
 
 # A line on how it went; what the target said only if it found something.

@@ -268,8 +268,10 @@ void describe_walls(const ThickenReport& thicken, Lines& lines) {
 
 void describe_purpose(const Purpose& purpose, Lines& lines) {
   if (purpose.name.empty()) return;
-  std::vector<std::string> texts = {
-      fmt::format("{}: {}", purpose.name, fmt::join(purpose.options, " "))};
+  const std::string set = purpose.options.empty()
+                              ? "nothing that is not set anyway"
+                              : fmt::format("{}", fmt::join(purpose.options, " "));
+  std::vector<std::string> texts = {fmt::format("{}: {}", purpose.name, set)};
   if (!purpose.overridden.empty()) {
     texts.push_back(fmt::format("not set, as given: {}", fmt::join(purpose.overridden, " ")));
   }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <base/error.h>
+#include <mesh/packing.h>
 
 #include "resume/state_folder.h"
 
@@ -48,7 +49,7 @@ bool names(const Names& all, const std::string& name) {
 
 // Of the name of the output, what format it asks for.
 std::string that_matters(const CommandOption& option, const std::string& value) {
-  return option.name() == kOutput ? std::filesystem::path(value).extension().string() : value;
+  return option.name() == kOutput ? without_packing(value).extension().string() : value;
 }
 
 }  // namespace

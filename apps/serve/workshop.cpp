@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -30,9 +31,9 @@ constexpr const char* kGone = "the folder of this server is gone: start it anew"
 
 constexpr std::array<std::string_view, 6> kResults = {".stl", ".obj", ".off",
                                                       ".ply", ".glb", ".3mf"};
-constexpr std::array<std::string_view, 13> kOpenOptions = {
+constexpr std::array<std::string_view, 14> kOpenOptions = {
     "for",      "inside",   "sew",      "seal",  "holes", "max-hole", "thicken",
-    "min-part", "touching", "simplify", "units", "drop",  "keep"};
+    "min-part", "touching", "simplify", "units", "drop",  "keep",     "cavities"};
 constexpr std::array<std::string_view, 2> kOpenFlags = {"always", "strict"};
 
 template <class List>
@@ -216,7 +217,7 @@ void Workshop::work() {
                       [this] { return is_ending_ || !queue_.empty(); });
     if (is_ending_) return;
     if (queue_.empty()) {
-      make_room();
+      tidy_up();
       continue;
     }
     running_ = queue_.front();
@@ -331,6 +332,15 @@ void Workshop::make_room() {
   for (const auto& [asked_for, id] : idle_jobs()) {
     if (jobs_.size() < options_.most_jobs && now < asked_for + options_.lifetime) return;
     erase(id);
+  }
+}
+
+// Later, where memory is short.
+void Workshop::tidy_up() noexcept {
+  try {
+    make_room();
+  } catch (const std::bad_alloc&) {
+    return;
   }
 }
 

@@ -110,6 +110,7 @@ class Workshop {
   void finish(const std::string& id, int code);
   void give_up(const std::string& id) noexcept;
   void make_room();
+  void tidy_up() noexcept;
   void erase(const std::string& id);
   [[nodiscard]] std::filesystem::path folder(const std::string& id) const {
     return folder_.path() / id;

@@ -7,9 +7,9 @@
 // - As given, when the soup is the boundary of a solid: promises the soup itself, bit for bit.
 // - Mended, when it is one once copies are dropped, holes closed and parts turned: promises its
 //   triangles, with their own coordinates, and patches.
-// - By chambers, when hardly any sheet is loose, with one chamber on both sides: triangles are cut
-//   in their own planes, and space is not divided. Promises what all cells would give,
-//   certified.
+// - By chambers, when hardly any triangle is in a loose sheet or contradicts the others:
+//   triangles are cut in their own planes, and space is not divided. Promises what all cells
+//   would give, certified.
 // - Cells everywhere, always: promises a surface as near to a certified one as could be had.
 //
 // The last one makes cells (cells/). The last two say what is solid (arrange/, solid/), by the

@@ -238,12 +238,13 @@ class Blocks(unittest.TestCase):
         self.run_all("--thicken", "4", "--holes", "none")
         self.assertIn("1 part in the solid of another block", self.join(code=1)[0])
 
-    def test_pictures_are_of_no_matter(self):
+    def test_pictures_and_pages_are_of_no_matter(self):
         self.plan_rings()
         self.run_all("-q")
-        picture = self.folder / "2.png"
-        self.run_verb("run", self.blocks, "--block", 2, "--picture", picture)
-        self.assertTrue(picture.exists())
+        for option, name in (("--picture", "2.png"), ("--html", "2.html"), ("--explain", "2.ply")):
+            file = self.folder / name
+            self.run_verb("run", self.blocks, "--block", 2, option, file)
+            self.assertTrue(file.exists())
         self.join()
 
     def test_files_of_the_folder_are_not_replaced(self):

@@ -44,6 +44,18 @@ TEST_F(OptionsOfMeshrepair, ChangeResultsUnlessTheyAreAboutRunningAndTelling) {
   EXPECT_GE(others, 20u);
 }
 
+// The format is part of them, packed or not.
+TEST_F(OptionsOfMeshrepair, AreThoseOfTheFormatThatIsWritten) {
+  const auto options_for = [&](const std::string& output) {
+    (void)app_.parse(std::vector<std::string>{"in.off", output});
+    return options_of_results(app_, {});
+  };
+  EXPECT_EQ(options_for("a.stl"), options_for("b.stl"));
+  EXPECT_EQ(options_for("a.stl"), options_for("a.stl.gz"));
+  EXPECT_NE(options_for("a.stl"), options_for("a.obj"));
+  EXPECT_NE(options_for("a.stl.gz"), options_for("a.obj.gz"));
+}
+
 TEST_F(OptionsOfMeshrepair, OneThatIsNotKnownChangesResultsWhereverItIsFiled) {
   bool is_fresh = false;
   CommandOption* const fresh = app_.add_flag("--fresh", is_fresh, "")->group("Running");

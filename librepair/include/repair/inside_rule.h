@@ -78,7 +78,7 @@ struct CellLabels {
 //
 // `automatic` first looks whether the winding numbers can be trusted, then turns parts that are
 // inside out or do not tell which way is out: shells that lie in the solid of others, those that
-// face inward with two thirds of their area at least, are walls of cavities, others face outward.
+// face inward with 66 % of their area at least, are walls of cavities, others face outward.
 // Solid is what they wind around, and what winds the other way and borders the outside. Where the
 // winding cannot be trusted, it is `solidity`, but voids are kept that are bounded by whole parts.
 [[nodiscard]] CellLabels label_cells(const CellGraph& graph, const Orientation& orientation,

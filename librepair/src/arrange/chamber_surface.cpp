@@ -17,8 +17,8 @@
 namespace meshrepair::internal {
 namespace {
 
-// Of the surface, how much may lie in slits and fins, or in loose sheets: little slivers are no
-// reason for cells.
+// Of the surface, how much may lie in slits and fins, or contradict the winding numbers: little
+// slivers are no reason for cells.
 constexpr double kLittleOfSurface = 1e-3;
 
 // So many pieces tell whether there are slits.
@@ -92,21 +92,16 @@ class ChamberSurface {
     InsideOptions inside = options_.inside;
     inside.solve.progress = options_.progress;
     CellLabels labels = label_cells(graph, orientation_, inside, report_.inside);
-    if (!report_.inside.exact && may_bound_more(graph)) return std::nullopt;
+    if (may_bound_more()) return std::nullopt;
     return std::move(labels.solid);
   }
 
-  // Whether sheets with the same chamber on both sides are more than little of the surface:
-  // together with surface that is made up they may bound what is in no chamber of its own.
-  [[nodiscard]] bool may_bound_more(const CellGraph& graph) const {
-    const InsideRule rule = options_.inside.rule;
-    if (rule != InsideRule::automatic && rule != InsideRule::winding) return true;
-    double all = 0, loose = 0;
-    for (const Link& link : graph.links()) {
-      all += link.area;
-      if (link.below == link.above && link.winding != 0) loose += link.area;
-    }
-    return loose > kLittleOfSurface * all;
+  // Together with surface that is made up, triangles that contradict each other, and sheets with
+  // the same chamber on both sides, may bound what is in no chamber of its own.
+  [[nodiscard]] bool may_bound_more() const {
+    const InsideReport& inside = report_.inside;
+    if (!inside.exact && inside.used != InsideRule::winding) return true;
+    return inside.loose_share + inside.winding_contradiction > kLittleOfSurface;
   }
 
   const CleanSoup& soup_;

@@ -169,6 +169,22 @@ TEST(ChamberSurface, LooseSheetsThatAreLittleOfTheSurfaceAreNoReasonForCells) {
   EXPECT_FALSE(is_as_from_cells(sphere_with_fin(2), options));
 }
 
+// A triangle is turned; of two more, one lies on the box, the other cuts through it, from edge to
+// edge.
+TEST(ChamberSurface, TrianglesThatContradictEachOtherAreLeftToCells) {
+  TriangleSoup boxes = box({2, 2, 0}, {6, 3, 3});
+  std::swap(boxes.triangles[7][1], boxes.triangles[7][2]);
+  append(boxes, box({3, 2, 2}, {2, 3, 3}));
+  boxes.triangles.push_back({10, 6, 3});
+  boxes.triangles.push_back({5, 3, 0});
+  RepairOptions options;
+  options.inside.rule = InsideRule::winding;
+  options.inside.cavities = Cavities::fill;
+  options.holes.mode = HoleMode::extend;
+  options.sew.mode = SewMode::none;
+  EXPECT_FALSE(repair_by_chambers(boxes, options));
+}
+
 TEST(ChamberSurface, AVesselWithoutItsLidIsLeftToCells) {
   TriangleSoup vessel = box({0, 0, 0}, {1, 1, 1});
   vessel.triangles.resize(10);

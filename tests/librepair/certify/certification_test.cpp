@@ -273,20 +273,40 @@ TEST(Certify, PartsThinnerThanTheGridFaceOutward) {
   }
 }
 
+Surface certified_for_stl(const TriangleSoup& soup, CertifyReport& report) {
+  CertifyOptions options;
+  options.precision = Precision::float32;
+  options.welded = true;
+  return certified(as_surface(soup), options, report);
+}
+
 TEST(Certify, MovesTouchingSolidsApartForFormatsThatJoinPoints) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {1, 1, 0}));  // along an edge
   append(soup, moved(cube(), {2, 2, 1}));  // in a corner
-  CertifyOptions options;
-  options.precision = Precision::float32;
-  options.welded = true;
   CertifyReport report;
-  const Surface result = certified(as_surface(soup), options, report);
+  const Surface result = certified_for_stl(soup, report);
   EXPECT_TRUE(report.passed());
   const TriangleSoup back = as_read_back(result.mesh, SoupFormat::stl_binary);
   expect_closed_manifold(back);
   EXPECT_EQ(back.points.size(), 24u);
   EXPECT_NEAR(signed_volume(back), 3, 1e-5);
+}
+
+TEST(Certify, PointsThatAreMovedApartAreNoneOfTheInput) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {1, 1, 0}));  // along an edge
+  CertifyReport report;
+  const Surface result = certified_for_stl(soup, report);
+  ASSERT_TRUE(report.passed());
+  std::size_t moved_points = 0;
+  for (std::size_t p = 0; p < result.mesh.points.size(); ++p) {
+    const auto& all = soup.points;
+    const bool is_there = std::find(all.begin(), all.end(), result.mesh.points[p]) != all.end();
+    moved_points += is_there ? 0 : 1;
+    EXPECT_EQ(result.input_point[p] != 0, is_there);
+  }
+  EXPECT_GT(moved_points, 0u);
 }
 
 // As a reader of binary STL gets it back. No second repair is needed, and no points are welded.

@@ -51,5 +51,19 @@ TEST(BoundaryLoops, SheetsThatTouchInAPointHaveALoopEach) {
   EXPECT_EQ(loops_of(soup), (std::multiset<std::set<std::uint32_t>>{{0, 1, 2}, {0, 3, 4}}));
 }
 
+// Three triangles at an edge, one of which is there twice: they may bound two solids.
+TEST(BoundaryLoops, AnEdgeIsNoBorderWhereLayersAreEven) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, -1}};
+  soup.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  CleanSoup clean = cleaned(soup);
+  const auto triangles = index_triangles(clean);
+  for (const std::int32_t layers : {1, 2}) {
+    clean.triangles[TriangleId(0u)].layers = layers;
+    const auto loops = find_boundary_loops(clean, triangles, EdgeTable(triangles), nullptr);
+    EXPECT_EQ(loops.edges.size(), layers == 1 ? 7u : 6u);
+  }
+}
+
 }  // namespace
 }  // namespace meshrepair::internal

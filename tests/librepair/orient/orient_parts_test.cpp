@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <utility>
 
@@ -217,6 +219,27 @@ TEST(OrientParts, AnOpenDoubledSheetStaysBothWaysRound) {
   soup.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 2, 1}, {1, 2, 3}};
   OrientReport report;
   for (const std::int32_t w : orient_parts(cleaned(soup), report).winding) EXPECT_EQ(w, 0);
+}
+
+// A patch between two boxes that are there both ways round is no reason to take them for walls.
+TEST(OrientParts, PatchesMakeNoWallsOfDoubledFaces) {
+  TriangleSoup soup = box({0, 0, 0}, {1, 1, 1});
+  append(soup, box({1, 0, 0}, {2, 1, 1}));
+  append(soup, flipped(soup));
+  CleanSoup clean = cleaned(soup);
+  const auto in_the_middle = [&](PointId p) { return clean.points[p].x() == 1; };
+  for (Triangle& t : clean.triangles) {
+    ASSERT_EQ(t.winding, 0);
+    if (std::all_of(t.corners.begin(), t.corners.end(), in_the_middle)) {
+      t.source = Triangle::kNoSource;
+    }
+  }
+  OrientReport report;
+  const Orientation orientation = orient_parts(clean, report);
+  for (TriangleId t(0u); t < clean.triangles.end_id(); ++t.value) {
+    if (clean.triangles[t].source == Triangle::kNoSource) continue;
+    EXPECT_EQ(std::abs(orientation.winding[t]), 1) << t.value;
+  }
 }
 
 TEST(OrientParts, AShellThatDoesNotTellIsTurnedOutward) {

@@ -163,6 +163,28 @@ TEST(ZipEdges, PiecesThatAreThereAlreadyCancelOut) {
   expect_clean(clean);
 }
 
+// As before, but on the whole face stand tetrahedra that are there twice: of the copies more are
+// turned the other way.
+TEST(ZipEdges, PiecesAreTurnedAsMostCopiesAre) {
+  TriangleSoup soup;
+  soup.points = {{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, -4, 2}};
+  const std::uint32_t a = 0, middle = 1, b = 2, y = 3, z = 4, top = 5;
+  soup.triangles = {{a, b, z},      {a, middle, b}, {a, y, middle},
+                    {middle, y, b}, {b, y, z},      {a, z, y}};
+  for (const auto& [from, to] : {std::pair(a, middle), std::pair(middle, b)}) {
+    for (int i = 0; i < 2; ++i) {
+      soup.triangles.insert(soup.triangles.end(),
+                            {{to, from, z}, {from, to, top}, {to, z, top}, {z, from, top}});
+    }
+  }
+  for (const double far : {-3e7, 3e7}) append(soup, moved(cube(), {far, far, far}));
+  CleanSoup clean = on_grid(soup);
+  EXPECT_TRUE(zip_edges(clean));
+  EXPECT_TRUE(unbalanced(clean).empty());
+  EXPECT_EQ(steps_in(clean), volume_on_grid(soup, clean.grid));
+  expect_clean(clean);
+}
+
 // As before, but at the upper side, too: what is between is nothing.
 TEST(ZipEdges, AFlatPocketVanishes) {
   TriangleSoup soup;

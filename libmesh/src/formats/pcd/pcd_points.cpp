@@ -185,12 +185,14 @@ class PcdReader {
     return true;
   }
 
-  // As text, a colour is an integer, or the float whose bits it has.
+  // As text, a colour is an integer, with a sign or without, or the float whose bits it has.
   [[nodiscard]] std::uint32_t packed_colour(double value) const {
+    constexpr double kLeast = std::numeric_limits<std::int32_t>::min();
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     if (colour_->type == ValueType::float32)
       return std::bit_cast<std::uint32_t>(static_cast<float>(value));
-    return value >= 0 && value <= kMost ? static_cast<std::uint32_t>(value) : 0;
+    const bool is_one = value >= kLeast && value <= kMost;
+    return is_one ? static_cast<std::uint32_t>(static_cast<std::int64_t>(value)) : 0;
   }
 
   void warn() {

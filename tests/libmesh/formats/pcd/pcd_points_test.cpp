@@ -85,6 +85,18 @@ TEST(PcdPoints, HaveNormalsAndPackedColours) {
   EXPECT_EQ(text.cloud.colours, result.cloud.colours);
 }
 
+// With alpha, the highest bit is the sign.
+TEST(PcdPoints, ColoursMayHaveASign) {
+  const std::string head =
+      "VERSION .7\nFIELDS x y z rgba\nSIZE 4 4 4 4\nTYPE F F F I\nWIDTH 1\nHEIGHT 1\n";
+  const PointReadResult text = read(head + "DATA ascii\n1 2 3 -32704\n");
+  ASSERT_EQ(text.cloud.colours.size(), 1u);
+  EXPECT_EQ(text.cloud.colours[0], (std::array<std::uint8_t, 3>{255, 128, 64}));
+  const std::string body =
+      bytes_of(1.0F) + bytes_of(2.0F) + bytes_of(3.0F) + bytes_of(std::int32_t{-32704});
+  EXPECT_EQ(read(head + "DATA binary\n" + body).cloud.colours, text.cloud.colours);
+}
+
 TEST(PcdPoints, CountsAreBelievedAsFarAsTheBytesGo) {
   const PointReadResult cut =
       read(header(std::size_t{1} << 62, "binary") + record(1, 2, 3) + record(4, 5, 6.5F) + "xyz");
