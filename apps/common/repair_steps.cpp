@@ -62,6 +62,18 @@ void warn_of_lost_triangles(const Findings& findings) {
       findings.input_name(), sew.widest_gap, number_of(sew.lost_triangles, "triangle"));
 }
 
+// What open sheets do not enclose is gone; the user may have meant walls.
+void warn_of_lost_surface(const Findings& findings) {
+  constexpr double kWorthAWarning = 0.1;
+  const RepairReport& repair = findings.repair;
+  if (!std::isfinite(repair.input_area)) return;
+  if (repair.lost_area <= kWorthAWarning * repair.input_area) return;
+  logger().warn(
+      "{}: {:.0f} % of the input's area is not in the result, as it encloses nothing; "
+      "--thicken makes walls of open sheets",
+      findings.input_name(), 100 * std::min(1.0, repair.lost_area / repair.input_area));
+}
+
 // A solid made of an open sheet is mostly made up; the user may have meant something else.
 void warn_of_made_up_surface(const Findings& findings) {
   const RepairReport& repair = findings.repair;
@@ -191,6 +203,7 @@ ExitCode verdict(Run& run, const Findings& findings) {
 void warn_of_findings(const Findings& findings) {
   warn_of_coarse_grid(findings);
   warn_of_lost_triangles(findings);
+  warn_of_lost_surface(findings);
   warn_of_made_up_surface(findings);
   warn_of_poking_walls(findings);
   warn_of_unknown_parts(findings);

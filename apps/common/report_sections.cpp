@@ -294,6 +294,7 @@ Json removed_of(const RepairReport& repair) {
           {"inside_solid", section_of(parts.inside_solid)},
           {"triangles_inside", parts.inside_triangles},
           {"triangles_outside", parts.outside_triangles},
+          {"lost_area", repair.lost_area},
           {"open_regions", repair.open_regions},
           {"crumbs", repair.crumbs},
           {"slit_cells", repair.thin_cells.filled},

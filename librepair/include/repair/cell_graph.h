@@ -75,6 +75,10 @@ class CellGraph {
   std::vector<char> unbounded_;
 };
 
+// Of links that triangles of the input cover, with nothing solid on either side. In square grid
+// steps.
+[[nodiscard]] double lost_area(const CellGraph& graph, const std::vector<char>& solid);
+
 [[nodiscard]] inline CellId other_end(const Link& link, CellId cell) {
   return link.below == cell ? link.above : link.below;
 }

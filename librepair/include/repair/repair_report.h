@@ -55,6 +55,9 @@ struct RepairReport {
   // was uncovered: made empty.
   std::size_t open_regions = 0;
   PartFates parts;
+  // Of input_area, what bounds nothing and is not inside the solid: pieces with nothing solid on
+  // either side, and not made walls.
+  double lost_area = 0;
   ExtractReport extract;
   ThinCellsReport thin_cells;                // changed, as they are thinner than what numbers tell
   Precision precision = Precision::float64;  // for which they were too thin

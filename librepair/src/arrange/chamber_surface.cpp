@@ -93,6 +93,7 @@ class ChamberSurface {
     inside.solve.progress = options_.progress;
     CellLabels labels = label_cells(graph, orientation_, inside, report_.inside);
     if (may_bound_more()) return std::nullopt;
+    report_.lost_area = lost_area(graph, labels.solid) * soup_.grid.unit * soup_.grid.unit;
     return std::move(labels.solid);
   }
 

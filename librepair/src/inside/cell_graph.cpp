@@ -189,6 +189,15 @@ void CellGraph::set_windings(const IdVector<TriangleId, std::int32_t>& winding) 
   for (const Layer& layer : layers_) links_[layer.link].winding += winding[layer.triangle];
 }
 
+double lost_area(const CellGraph& graph, const std::vector<char>& solid) {
+  double sum = 0;
+  for (const Link& link : graph.links()) {
+    const bool beside_solid = solid[link.below.index()] != 0 || solid[link.above.index()] != 0;
+    if (link.given && !beside_solid) sum += link.area;
+  }
+  return sum;
+}
+
 CellGraph CellGraph::of_triangles(const IdVector<TriangleId, char>& wanted,
                                   const IdVector<TriangleId, std::int32_t>& winding) const {
   CellGraph some = *this;

@@ -127,6 +127,8 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   meter.begin("inside");
   report.open_regions = 0;
   CellLabels labels = SolidFinder(covered.complex.soup(), options, report).run(graph, orientation);
+  const double unit = covered.complex.soup().grid.unit;
+  report.lost_area = lost_area(graph, labels.solid) * unit * unit;
   report.inside.solid_cells =
       static_cast<std::size_t>(std::count(labels.solid.begin(), labels.solid.end(), 1));
   if (report.inside.solid_cells == 0) {

@@ -95,6 +95,7 @@ void finish_walls(const CleanSoup& soup, const SecondSoup& walled, RepairReport 
   refer_to_first(walled, surface);
   if (report.thicken.solid_volume == 0) report.inside = united.inside;
   append_report(std::move(united), report);
+  report.lost_area = std::max(0.0, report.lost_area - report.thicken.area);
   describe_result(soup, surface, report);
 }
 
