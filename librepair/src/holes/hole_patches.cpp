@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,6 +47,10 @@ constexpr double kLargeOpening = 0.1;
 // A ring has to have less than this share of the area of two patches: those over holes that touch
 // in a point are a ring, too.
 constexpr double kWorthARing = 0.9;
+
+// What it is worth not to lose a sheet beside an opening that has a patch of its own, as a share of
+// the sheet's area: a lid belongs to a box, the ground below it does not.
+constexpr double kLostSheet = 0.5;
 
 // A patch lies in a plane if its area is hardly larger than that of its projection onto one.
 constexpr double kFlat = 0.999;
@@ -247,9 +252,7 @@ class HolePatcher {
       if (!is_large_opening(a) && !is_large_opening(b)) continue;
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
       if (ring.folded || ring.area > options_.largest_share * sheet_area(a, b)) continue;
-      const bool patched = !is_most_of_its_sheets(a) && !is_most_of_its_sheets(b);
-      const double one_by_one = patches_[a].area + patches_[b].area;
-      if (patched && ring.area >= kWorthARing * one_by_one) continue;
+      if (ring.area >= kWorthARing * price_of_no_ring(a, b)) continue;
       closed_[a] = closed_[b] = 1;
       parts_.join(a_triangle_at(a), a_triangle_at(b));
       rings_.push_back({a, ring.area});
@@ -263,11 +266,24 @@ class HolePatcher {
     }
   }
 
+  // In area: of two patches, or of one and the sheet that is lost. Two pieces of a surface have no
+  // patches, and are to be joined at any price.
+  double price_of_no_ring(std::size_t a, std::size_t b) {
+    double price = 0;
+    std::size_t pieces = 0;
+    for (const std::size_t l : {a, b}) {
+      const bool is_piece = is_most_of_its_sheets(l);
+      pieces += is_piece ? 1 : 0;
+      price += is_piece ? kLostSheet * sheet_area(l, l) : patches_[l].area;
+    }
+    return pieces == 2 ? std::numeric_limits<double>::infinity() : price;
+  }
+
   bool is_large_opening(std::size_t loop) {
     return patches_[loop].area > kLargeOpening * sheet_area(loop, loop);
   }
 
-  // Pieces of a surface, which are to be joined rather than closed one by one.
+  // A sheet, or a piece of a surface.
   bool is_most_of_its_sheets(std::size_t loop) {
     return patches_[loop].area > options_.largest_share * sheet_area(loop, loop);
   }

@@ -13,6 +13,7 @@
 #include <base/ids.h>
 #include <bsp/common_grid.h>
 #include <mesh/edge_table.h>
+#include <mesh/topology.h>
 #include <mesh/triangle_measures.h>
 #include <repair/orient_parts.h>
 
@@ -27,6 +28,9 @@ constexpr double kNearlyFlat = 0.9;
 
 // Of the angle between two triangles: 45 degrees, as quads need not be flat.
 constexpr double kLyingOnEachOther = 0.7;
+
+// Of the area of a part, what copies of faces have to be for it to have two sides.
+constexpr double kLeastOfPart = 0.1;
 
 // In grid steps: layers whose corners are farther apart are two surfaces. Of the input's own
 // rounding, so many are as near.
@@ -209,9 +213,9 @@ Firsts find_firsts(const CleanSoup& clean, CancelCheck& check) {
   return firsts;
 }
 
-bool any_joined(const Firsts& firsts) {
+bool any_joined(const Firsts& firsts, const std::vector<char>& chosen) {
   for (PointId p(0u); p < firsts.end_id(); ++p.value) {
-    if (firsts[p] != p) return true;
+    if (firsts[p] != p && chosen[firsts[p].index()] != 0) return true;
   }
   return false;
 }
@@ -247,78 +251,129 @@ class PointsOnGrid {
   HashIndex index_;
 };
 
+// Moves all points to those of the first ones that are chosen, also those in one place on the grid
+// with them, which may be another one on the next grid.
 TriangleSoup moved_to_firsts(const TriangleSoup& soup, const CleanSoup& clean,
-                             const PointsOnGrid& on_grid, const Firsts& firsts) {
+                             const PointsOnGrid& on_grid, const Firsts& firsts,
+                             const std::vector<char>& chosen) {
   TriangleSoup moved = soup;
   for (Vec3d& place : moved.points) {
     const PointId p = on_grid.find(place);
-    if (p.valid() && firsts[p] != p) place = clean.points[firsts[p]];
+    if (p.valid() && chosen[firsts[p].index()] != 0) place = clean.points[firsts[p]];
   }
   return moved;
 }
 
-// Whether the triangle that came first of those in one place was there both ways round before.
-bool was_doubled(const CleanSoup& clean, std::uint32_t source) {
-  const auto found = std::lower_bound(
-      clean.triangles.begin(), clean.triangles.end(), source,
-      [](const Triangle& triangle, std::uint32_t s) { return triangle.source < s; });
-  return found != clean.triangles.end() && found->source == source && found->winding == 0;
+// A surface with two sides has them nearly everywhere. Elsewhere two pieces of a surface lie on
+// each other by chance, and are left as they are.
+class PartsOnBothSides {
+ public:
+  explicit PartsOnBothSides(const CleanSoup& soup)
+      : part_of_(parts_of(soup)), area_(part_of_.size(), 0), doubled_(part_of_.size(), 0) {
+    for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
+      area_[part_of(t)] += vector_area_of(soup, t).norm();
+    }
+  }
+
+  void add_doubled(TriangleId t, double area) { doubled_[part_of(t)] += area; }
+  [[nodiscard]] bool has_both(TriangleId t) const {
+    return doubled_[part_of(t)] >= kLeastOfPart * area_[part_of(t)];
+  }
+
+ private:
+  static std::vector<std::uint32_t> parts_of(const CleanSoup& soup) {
+    TopologyPlaces places;
+    (void)examine_topology(index_triangles(soup), soup.points.size(), &places);
+    return std::move(places.parts);
+  }
+  [[nodiscard]] std::uint32_t part_of(TriangleId t) const { return part_of_[t.index()]; }
+
+  std::vector<std::uint32_t> part_of_;
+  std::vector<double> area_, doubled_;  // of each part
+};
+
+// Of each point, whether it is a corner of faces that are there both ways round.
+std::vector<char> points_on_both_layers(const CleanSoup& joined, const CleanSoup& clean,
+                                        const PointsOnGrid& on_grid) {
+  const auto is_doubled = [&](TriangleId t) { return joined.triangles[t].winding == 0; };
+  PartsOnBothSides parts(joined);
+  for (TriangleId t(0u); t < joined.triangles.end_id(); ++t.value) {
+    if (is_doubled(t)) parts.add_doubled(t, vector_area_of(joined, t).norm());
+  }
+  std::vector<char> is_on_both(clean.points.size(), 0);
+  for (TriangleId t(0u); t < joined.triangles.end_id(); ++t.value) {
+    if (!is_doubled(t) || !parts.has_both(t)) continue;
+    for (const PointId corner : joined.triangles[t].corners) {
+      const PointId p = on_grid.find(joined.points[corner]);
+      if (p.valid()) is_on_both[p.index()] = 1;
+    }
+  }
+  return is_on_both;
+}
+
+// Faces with one outline: those from first on, before last.
+struct Copies {
+  std::uint32_t first, last;
+};
+
+void drop_copies_of_little(const CleanSoup& soup, const std::vector<Face>& faces,
+                           std::vector<Copies>& copies) {
+  if (copies.empty()) return;
+  PartsOnBothSides parts(soup);
+  const auto some_triangle = [&](const Copies& c) {
+    return TriangleId(faces[c.first].triangles.front());
+  };
+  for (const Copies& c : copies) {
+    for (std::uint32_t f = c.first; f < c.last; ++f) {
+      parts.add_doubled(some_triangle(c), faces[f].area);
+    }
+  }
+  std::erase_if(copies, [&](const Copies& c) { return !parts.has_both(some_triangle(c)); });
 }
 
 }  // namespace
 
 bool join_cuts(CleanSoup& soup, ProgressObserver* progress) {
   const std::vector<Face> faces = FaceFinder(soup, progress).run();
-  std::vector<char> dropped;
-  for (std::size_t first = 0, last = 0; first < faces.size(); first = last) {
-    const Face& face = faces[first];
-    for (last = first + 1; last < faces.size() && faces[last].outline == face.outline;) ++last;
-    if (last == first + 1) continue;
-    dropped.resize(soup.triangles.size(), 0);
+  std::vector<Copies> copies;
+  for (std::uint32_t first = 0, last = 0; first < faces.size(); first = last) {
+    for (last = first + 1; last < faces.size() && faces[last].outline == faces[first].outline;)
+      ++last;
+    if (last > first + 1) copies.push_back({first, last});
+  }
+  drop_copies_of_little(soup, faces, copies);
+  std::vector<char> dropped(soup.triangles.size(), 0);
+  for (const auto& [first, last] : copies) {
     bool any_opposite = false;
-    for (std::size_t f = first + 1; f < last; ++f) {
-      any_opposite |= faces[f].vector_area.dot(face.vector_area) < 0;
+    for (std::uint32_t f = first + 1; f < last; ++f) {
+      any_opposite |= faces[f].vector_area.dot(faces[first].vector_area) < 0;
       for (const std::uint32_t t : faces[f].triangles) dropped[t] = 1;
     }
     if (!any_opposite) continue;
-    for (const std::uint32_t t : face.triangles) soup.triangles[TriangleId(t)].winding = 0;
+    for (const std::uint32_t t : faces[first].triangles) soup.triangles[TriangleId(t)].winding = 0;
   }
-  if (dropped.empty()) return false;
   std::size_t kept = 0;
   for (std::size_t t = 0; t < dropped.size(); ++t) {
     if (dropped[t] == 0) soup.triangles[TriangleId(kept++)] = soup.triangles[TriangleId(t)];
   }
   soup.triangles.resize(kept);
-  return true;
+  return !copies.empty();
 }
 
 std::optional<TriangleSoup> bring_layers_together(const TriangleSoup& soup, const CleanSoup& clean,
                                                   ProgressObserver* progress) {
   CancelCheck check(progress);
-  Firsts firsts = find_firsts(clean, check);
-  if (!any_joined(firsts)) return std::nullopt;
+  const Firsts firsts = find_firsts(clean, check);
+  std::vector<char> chosen(clean.points.size(), 1);
+  if (!any_joined(firsts, chosen)) return std::nullopt;
   const PointsOnGrid on_grid(clean);
-  TriangleSoup moved = moved_to_firsts(soup, clean, on_grid, firsts);
   CleanReport report;
-  CleanSoup joined = clean_soup(moved, clean.grid, report, progress);
+  CleanSoup joined = clean_soup(moved_to_firsts(soup, clean, on_grid, firsts, chosen), clean.grid,
+                                report, progress);
   join_cuts(joined, progress);
-  // Only where that joins two layers.
-  std::vector<char> is_on_both(clean.points.size(), 0);
-  for (const Triangle& t : joined.triangles) {
-    if (t.winding != 0 || was_doubled(clean, t.source)) continue;
-    for (const PointId corner : t.corners) {
-      const PointId p = on_grid.find(joined.points[corner]);
-      if (p.valid()) is_on_both[p.index()] = 1;
-    }
-  }
-  bool any_left_out = false;
-  for (PointId p(0u); p < firsts.end_id(); ++p.value) {
-    if (firsts[p] == p || is_on_both[firsts[p].index()] != 0) continue;
-    firsts[p] = p;
-    any_left_out = true;
-  }
-  if (!any_joined(firsts)) return std::nullopt;
-  return any_left_out ? moved_to_firsts(soup, clean, on_grid, firsts) : std::move(moved);
+  chosen = points_on_both_layers(joined, clean, on_grid);
+  if (!any_joined(firsts, chosen)) return std::nullopt;
+  return moved_to_firsts(soup, clean, on_grid, firsts, chosen);
 }
 
 }  // namespace meshrepair::internal

@@ -19,10 +19,9 @@ struct ClosedAndOpen {
 };
 
 // A part that is closed is solid whatever open sheets there are, and these enclose what they do
-// without it; what is between the two is neither's. So they are to be decided apart. Nothing where
-// all parts are closed, or none is, or where the windings contradict each other nowhere, so that
-// there is nothing to doubt; or where a closed part faces inward, which may be the wall of a void
-// in what has open edges.
+// without it: so they may be decided apart. Nothing where all parts are closed, or none is, or
+// where the windings contradict each other nowhere, so that there is nothing to doubt; or where a
+// closed part faces inward, which may be the wall of a void in what has open edges.
 [[nodiscard]] std::optional<ClosedAndOpen> closed_and_open_parts(const CellGraph& graph,
                                                                  const Orientation& orientation,
                                                                  ProgressObserver* progress);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <base/error.h>
@@ -14,6 +15,18 @@
 
 namespace meshrepair::internal {
 namespace {
+
+// Than made-up surface of all parts together, that of closed parts and open ones apart.
+constexpr double kClearlyLess = 0.9;
+
+// Of the boundary of what is solid, what no triangle covers.
+double made_up_area(const CellGraph& graph, const std::vector<char>& solid) {
+  double sum = 0;
+  for (const Link& link : graph.links()) {
+    if (!link.opaque() && solid[link.below.index()] != solid[link.above.index()]) sum += link.area;
+  }
+  return sum;
+}
 
 // Only what the triangles seal off by themselves.
 void drop_unsealed(const CellGraph& graph, ProgressObserver* progress, CellLabels& labels) {
@@ -53,65 +66,82 @@ IdVector<TriangleId, float> opacities_of(const CleanSoup& soup,
   return opacity;
 }
 
+struct Decision {
+  CellLabels labels;
+  InsideReport inside;
+  std::size_t open_regions = 0;
+};
+
+// What is solid because of open parts is what can be doubted.
+void add_solid(const CellLabels& open, CellLabels& labels) {
+  for (std::size_t c = 0; c < labels.solid.size(); ++c) {
+    if (open.solid[c] == 0) continue;
+    if (labels.solid[c] == 0) labels.confidence[c] = open.confidence[c];
+    labels.solid[c] = 1;
+  }
+}
+
+void add_counts(const InsideReport& from, InsideReport& to) {
+  to.contradictions += from.contradictions;
+  to.turned_parts += from.turned_parts;
+  to.doubtful_parts += from.doubtful_parts;
+  to.cavity_walls += from.cavity_walls;
+  to.poking_walls += from.poking_walls;
+  to.poking_share = std::max(to.poking_share, from.poking_share);
+  to.left_out_folds += from.left_out_folds;
+  to.filled_voids += from.filled_voids;
+}
+
 class SolidFinder {
  public:
-  SolidFinder(const CleanSoup& soup, const RepairOptions& options, RepairReport& report)
-      : soup_(soup), options_(options), inside_(options.inside), report_(report) {
+  SolidFinder(const CleanSoup& soup, const RepairOptions& options)
+      : soup_(soup), options_(options), inside_(options.inside) {
     inside_.solve.progress = options.progress;
   }
 
-  CellLabels run(const CellGraph& graph, const Orientation& orientation) {
-    const auto apart = inside_.rule == InsideRule::automatic
-                           ? closed_and_open_parts(graph, orientation, options_.progress)
-                           : std::nullopt;
-    if (!apart) return labels_of(graph, orientation, report_.inside);
-    CellLabels labels = labels_of(apart->closed.graph, apart->closed.orientation, report_.inside);
-    InsideReport of_open;
-    add(labels_of(apart->open.graph, apart->open.orientation, of_open), of_open, labels);
-    report_.inside.exact = false;
-    return labels;
+  Decision run(const CellGraph& graph, const Orientation& orientation) const {
+    Decision together = decide(graph, orientation);
+    const double made_up = made_up_area(graph, together.labels.solid);
+    if (made_up == 0 || inside_.rule != InsideRule::automatic) return together;
+    const auto apart = closed_and_open_parts(graph, orientation, options_.progress);
+    if (!apart) return together;
+    Decision decision = decide(*apart);
+    const double less = made_up_area(graph, decision.labels.solid);
+    return less < kClearlyLess * made_up ? decision : together;
   }
 
  private:
-  CellLabels labels_of(const CellGraph& graph, const Orientation& orientation,
-                       InsideReport& report) {
-    CellLabels labels = label_cells(graph, orientation, inside_, report);
-    if (leaves_sheets_open(options_)) drop_unsealed(graph, options_.progress, labels);
-    report_.open_regions += empty_open_regions(graph, soup_, labels.solid);
-    return labels;
+  [[nodiscard]] Decision decide(const CellGraph& graph, const Orientation& orientation) const {
+    Decision decision;
+    decision.labels = label_cells(graph, orientation, inside_, decision.inside);
+    std::vector<char>& solid = decision.labels.solid;
+    if (leaves_sheets_open(options_)) drop_unsealed(graph, options_.progress, decision.labels);
+    decision.open_regions = empty_open_regions(graph, soup_, solid);
+    return decision;
   }
 
-  // What is solid because of open parts is what can be doubted.
-  void add(const CellLabels& open, const InsideReport& of_open, CellLabels& labels) {
-    bool any = false;
-    for (std::size_t c = 0; c < labels.solid.size(); ++c) {
-      if (open.solid[c] == 0) continue;
-      any = true;
-      if (labels.solid[c] == 0) labels.confidence[c] = open.confidence[c];
-      labels.solid[c] = 1;
+  // The reason is that of the open parts if they enclose anything.
+  [[nodiscard]] Decision decide(const ClosedAndOpen& apart) const {
+    Decision closed = decide(apart.closed.graph, apart.closed.orientation);
+    Decision open = decide(apart.open.graph, apart.open.orientation);
+    open.open_regions += closed.open_regions;
+    const auto& solid = open.labels.solid;
+    const bool any = std::find(solid.begin(), solid.end(), 1) != solid.end();
+    add_solid(open.labels, closed.labels);
+    open.labels = std::move(closed.labels);
+    if (any) {
+      add_counts(closed.inside, open.inside);
+    } else {
+      closed.inside.contradictions += open.inside.contradictions;
+      open.inside = std::move(closed.inside);
     }
-    InsideReport& inside = report_.inside;
-    inside.contradictions += of_open.contradictions;
-    if (!any) return;
-    inside.used = of_open.used;
-    inside.reason = of_open.reason;
-    inside.other = of_open.other;
-    inside.solve = of_open.solve;
-    inside.winding_distance = of_open.winding_distance;
-    inside.winding_contradiction = of_open.winding_contradiction;
-    inside.loose_share = of_open.loose_share;
-    inside.turned_parts += of_open.turned_parts;
-    inside.doubtful_parts += of_open.doubtful_parts;
-    inside.cavity_walls += of_open.cavity_walls;
-    inside.poking_walls += of_open.poking_walls;
-    inside.poking_share = std::max(inside.poking_share, of_open.poking_share);
-    inside.left_out_folds += of_open.left_out_folds;
+    open.inside.exact = false;
+    return open;
   }
 
   const CleanSoup& soup_;
   const RepairOptions& options_;
   InsideOptions inside_;
-  RepairReport& report_;
 };
 
 }  // namespace
@@ -125,8 +155,10 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   }
   report.links = graph.links().size();
   meter.begin("inside");
-  report.open_regions = 0;
-  CellLabels labels = SolidFinder(covered.complex.soup(), options, report).run(graph, orientation);
+  Decision decision = SolidFinder(covered.complex.soup(), options).run(graph, orientation);
+  CellLabels& labels = decision.labels;
+  report.inside = std::move(decision.inside);
+  report.open_regions = decision.open_regions;
   const double unit = covered.complex.soup().grid.unit;
   report.lost_area = lost_area(graph, labels.solid) * unit * unit;
   report.inside.solid_cells =
@@ -134,7 +166,7 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   if (report.inside.solid_cells == 0) {
     throw NoSolidError(why_nothing_is_solid(report, options.holes.mode));
   }
-  return labels;
+  return std::move(labels);
 }
 
 }  // namespace meshrepair::internal
