@@ -48,9 +48,9 @@ constexpr double kLargeOpening = 0.1;
 // in a point are a ring, too.
 constexpr double kWorthARing = 0.9;
 
-// What it is worth not to lose a sheet beside an opening that has a patch of its own, as a share of
-// the sheet's area: a lid belongs to a box, the ground below it does not.
-constexpr double kLostSheet = 0.5;
+// A ring that joins a piece of surface to an opening may be so much larger than a patch of the
+// opening, and the piece's area more: a lid belongs to a box, the ground below it does not.
+constexpr double kLargerThanPatch = 1.5;
 
 // A patch lies in a plane if its area is hardly larger than that of its projection onto one.
 constexpr double kFlat = 0.999;
@@ -252,7 +252,7 @@ class HolePatcher {
       if (!is_large_opening(a) && !is_large_opening(b)) continue;
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
       if (ring.folded || ring.area > options_.largest_share * sheet_area(a, b)) continue;
-      if (ring.area >= kWorthARing * price_of_no_ring(a, b)) continue;
+      if (ring.area >= most_of_ring(a, b)) continue;
       closed_[a] = closed_[b] = 1;
       parts_.join(a_triangle_at(a), a_triangle_at(b));
       rings_.push_back({a, ring.area});
@@ -266,17 +266,13 @@ class HolePatcher {
     }
   }
 
-  // In area: of two patches, or of one and the sheet that is lost. Two pieces of a surface have no
-  // patches, and are to be joined at any price.
-  double price_of_no_ring(std::size_t a, std::size_t b) {
-    double price = 0;
-    std::size_t pieces = 0;
-    for (const std::size_t l : {a, b}) {
-      const bool is_piece = is_most_of_its_sheets(l);
-      pieces += is_piece ? 1 : 0;
-      price += is_piece ? kLostSheet * sheet_area(l, l) : patches_[l].area;
-    }
-    return pieces == 2 ? std::numeric_limits<double>::infinity() : price;
+  // What it may have in area. Two pieces of a surface have no patches, and are joined at any price.
+  double most_of_ring(std::size_t a, std::size_t b) {
+    const bool is_piece_a = is_most_of_its_sheets(a), is_piece_b = is_most_of_its_sheets(b);
+    if (is_piece_a && is_piece_b) return std::numeric_limits<double>::infinity();
+    if (!is_piece_a && !is_piece_b) return kWorthARing * (patches_[a].area + patches_[b].area);
+    if (is_piece_a) std::swap(a, b);
+    return kLargerThanPatch * patches_[a].area + sheet_area(b, b);
   }
 
   bool is_large_opening(std::size_t loop) {

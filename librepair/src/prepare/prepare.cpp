@@ -65,31 +65,35 @@ void measure(const CleanSoup& clean, RepairReport& report) {
   }
 }
 
-CleanSoup close_clean(CleanSoup clean, const TriangleSoup& soup, const RepairOptions& options,
-                      RepairReport& report, StageMeter& meter) {
+// Copies are there where edges have more than two triangles.
+void join_copies(CleanSoup& clean, const Topology& topology, const RepairOptions& options) {
+  if (topology.nonmanifold_edges > 0) join_cuts(clean, options.progress);
+}
+
+// `now` is the topology of the clean soup.
+CleanSoup close_clean(CleanSoup clean, Topology now, const TriangleSoup& soup,
+                      const RepairOptions& options, RepairReport& report, StageMeter& meter) {
   report.sew = {};
-  join_cuts(clean, options.progress);
-  if (report.input.open_edges > 0 && options.sew.mode != SewMode::none) {
+  join_copies(clean, now, options);
+  if (now.open_edges > 0 && options.sew.mode != SewMode::none) {
     meter.begin("sew");
     SewOptions sewing = options.sew;
     sewing.progress = options.progress;
     if (const auto sewn = sew_soup(soup, sewing, report.sew)) {
       clean = clean_sewn(*sewn, options, report, meter);
-      join_cuts(clean, options.progress);
+      now = examine_topology(index_triangles(clean), clean.points.size());
+      join_copies(clean, now, options);
     }
   }
   measure(clean, report);
   report.holes = {};
-  const Topology now = report.sew.distance > 0
-                           ? examine_topology(index_triangles(clean), clean.points.size())
-                           : report.input;
   if (now.open_edges > 0 || now.nonmanifold_edges > 0) {
     meter.begin("holes");
     const std::size_t slits = close_slits(clean, options.progress);
     patch_holes(clean, options.holes, report.holes, options.progress);
     report.holes.loops += slits;
     report.holes.slits += slits;
-    join_cuts(clean, options.progress);
+    join_copies(clean, now, options);
   }
   return clean;
 }
@@ -102,8 +106,10 @@ CleanSoup close_soup(const TriangleSoup& soup, const RepairOptions& options, Rep
   CleanSoup clean = clean_soup(soup, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
   const std::optional<TriangleSoup> layered = bring_layers_together(soup, clean, options.progress);
-  if (layered) clean = clean_soup(*layered, report.clean, options.progress);
-  return close_clean(std::move(clean), layered ? *layered : soup, options, report, meter);
+  if (!layered) return close_clean(std::move(clean), report.input, soup, options, report, meter);
+  clean = clean_soup(*layered, report.clean, options.progress);
+  const Topology now = examine_topology(index_triangles(clean), clean.points.size());
+  return close_clean(std::move(clean), now, *layered, options, report, meter);
 }
 
 CleanSoup close_surface(const TriangleSoup& mesh, const RepairOptions& options,
@@ -112,7 +118,7 @@ CleanSoup close_surface(const TriangleSoup& mesh, const RepairOptions& options,
   CleanSoup clean = clean_surface(mesh, report.clean, options.progress);
   report.input = examine_topology(index_triangles(clean), clean.points.size());
   if (!zip_edges(clean, options.progress)) {
-    return close_clean(std::move(clean), mesh, options, report, meter);
+    return close_clean(std::move(clean), report.input, mesh, options, report, meter);
   }
   report.input = examine_topology(index_triangles(clean), clean.points.size());
   report.sew = {};
