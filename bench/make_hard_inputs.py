@@ -17,7 +17,9 @@ sys.pycache_prefix = os.devnull
 from hard_inputs import walls  # noqa: E402
 from hard_inputs.cars import car_case  # noqa: E402
 from hard_inputs.command_line import add_seed, make_parser  # noqa: E402
+from hard_inputs.layers import SHAPES as LAYERED, WAYS, layers_case  # noqa: E402
 from hard_inputs.patches import SHAPES as PATCHES, patches_case  # noqa: E402
+from hard_inputs.scenes import BODIES, PLACES, scene_case  # noqa: E402
 from hard_inputs.sheets import GARMENTS, cards_case, garment_case  # noqa: E402
 from hard_inputs.soups import SHAPES as SOUPS, soup_case  # noqa: E402
 
@@ -36,7 +38,8 @@ The same options make the same files. Exit codes: 0 fine, 2 wrong usage, 6 a fil
 # Family: its function of a number and a source of chance, and what its options are called there.
 FAMILIES = {"walls": (walls.walls_case, ("shape", "holes", "size")), "soups": (soup_case, ("shape", "noise")),
             "patches": (patches_case, ("shape",)), "cards": (cards_case, ("cards",)),
-            "garments": (garment_case, ("shape",)), "cars": (car_case, ("panels",))}
+            "garments": (garment_case, ("shape",)), "cars": (car_case, ("panels",)),
+            "layers": (layers_case, ("shape", "way")), "scenes": (scene_case, ("shape", "place"))}
 
 
 def case_of(family, number, seed=0, **options):
@@ -94,6 +97,12 @@ def parser():
     garments.add_argument("--shape", choices=list(GARMENTS), help="the garment (default: in turn)")
     cars = add_family(commands, "cars", "bodies of panels that overlap")
     cars.add_argument("--panels", type=int, help="a side of each of six faces (default: 1, 2, 3 in turn)")
+    layers = add_family(commands, "layers", "two-sided bodies and sheets: each face has a copy that faces the other way")
+    layers.add_argument("--shape", choices=LAYERED, help="the body (default: in turn)")
+    layers.add_argument("--way", choices=WAYS, help="how the copy differs (default: in turn)")
+    scenes = add_family(commands, "scenes", "bodies by the ground, an open sheet")
+    scenes.add_argument("--shape", choices=BODIES, help="the body (default: in turn)")
+    scenes.add_argument("--place", choices=PLACES, help="where it is (default: in turn)")
     add_family(commands, "vessels", "a bust, a mug, a bottle and a bell, for --seal", 0)
     return main
 

@@ -152,8 +152,8 @@ ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
     body(options, run, findings);
     return ExitCode::done;
   });
-  if (!findings.withheld) print_summary(run, findings);
   warn_of_findings(findings);
+  if (!findings.withheld) print_summary(run, findings);
   return verdict(run, findings);
 }
 

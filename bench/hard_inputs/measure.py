@@ -15,12 +15,13 @@ from .meshes import read_off, write_off
 class Outcome:
     """What one run gave. `mesh` is nothing where none was written."""
 
-    def __init__(self, code, report, mesh, data, seconds):
+    def __init__(self, code, report, mesh, data, seconds, said=""):
         self.code = code
         self.report = report
         self.mesh = mesh
         self.data = data  # the bytes of the file
         self.seconds = seconds
+        self.said = said  # on standard error
 
     def certified(self):
         return self.code == 0
@@ -64,6 +65,17 @@ class Runner:
         if not out.exists():
             return Outcome(done.returncode, found, None, b"", seconds)
         return Outcome(done.returncode, found, read_off(out), out.read_bytes(), seconds)
+
+    def told(self, words, inputs):
+        """What a command line says, of a program and its arguments: IN, A and B are inputs, OUT.format is the output."""
+        with tempfile.TemporaryDirectory(prefix="meant-") as name:
+            places = dict(zip(("IN",) if len(inputs) == 1 else ("A", "B"), inputs))
+            line = [self.program.with_name(words[0]), "--report", Path(name) / "report.json"]
+            line += [Path(name) / word if word.startswith("OUT.") else places.get(word, word) for word in words[1:]]
+            done = subprocess.run([str(word) for word in line], capture_output=True, check=False, text=True)
+            report = Path(name) / "report.json"
+            found = json.loads(report.read_text()) if report.exists() else {}
+            return Outcome(done.returncode, found, None, b"", 0, done.stderr)
 
     def beside(self, case, tool):
         """What a tool makes of a case: whether it is valid, how far it is off, triangles, seconds. Nothing if it is not built."""

@@ -38,6 +38,9 @@ class Truths(unittest.TestCase):
         for family in FAMILIES:
             for number in range(8):
                 case = case_of(family, number)
+                if case.truth.get("code") == 5:
+                    self.assertIsNone(case.solid)
+                    continue
                 if case.solid is None:
                     walls_volume = case.truth["area"] * case.truth["thickness"]
                     self.assertGreater(walls_volume, 0)

@@ -24,6 +24,11 @@ inline void append(TriangleSoup& soup, const TriangleSoup& other) {
   }
 }
 
+inline TriangleSoup together(TriangleSoup soup, const TriangleSoup& other) {
+  append(soup, other);
+  return soup;
+}
+
 inline TriangleSoup moved(TriangleSoup soup, const Vec3d& by) {
   for (Vec3d& p : soup.points) p += by;
   return soup;
@@ -142,6 +147,14 @@ inline Eigen::Matrix3d random_rotation(Random& random) {
   Eigen::Quaterniond q(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1),
                        random.real(-1, 1));
   return q.normalized().toRotationMatrix();
+}
+
+// Turned about, and moved away from the origin.
+inline TriangleSoup placed(const TriangleSoup& soup, std::uint64_t seed) {
+  Random random(seed);
+  const Eigen::Matrix3d turn = random_rotation(random);
+  const Vec3d by(random.real(-9, 9), random.real(-9, 9), random.real(-9, 9));
+  return moved(transformed(soup, turn), by);
 }
 
 // Turned cubes with centres in a unit cube. Their edges shrink with their number, so that each

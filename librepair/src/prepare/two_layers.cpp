@@ -276,6 +276,7 @@ class PartsOnBothSides {
   }
 
   void add_doubled(TriangleId t, double area) { doubled_[part_of(t)] += area; }
+  void leave_out_part_of(TriangleId t) { doubled_[part_of(t)] = 0; }
   [[nodiscard]] bool has_both(TriangleId t) const {
     return doubled_[part_of(t)] >= kLeastOfPart * area_[part_of(t)];
   }
@@ -292,21 +293,43 @@ class PartsOnBothSides {
   std::vector<double> area_, doubled_;  // of each part
 };
 
-// Of each point, whether it is a corner of faces that are there both ways round.
+// Of each point, whether corners of one triangle became one there: of a wall between two layers.
+std::vector<char> points_of_walls(const CleanSoup& clean, const Firsts& firsts) {
+  std::vector<char> is_of_wall(clean.points.size(), 0);
+  for (const Triangle& t : clean.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const PointId a = firsts[t.corners[k]], b = firsts[t.corners[(k + 1) % 3]];
+      if (a == b) is_of_wall[a.index()] = 1;
+    }
+  }
+  return is_of_wall;
+}
+
+// Of each point, whether it is a corner of faces that are there both ways round; not where walls
+// between the layers make them a solid, however thin.
 std::vector<char> points_on_both_layers(const CleanSoup& joined, const CleanSoup& clean,
-                                        const PointsOnGrid& on_grid) {
+                                        const PointsOnGrid& on_grid, const Firsts& firsts) {
   const auto is_doubled = [&](TriangleId t) { return joined.triangles[t].winding == 0; };
   PartsOnBothSides parts(joined);
   for (TriangleId t(0u); t < joined.triangles.end_id(); ++t.value) {
     if (is_doubled(t)) parts.add_doubled(t, vector_area_of(joined, t).norm());
   }
+  const auto for_each_point = [&](TriangleId t, auto&& look_at) {
+    for (const PointId corner : joined.triangles[t].corners) {
+      const PointId p = on_grid.find(joined.points[corner]);
+      if (p.valid()) look_at(p.index());
+    }
+  };
+  const std::vector<char> is_of_wall = points_of_walls(clean, firsts);
+  for (TriangleId t(0u); t < joined.triangles.end_id(); ++t.value) {
+    for_each_point(t, [&](std::size_t p) {
+      if (is_of_wall[p] != 0) parts.leave_out_part_of(t);
+    });
+  }
   std::vector<char> is_on_both(clean.points.size(), 0);
   for (TriangleId t(0u); t < joined.triangles.end_id(); ++t.value) {
     if (!is_doubled(t) || !parts.has_both(t)) continue;
-    for (const PointId corner : joined.triangles[t].corners) {
-      const PointId p = on_grid.find(joined.points[corner]);
-      if (p.valid()) is_on_both[p.index()] = 1;
-    }
+    for_each_point(t, [&](std::size_t p) { is_on_both[p] = 1; });
   }
   return is_on_both;
 }
@@ -333,7 +356,7 @@ void drop_copies_of_little(const CleanSoup& soup, const std::vector<Face>& faces
 
 }  // namespace
 
-bool join_cuts(CleanSoup& soup, ProgressObserver* progress) {
+void join_cuts(CleanSoup& soup, ProgressObserver* progress) {
   const std::vector<Face> faces = FaceFinder(soup, progress).run();
   std::vector<Copies> copies;
   for (std::uint32_t first = 0, last = 0; first < faces.size(); first = last) {
@@ -357,7 +380,6 @@ bool join_cuts(CleanSoup& soup, ProgressObserver* progress) {
     if (dropped[t] == 0) soup.triangles[TriangleId(kept++)] = soup.triangles[TriangleId(t)];
   }
   soup.triangles.resize(kept);
-  return !copies.empty();
 }
 
 std::optional<TriangleSoup> bring_layers_together(const TriangleSoup& soup, const CleanSoup& clean,
@@ -371,7 +393,7 @@ std::optional<TriangleSoup> bring_layers_together(const TriangleSoup& soup, cons
   CleanSoup joined = clean_soup(moved_to_firsts(soup, clean, on_grid, firsts, chosen), clean.grid,
                                 report, progress);
   join_cuts(joined, progress);
-  chosen = points_on_both_layers(joined, clean, on_grid);
+  chosen = points_on_both_layers(joined, clean, on_grid, firsts);
   if (!any_joined(firsts, chosen)) return std::nullopt;
   return moved_to_firsts(soup, clean, on_grid, firsts, chosen);
 }

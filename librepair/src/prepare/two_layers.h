@@ -14,13 +14,13 @@ namespace meshrepair::internal {
 // Copies of a face that are cut into triangles along other diagonals become copies of the first:
 // their triangles go, and those of the first wind as all of them together. A face is the triangles
 // between edges at which the surface does not simply go on; it is nearly flat and has no corner
-// inside. Returns
-// whether there were any.
-bool join_cuts(CleanSoup& soup, ProgressObserver* progress);
+// inside. Copies stay in parts of which hardly anything is there twice.
+void join_cuts(CleanSoup& soup, ProgressObserver* progress);
 
 // The soup, with the corners of a second layer moved to those of the first where they are apart by
-// rounding alone and then make faces of one layer faces of the other, turned round. `clean` is the
-// soup on the grid. Nothing where there is no second layer.
+// rounding alone and then make faces of one layer faces of the other, turned round. Layers with
+// walls between them are no such layers, but a thin solid. `clean` is the soup on the grid. Nothing
+// where there is no second layer.
 [[nodiscard]] std::optional<TriangleSoup> bring_layers_together(const TriangleSoup& soup,
                                                                 const CleanSoup& clean,
                                                                 ProgressObserver* progress);

@@ -27,11 +27,6 @@ RepairResult repaired(const TriangleSoup& soup, Precision precision) {
   return repair(soup, options);
 }
 
-TriangleSoup together(TriangleSoup soup, const TriangleSoup& other) {
-  append(soup, other);
-  return soup;
-}
-
 const TriangleSoup lid = box({0.25, 0.25, 1 + kSlit}, {0.75, 0.75, 2});
 const TriangleSoup plate = box({-0.5, -0.5, 0.5}, {1.5, 1.5, 0.5 + kSlit});
 
