@@ -37,6 +37,24 @@ std::optional<double> parse_number(std::string_view word) {
 
 std::optional<std::size_t> parse_count(std::string_view word) { return parsed<std::size_t>(word); }
 
+std::optional<std::pair<double, bool>> distance_in(std::string_view word) {
+  const bool is_share = word.ends_with('%');
+  if (is_share) word.remove_suffix(1);
+  const std::optional<double> value = parse_number(word);
+  if (!value || !std::isfinite(*value) || *value < 0) return {};
+  return std::pair(is_share ? *value / 100 : *value, is_share);
+}
+
+std::optional<std::pair<double, bool>> length_in(std::string_view word) {
+  const auto length = distance_in(word);
+  return length && length->first > 0 ? length : std::nullopt;
+}
+
+std::string why_no_length(const std::string& word) {
+  return length_in(word) ? std::string()
+                         : word + " is no length: a number above 0, or one with a % behind it";
+}
+
 WhyNot number_between(double least, double most) {
   return [least, most](const std::string& word) {
     const std::optional<double> number = parse_number(word);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "common/command_line.h"
 
@@ -17,6 +18,15 @@ namespace meshrepair {
 
 // Digits alone.
 [[nodiscard]] std::optional<std::size_t> parse_count(std::string_view word);
+
+// A length from 0 on, and whether it is a share, as 1% is; nothing where the word says none.
+[[nodiscard]] std::optional<std::pair<double, bool>> distance_in(std::string_view word);
+
+// The same above 0.
+[[nodiscard]] std::optional<std::pair<double, bool>> length_in(std::string_view word);
+
+// For check() of an option: an empty text where the word is a length.
+[[nodiscard]] std::string why_no_length(const std::string& word);
 
 // For check() of an option: what says why a word is no such number.
 [[nodiscard]] WhyNot number_between(double least,

@@ -1,13 +1,16 @@
 #include "common/point_steps.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/logger.h>
 
 #include <base/error.h>
+#include <scan/repair_on_base.h>
 
 #include "common/command_line.h"
 #include "common/logging.h"
@@ -122,21 +125,51 @@ PointSoup triangulate_stage(const PointCloud& cloud, PointSoupOptions options, R
   return make_point_soup(cloud, options, findings.point_soup.emplace());
 }
 
-void add_point_repair_options(CommandLine& app, PointOptions& options) {
-  app.add_flag("--points", options.as_points,
-               "Use only the points of a mesh, as if it had no faces")
-      ->group("Points");
-  app.add_flag("--base", options.repair.base,
-               "Close an open scan, such as a terrain, by walls down to a floor")
+namespace {
+
+void add_base_options(CommandLine& app, RepairPointsOptions& options) {
+  ScanBaseOptions& base = options.scan_base;
+  app.add_flag("--base", options.base,
+               "Close an open scan or mesh, such as a terrain, by walls down to a floor")
       ->group("Points");
   app.add_option_function(
-         "--up",
-         [&options](const std::string& axis) { options.repair.scan_base.axis = axis[0] - 'x'; },
+         "--base-depth",
+         [&options, &base](const std::string& word) {
+           options.base = true;
+           std::tie(base.depth, base.is_share) = length_in(word).value_or(std::pair(0.0, false));
+         },
+         "How far the floor is below the lowest point, in the units of IN, or with % a share\n"
+         "of its bounding box's diagonal")
+      ->check(why_no_length)
+      ->type_name("X|X%")
+      ->default_str("5%")
+      ->group("Points");
+  app.add_option_function(
+         "--base-at",
+         [&options, &base](const std::string& word) {
+           options.base = true;
+           base.floor = parse_number(word);
+         },
+         "Where the floor is along the axis that points up, in the units of IN")
+      ->check(number_between(std::numeric_limits<double>::lowest()))
+      ->type_name("X")
+      ->group("Points");
+  app.add_option_function(
+         "--up", [&base](const std::string& axis) { base.axis = axis[0] - 'x'; },
          "The axis that points up from the floor: x, y or z")
       ->check(is_one_of({"x", "y", "z"}))
       ->type_name("NAME")
       ->default_str("z")
       ->group("Points");
+}
+
+}  // namespace
+
+void add_point_repair_options(CommandLine& app, PointOptions& options) {
+  app.add_flag("--points", options.as_points,
+               "Use only the points of a mesh, as if it had no faces")
+      ->group("Points");
+  add_base_options(app, options.repair);
   add_point_options(app, options.repair.soup);
   PointAdviceOptions& advice = options.repair.advice;
   app.add_flag_callback(
@@ -165,9 +198,6 @@ AnySoup read_any_stage(const PointOptions& options, const ReadOptions& reading, 
     input.cloud = keep(std::move(*found.points), findings);
     return input;
   }
-  if (options.repair.base) {
-    throw UsageError("--base: is for points; --points takes those of a mesh");
-  }
   keep_read_report(std::move(found.mesh->report), findings);
   input.soup = std::move(found.mesh->soup);
   input.attributes = std::move(found.mesh->attributes);
@@ -190,7 +220,11 @@ void keep_point_report(const RepairPointsReport& report, Findings& findings) {
 
 Surface repair_any(AnySoup& input, const PointOptions& points, const RepairOptions& options,
                    Run& run, Findings& findings) {
-  if (!input.cloud) return repair(input.soup, options, findings.repair);
+  if (!input.cloud) {
+    if (!points.repair.base) return repair(input.soup, options, findings.repair);
+    return repair_on_base(input.soup, points.repair.scan_base, options,
+                          findings.scan_base.emplace(), findings.repair);
+  }
   RepairPointsOptions point_options = points.repair;
   point_options.repair = options;
   point_options.soup.most_triangles = run.options.max_triangles;

@@ -30,10 +30,12 @@ Surface repair_or_advise(AnySoup& input, const PointOptions& points, const Repai
 }
 
 // Those that are in the units of IN.
-void scale_lengths(double factor, RepairOptions& options) {
+void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base) {
   if (!options.sew.is_share) options.sew.distance *= factor;
   if (!options.seal.is_share) options.seal.size *= factor;
   if (!options.thicken.is_share) options.thicken.thickness *= factor;
+  if (!base.is_share) base.depth *= factor;
+  if (base.floor) *base.floor *= factor;
 }
 
 // Of points, and of sheets that get walls, several soups are tried.
@@ -100,14 +102,17 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   const Attributes given = is_shown ? input.attributes : Attributes();
   input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
-  scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options);
+  PointOptions points = command.points;
+  scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options,
+                points.repair.scan_base);
   findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   fit_to_input(input, command, repair_options);
   if (!input.scene.meshes.empty()) {
+    if (points.repair.base) throw UsageError("--base: is not for objects one by one");
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
-  const Surface surface = repair_or_advise(input, command.points, repair_options, run, findings);
+  const Surface surface = repair_or_advise(input, points, repair_options, run, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   const Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);

@@ -89,21 +89,6 @@ std::string why_not_kept(const std::string& word) {
                        : word + " is none of all, outer, largest, and a number from 1 on";
 }
 
-// A length from 0 on, and whether it is a share; nothing where the word says none.
-std::optional<std::pair<double, bool>> distance_in(std::string_view word) {
-  const bool is_share = word.ends_with('%');
-  if (is_share) word.remove_suffix(1);
-  const std::optional<double> value = parse_number(word);
-  if (!value || !std::isfinite(*value) || *value < 0) return {};
-  return std::pair(is_share ? *value / 100 : *value, is_share);
-}
-
-// The same above 0.
-std::optional<std::pair<double, bool>> length_in(std::string_view word) {
-  const auto length = distance_in(word);
-  return length && length->first > 0 ? length : std::nullopt;
-}
-
 // For check(): an empty text where the word is a way to sew.
 std::string why_no_sewing(const std::string& word) {
   const bool is_one = word == "auto" || word == "none" || distance_in(word);
@@ -112,13 +97,7 @@ std::string why_no_sewing(const std::string& word) {
              : word + " is none of auto, none, and a distance from 0 on, maybe with a % behind it";
 }
 
-// For check(): an empty text where the word is a length.
-std::string why_no_length(const std::string& word) {
-  return length_in(word) ? std::string()
-                         : word + " is no length: a number above 0, or one with a % behind it";
-}
-
-// The same, or auto, or none.
+// For check(): an empty text where the word is a length, auto or none.
 std::string why_no_size_or_word(const std::string& word) {
   return word == "auto" || word == "none" ? std::string() : why_no_length(word);
 }

@@ -121,6 +121,14 @@ std::string followed_advice(const std::vector<PointTry>& tries) {
   return fmt::format("the points enclose nothing as they are; took {}", joined(options));
 }
 
+void describe_base(const Findings& findings, Lines& lines) {
+  if (!findings.scan_base) return;
+  lines.add("base",
+            fmt::format("{} on a floor at {:.6g}, walls of {}",
+                        number_of(findings.scan_base->parts, "part"), findings.scan_base->floor,
+                        number_of(findings.scan_base->skirt_triangles, "triangle")));
+}
+
 void describe_points(const Findings& findings, Lines& lines) {
   const PointReadReport& read = *findings.points_read;
   const PointSoupReport& soup = *findings.point_soup;
@@ -136,11 +144,6 @@ void describe_points(const Findings& findings, Lines& lines) {
     lines.add("advice", advice);
   }
   lines.add("meshed", local_triangles(soup));
-  if (!findings.scan_base) return;
-  lines.add("base",
-            fmt::format("{} on a floor at {:.6g}, walls of {}",
-                        number_of(findings.scan_base->parts, "part"), findings.scan_base->floor,
-                        number_of(findings.scan_base->skirt_triangles, "triangle")));
 }
 
 void describe_input(const Findings& findings, Lines& lines) {
@@ -160,6 +163,7 @@ void describe_input(const Findings& findings, Lines& lines) {
                           number_of(findings.repair.input.parts, "part")));
     lines.add("wrong", troubles_of(findings));
   }
+  describe_base(findings, lines);
   if (findings.tree_read) {
     lines.add("read", fmt::format("{}: tree of {}, {}", findings.input_name(),
                                   number_of(findings.tree_read->triangles, "triangle"),

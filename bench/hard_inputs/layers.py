@@ -108,7 +108,7 @@ def layers_of(faces, way, random):
     if way in ("diagonals", "n-gons", "bent"):
         return faces.mesh(), other.mesh()
     if way == "partly":
-        return faces.mesh(), other.of(random.random(len(other.polygons)) < random.choice([0.01, 0.05, 0.2, 0.5, 0.9])).mesh(by_chance)
+        return faces.mesh(), other.of(random.random(len(other.polygons)) < random.choice([0.01, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9])).mesh(by_chance)
     if way == "missing":
         return faces.mesh(), other.of(random.permutation(len(other.polygons)) >= int(random.integers(1, 4))).mesh(by_chance)
     if way == "noise":

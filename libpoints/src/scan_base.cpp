@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <span>
+#include <string>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include <base/decimal.h>
 #include <base/disjoint_sets.h>
 #include <base/error.h>
 #include <mesh/edge_table.h>
@@ -36,6 +39,11 @@ struct ScanBox {
     return size.norm();
   }
 };
+
+std::string text_of(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), write_decimal(text.data(), text.data() + text.size(), number).ptr};
+}
 
 class BaseBuilder {
  public:
@@ -144,7 +152,7 @@ class BaseBuilder {
     for (const auto& triangle : result_.triangles) {
       for (const std::uint32_t p : triangle) box.add(soup_.points[p]);
     }
-    report_.floor = box.low[options_.axis] - options_.depth * (box.high - box.low).norm();
+    report_.floor = floor_below(box);
     for (const RimEdge& edge : edges_) {
       const auto outer = outer_.find(edge.part);
       if (outer == outer_.end() || outer->second != edge.rim) continue;
@@ -154,6 +162,14 @@ class BaseBuilder {
       result_.triangles.push_back({edge.to, from, to});
       report_.skirt_triangles += 2;
     }
+  }
+
+  [[nodiscard]] double floor_below(const ScanBox& box) const {
+    const double low = box.low[options_.axis];
+    const double unit = options_.is_share ? (box.high - box.low).norm() : 1;
+    const double floor = options_.floor.value_or(low - options_.depth * unit);
+    if (floor < low) return floor;
+    throw UsageError("the floor is to be below the lowest point, which is at " + text_of(low));
   }
 
   // The point of the floor below one.

@@ -28,6 +28,18 @@ def binary_stl(triangles, promised):
     return b"cut".ljust(80) + struct.pack("<I", promised) + b"".join(facets)
 
 
+def terrain_stl():
+    """128 triangles over hills from -0.1 to 0.1, 8 by 8 quads."""
+    def place(i, j):
+        return (float(i), float(j), 0.1 * math.sin(i) * math.cos(j))
+    facets = []
+    for i in range(8):
+        for j in range(8):
+            a, b, c, d = place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)
+            facets += [struct.pack("<12fH", 0, 0, 0, *a, *b, *c, 0), struct.pack("<12fH", 0, 0, 0, *a, *c, *d, 0)]
+    return b"terrain".ljust(80) + struct.pack("<I", len(facets)) + b"".join(facets)
+
+
 def coloured_stl():
     """Two triangles with an edge in common, of different colours."""
     places = ((0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0))
@@ -303,6 +315,7 @@ def main():
         "pierced_can.obj": pierced_can(),
         "undefined.obj": b"mtllib textured.mtl\nusemtl tin\n" + tetrahedron(f1="f 1 3 2\nusemtl wood"),
         "coloured_sides.stl": coloured_stl(),
+        "terrain.stl": terrain_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
         "grain.png": png(),
         "huge.obj": tetrahedron(b="v 1e12 0 0", c="v 0 1e12 0", d="v 0 0 1e12"),

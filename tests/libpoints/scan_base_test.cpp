@@ -122,10 +122,28 @@ TEST(ScanBase, WhatIsOpenAtAHoleStandsOnNothing) {
   EXPECT_EQ(on_base.triangles.size(), soup.triangles.size() + base.skirt_triangles);
 }
 
+TEST(ScanBase, StandsWhereItIsTold) {
+  ScanBaseReport base;
+  ScanBaseOptions options;
+  options.depth = 3;
+  options.is_share = false;
+  double low = 0;
+  for (const Vec3d& p : terrain(8, nowhere).points) low = std::min(low, p.z());
+  (void)with_base(terrain(8, nowhere), options, base);
+  EXPECT_EQ(base.floor, low - 3);
+  options.floor = -0.5;
+  (void)with_base(terrain(8, nowhere), options, base);
+  EXPECT_EQ(base.floor, -0.5);
+  options.floor = low;
+  EXPECT_THROW((void)with_base(terrain(8, nowhere), options, base), UsageError);
+}
+
 TEST(ScanBase, WhatIsClosedHasNone) {
   ScanBaseReport base;
   EXPECT_THROW((void)with_base(testing::cube(), {}, base), NoSolidError);
-  EXPECT_THROW((void)with_base(terrain(3, nowhere), {.axis = 3}, base), UsageError);
+  ScanBaseOptions options;
+  options.axis = 3;
+  EXPECT_THROW((void)with_base(terrain(3, nowhere), options, base), UsageError);
 }
 
 }  // namespace

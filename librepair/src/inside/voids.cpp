@@ -43,8 +43,10 @@ Regions find_regions(const CellGraph& graph, ProgressObserver* progress, Belongs
 
 std::size_t fill_voids(const CellGraph& graph, std::vector<char>& solid,
                        ProgressObserver* progress) {
+  // A chamber whose walls cancelled each other has none.
   const Regions regions = find_regions(
-      graph, progress, [&](CellId c) { return solid[c.index()] == 0; },
+      graph, progress,
+      [&](CellId c) { return solid[c.index()] == 0 && !graph.links_of(c).empty(); },
       [](const Link&) { return true; });
   std::vector<char> sealed(regions.count, 1);
   for (CellId c(0u); c.index() < graph.cells(); ++c.value) {

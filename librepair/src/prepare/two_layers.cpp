@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,7 +31,7 @@ constexpr double kNearlyFlat = 0.9;
 constexpr double kLyingOnEachOther = 0.7;
 
 // Of the area of a part, what copies of faces have to be for it to have two sides.
-constexpr double kLeastOfPart = 0.1;
+constexpr double kLeastOfPart = 0.4;
 
 // In grid steps: layers whose corners are farther apart are two surfaces. Of the input's own
 // rounding, so many are as near.
@@ -265,13 +266,15 @@ TriangleSoup moved_to_firsts(const TriangleSoup& soup, const CleanSoup& clean,
 }
 
 // A surface with two sides has them nearly everywhere. Elsewhere two pieces of a surface lie on
-// each other by chance, and are left as they are.
+// each other by chance, and are left as they are. What is there both ways round is known.
 class PartsOnBothSides {
  public:
   explicit PartsOnBothSides(const CleanSoup& soup)
       : part_of_(parts_of(soup)), area_(part_of_.size(), 0), doubled_(part_of_.size(), 0) {
     for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
-      area_[part_of(t)] += vector_area_of(soup, t).norm();
+      const double area = vector_area_of(soup, t).norm();
+      area_[part_of(t)] += area;
+      if (soup.triangles[t].winding == 0) add_doubled(t, area);
     }
   }
 
@@ -311,9 +314,6 @@ std::vector<char> points_on_both_layers(const CleanSoup& joined, const CleanSoup
                                         const PointsOnGrid& on_grid, const Firsts& firsts) {
   const auto is_doubled = [&](TriangleId t) { return joined.triangles[t].winding == 0; };
   PartsOnBothSides parts(joined);
-  for (TriangleId t(0u); t < joined.triangles.end_id(); ++t.value) {
-    if (is_doubled(t)) parts.add_doubled(t, vector_area_of(joined, t).norm());
-  }
   const auto for_each_point = [&](TriangleId t, auto&& look_at) {
     for (const PointId corner : joined.triangles[t].corners) {
       const PointId p = on_grid.find(joined.points[corner]);
@@ -339,6 +339,29 @@ struct Copies {
   std::uint32_t first, last;
 };
 
+// Of all together, in the direction of the first; nothing where a face winds otherwise in one place
+// than in another.
+std::optional<std::int32_t> winding_of(const CleanSoup& soup, const std::vector<Face>& faces,
+                                       const Copies& copies) {
+  std::int32_t sum = 0;
+  for (std::uint32_t f = copies.first; f < copies.last; ++f) {
+    const auto winding = [&](std::uint32_t t) {
+      const Triangle& triangle = soup.triangles[TriangleId(t)];
+      const std::int32_t count = std::abs(triangle.winding) * triangle.layers;
+      return vector_area_of(soup, TriangleId(t)).dot(faces[copies.first].vector_area) > 0 ? count
+                                                                                          : -count;
+    };
+    const std::vector<std::uint32_t>& triangles = faces[f].triangles;
+    const std::int32_t first = winding(triangles.front());
+    if (std::any_of(triangles.begin(), triangles.end(),
+                    [&](std::uint32_t t) { return winding(t) != first; })) {
+      return std::nullopt;
+    }
+    sum += first;
+  }
+  return sum;
+}
+
 void drop_copies_of_little(const CleanSoup& soup, const std::vector<Face>& faces,
                            std::vector<Copies>& copies) {
   if (copies.empty()) return;
@@ -360,20 +383,20 @@ void join_cuts(CleanSoup& soup, ProgressObserver* progress) {
   const std::vector<Face> faces = FaceFinder(soup, progress).run();
   std::vector<Copies> copies;
   for (std::uint32_t first = 0, last = 0; first < faces.size(); first = last) {
-    for (last = first + 1; last < faces.size() && faces[last].outline == faces[first].outline;)
+    for (last = first + 1; last < faces.size() && faces[last].outline == faces[first].outline;) {
       ++last;
-    if (last > first + 1) copies.push_back({first, last});
+    }
+    if (last > first + 1 && winding_of(soup, faces, {first, last}) == 0) {
+      copies.push_back({first, last});
+    }
   }
   drop_copies_of_little(soup, faces, copies);
   std::vector<char> dropped(soup.triangles.size(), 0);
   for (const auto& [first, last] : copies) {
-    bool any_opposite = false;
+    for (const std::uint32_t t : faces[first].triangles) soup.triangles[TriangleId(t)].winding = 0;
     for (std::uint32_t f = first + 1; f < last; ++f) {
-      any_opposite |= faces[f].vector_area.dot(faces[first].vector_area) < 0;
       for (const std::uint32_t t : faces[f].triangles) dropped[t] = 1;
     }
-    if (!any_opposite) continue;
-    for (const std::uint32_t t : faces[first].triangles) soup.triangles[TriangleId(t)].winding = 0;
   }
   std::size_t kept = 0;
   for (std::size_t t = 0; t < dropped.size(); ++t) {

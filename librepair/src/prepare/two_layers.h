@@ -11,8 +11,9 @@
 
 namespace meshrepair::internal {
 
-// Copies of a face that are cut into triangles along other diagonals become copies of the first:
-// their triangles go, and those of the first wind as all of them together. A face is the triangles
+// Copies of a face that are cut into triangles along other diagonals become copies of the first
+// where as many face either way: their triangles go, and those of the first wind around nothing,
+// as clean_soup() has triangles that are there both ways round. A face is the triangles
 // between edges at which the surface does not simply go on; it is nearly flat and has no corner
 // inside. Copies stay in parts of which hardly anything is there twice.
 void join_cuts(CleanSoup& soup, ProgressObserver* progress);

@@ -26,5 +26,15 @@ TEST(Voids, AreVoidsWithALooseSheetInThem) {
   EXPECT_EQ(voids.marked, (std::vector<char>{0, 0, 1, 1}));
 }
 
+// Space, a wall around a void, and what no wall is left of.
+TEST(Voids, ThatAreFilledHaveWalls) {
+  const TriangleId outer(0u), wall(1u);
+  const CellGraph graph({link_between(0, 1, outer), link_between(1, 2, wall)}, {}, {0, 1, 1, 0},
+                        {1, 0, 0, 0});
+  std::vector<char> solid = {0, 1, 0, 0};
+  EXPECT_EQ(fill_voids(graph, solid, nullptr), 1u);
+  EXPECT_EQ(solid[2], 1);
+}
+
 }  // namespace
 }  // namespace meshrepair::internal

@@ -1,0 +1,59 @@
+// The triangles of a terrain stay as they are on walls and a floor.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <base/error.h>
+#include <scan/repair_on_base.h>
+
+#include "open_surfaces.h"
+#include "shapes.h"
+#include "triangles_by_place.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+// As STL has it: no corner belongs to two triangles.
+TriangleSoup unwelded(const TriangleSoup& soup) {
+  TriangleSoup apart;
+  for (const auto& t : soup.triangles) {
+    const auto base = static_cast<std::uint32_t>(apart.points.size());
+    for (const std::uint32_t p : t) apart.points.push_back(soup.points[p]);
+    apart.triangles.push_back({base, base + 1, base + 2});
+  }
+  return apart;
+}
+
+TEST(RepairOnBase, KeepsAllTriangles) {
+  for (const TriangleSoup& terrain : {wavy_sheet(9), unwelded(wavy_sheet(9))}) {
+    ScanBaseOptions base;
+    base.floor = -2;
+    ScanBaseReport stands;
+    RepairReport report;
+    const Surface solid = repair_on_base(terrain, base, {}, stands, report);
+    EXPECT_TRUE(report.certify.passed());
+    TriangleSoup given;
+    given.points = solid.mesh.points;
+    for (std::size_t t = 0; t < solid.source.size(); ++t) {
+      if (solid.source[t] == Surface::kNoSource) continue;
+      EXPECT_LT(solid.source[t], terrain.triangles.size());
+      given.triangles.push_back(solid.mesh.triangles[t]);
+    }
+    EXPECT_EQ(triangles_by_place(given), triangles_by_place(terrain));
+    EXPECT_EQ(stands.floor, -2);
+    // The hills average to nothing.
+    EXPECT_NEAR(report.output_volume, 16 * 2, 1);
+  }
+}
+
+TEST(RepairOnBase, IsNothingForASolid) {
+  ScanBaseReport stands;
+  RepairReport report;
+  EXPECT_THROW((void)repair_on_base(cube(), {}, {}, stands, report), NoSolidError);
+}
+
+}  // namespace
+}  // namespace meshrepair
