@@ -35,6 +35,7 @@ TEST(RepairOnBase, KeepsAllTriangles) {
     RepairReport report;
     const Surface solid = repair_on_base(terrain, base, {}, stands, report);
     EXPECT_TRUE(report.certify.passed());
+    EXPECT_EQ(report.triangles.untouched, terrain.triangles.size());
     TriangleSoup given;
     given.points = solid.mesh.points;
     for (std::size_t t = 0; t < solid.source.size(); ++t) {
