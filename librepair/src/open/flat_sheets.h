@@ -10,10 +10,6 @@
 
 namespace meshrepair::internal {
 
-// In grid units, how far a point may be from where it was meant: it was put on the grid, and may
-// have been rounded to single precision before, where all coordinates are such numbers.
-[[nodiscard]] double rounding_of(const CleanSoup& soup);
-
 // The original place of the point, in grid units.
 [[nodiscard]] Vec3d original_place(const CleanSoup& soup, PointId point);
 

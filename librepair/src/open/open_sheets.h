@@ -9,6 +9,10 @@
 
 namespace meshrepair::internal {
 
+// In grid units, how far a point may be from where it was meant: it was put on the grid, and may
+// have been rounded to single precision before, where all coordinates are such numbers.
+[[nodiscard]] double rounding_of(const CleanSoup& soup);
+
 // All triangles but those that close holes, of which there are some, are of open parts, and lie in
 // one plane but for the rounding.
 [[nodiscard]] bool is_flat_sheet(const CleanSoup& soup);

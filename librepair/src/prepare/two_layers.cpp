@@ -18,7 +18,7 @@
 #include <mesh/triangle_measures.h>
 #include <repair/orient_parts.h>
 
-#include "open/flat_sheets.h"
+#include "open/open_sheets.h"
 
 namespace meshrepair::internal {
 namespace {
