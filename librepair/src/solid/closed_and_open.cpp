@@ -29,7 +29,6 @@ bool may_be_a_void(const OrientedPart& part) {
 std::optional<ClosedAndOpen> closed_and_open_parts(const CellGraph& graph,
                                                    const Orientation& orientation,
                                                    ProgressObserver* progress) {
-  if (getenv("NOAPART")) return std::nullopt;
   const auto& parts = orientation.parts;
   const auto closed =
       std::count_if(parts.begin(), parts.end(), [](const OrientedPart& p) { return p.closed; });

@@ -107,7 +107,8 @@ class SolidFinder {
     if (!apart) return together;
     Decision decision = decide(*apart);
     const double less = made_up_area(graph, decision.labels.solid);
-    return less < kClearlyLess * made_up ? decision : together;
+    if (less < kClearlyLess * made_up) return decision;
+    return together;
   }
 
  private:
@@ -156,7 +157,7 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   report.links = graph.links().size();
   meter.begin("inside");
   Decision decision = SolidFinder(covered.complex.soup(), options).run(graph, orientation);
-  CellLabels& labels = decision.labels;
+  const CellLabels& labels = decision.labels;
   report.inside = std::move(decision.inside);
   report.open_regions = decision.open_regions;
   const double unit = covered.complex.soup().grid.unit;
@@ -166,7 +167,7 @@ CellLabels find_solid(const CoveredCells& covered, const Orientation& orientatio
   if (report.inside.solid_cells == 0) {
     throw NoSolidError(why_nothing_is_solid(report, options.holes.mode));
   }
-  return std::move(labels);
+  return std::move(decision.labels);
 }
 
 }  // namespace meshrepair::internal
