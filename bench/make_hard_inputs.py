@@ -22,6 +22,7 @@ from hard_inputs.patches import SHAPES as PATCHES, patches_case  # noqa: E402
 from hard_inputs.scenes import BODIES, PLACES, scene_case  # noqa: E402
 from hard_inputs.sheets import GARMENTS, cards_case, garment_case  # noqa: E402
 from hard_inputs.soups import SHAPES as SOUPS, soup_case  # noqa: E402
+from hard_inputs.trays import tray_case  # noqa: E402
 
 import numpy as np  # noqa: E402
 
@@ -39,7 +40,8 @@ The same options make the same files. Exit codes: 0 fine, 2 wrong usage, 6 a fil
 FAMILIES = {"walls": (walls.walls_case, ("shape", "holes", "size")), "soups": (soup_case, ("shape", "noise")),
             "patches": (patches_case, ("shape",)), "cards": (cards_case, ("cards",)),
             "garments": (garment_case, ("shape",)), "cars": (car_case, ("panels",)),
-            "layers": (layers_case, ("shape", "way")), "scenes": (scene_case, ("shape", "place"))}
+            "layers": (layers_case, ("shape", "way")), "scenes": (scene_case, ("shape", "place")),
+            "trays": (tray_case, ("heights",))}
 
 
 def case_of(family, number, seed=0, **options):
@@ -103,6 +105,8 @@ def parser():
     scenes = add_family(commands, "scenes", "bodies by the ground, an open sheet")
     scenes.add_argument("--shape", choices=BODIES, help="the body (default: in turn)")
     scenes.add_argument("--place", choices=PLACES, help="where it is (default: in turn)")
+    trays = add_family(commands, "trays", "open boxes with dividers")
+    trays.add_argument("--heights", choices=("even", "lower"), help="of the dividers (default: in turn)")
     add_family(commands, "vessels", "a bust, a mug, a bottle and a bell, for --seal", 0)
     return main
 

@@ -6,6 +6,8 @@
 #include <base/disjoint_sets.h>
 #include <base/ids.h>
 
+#include "dividers.h"
+
 namespace meshrepair::internal {
 namespace {
 
@@ -14,9 +16,11 @@ constexpr std::uint32_t kMostCompared = 32;
 
 std::vector<BorderEdge> find_border(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
                                     const EdgeTable& table) {
+  const std::vector<char> is_of_divider = find_dividers(soup, triangles, table);
   std::vector<BorderEdge> border;
   table.for_each_edge([&](std::span<const std::uint32_t> sides) {
     if (sides.size() % 2 == 0) return;
+    if (!is_of_divider.empty() && is_of_divider[sides[0]] != 0) return;
     std::int64_t layers = 0;
     for (const std::uint32_t s : sides) layers += soup.triangles[TriangleId(s / 3)].layers;
     if (sides.size() > 1 && layers % 2 == 0) return;

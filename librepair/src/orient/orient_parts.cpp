@@ -15,7 +15,7 @@
 #include <mesh/edge_table.h>
 #include <repair/orient_parts.h>
 
-#include "edge_fan.h"
+#include "common/edge_fan.h"
 #include "surface_patches.h"
 #include "turn_sets.h"
 
