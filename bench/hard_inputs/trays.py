@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .bodies import cube_grid
 from .meshes import Case, Mesh, random_turn, turned, welded
 
 TURNS = ("outward", "by chance")
@@ -57,6 +58,7 @@ def tray_case(number, random, heights=None):
         pieces = [piece[::-1] if random.random() < 0.5 else piece for piece in pieces]
     random.shuffle(pieces)
     mesh = welded(Mesh(np.concatenate(pieces), np.arange(3 * len(pieces)).reshape(-1, 3)))
-    truth = {"family": "trays", "shape": f"{columns} x {rows} compartments, dividers {heights}, turned {way}", "options": [],
-             "volume": float(np.prod(size))}
-    return Case(turned(mesh, random_turn(random)), truth)
+    truth = {"family": "trays", "shape": f"{columns} x {rows} compartments, dividers {heights}, turned {way}", "options": []}
+    solid = cube_grid(1).moved(lambda points: (points + 1) / 2 * size)
+    turn = random_turn(random)
+    return Case(turned(mesh, turn), truth, turned(solid, turn))
