@@ -209,7 +209,7 @@ class Tables:
     def meant(self):
         """Each row of the table that has a number, an exit code or a warning for its answer."""
         if self.rows is None:
-            return
+            return  # of all tables, those that need a file are left out
         print(f"## {self.rows.name}\n")
         table = []
         with open(self.rows, encoding="utf-8", newline="") as file:
@@ -302,6 +302,8 @@ def main():
     unknown = set(arguments.tables) - set(TABLES)
     if unknown:
         parser.error(f"there is no table {', '.join(sorted(unknown))}")
+    if "meant" in arguments.tables and arguments.rows is None:
+        parser.error("the table meant needs --rows FILE")
     if not (arguments.programs / "meshrepair").exists():
         parser.error(f"{arguments.programs}: has no meshrepair")
     tables = Tables(Runner(arguments.programs, jobs=arguments.jobs), arguments)

@@ -132,7 +132,7 @@ void add_base_options(CommandLine& app, RepairPointsOptions& options) {
   app.add_flag("--base", options.base,
                "Close an open scan or mesh, such as a terrain, by walls down to a floor")
       ->group("Points");
-  app.add_option_function(
+  CommandOption* depth = app.add_option_function(
          "--base-depth",
          [&options, &base](const std::string& word) {
            options.base = true;
@@ -152,6 +152,7 @@ void add_base_options(CommandLine& app, RepairPointsOptions& options) {
          },
          "Where the floor is along the axis that points up, in the units of IN")
       ->check(number_between(std::numeric_limits<double>::lowest()))
+      ->excludes(depth)
       ->type_name("X")
       ->group("Points");
   app.add_option_function(

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include <base/stage_meter.h>
 #include <points/terrain.h>
 #include <repair/drop_small_parts.h>
+#include <scan/repair_on_base.h>
 #include <scan/repair_points.h>
 
 namespace meshrepair {
@@ -201,8 +201,7 @@ class PointRepair {
     PointSolid solid;
     if (closing == Closing::base) {
       solid.soup = with_base(soup.soup, options_.scan_base, report_.scan_base.emplace());
-      options.holes.largest_share = std::numeric_limits<double>::max();
-      options.holes.largest_flat_share = std::numeric_limits<double>::max();
+      options.holes = holes_over_floor(options.holes);
     } else {
       solid.soup = soup.soup;
       options.opacity = soup.opacity();

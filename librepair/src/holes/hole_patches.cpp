@@ -104,7 +104,7 @@ class HolePatcher {
     find_rims();
     triangulate();
     judge_openings();
-    close_rings();
+    if (options_.rings) close_rings();
     if (!rings_.empty()) judge_openings();
     curve();
     add_points_of_curved();

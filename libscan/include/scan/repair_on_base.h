@@ -12,9 +12,13 @@
 
 namespace meshrepair {
 
+// How what is open on a base is closed: of any size, each loop by itself. A hole and the floor face
+// each other, and are no gap between two pieces.
+[[nodiscard]] HoleOptions holes_over_floor(HoleOptions holes);
+
 // The soup with walls and a floor (with_base()), repaired, its holes closed however large they are.
 // All its triangles stay in it; those of walls and floor have no source. Corners in one place are
-// one. Throws as with_base() and repair() do.
+// one, and so are copies of a triangle. Throws as with_base() and repair() do.
 [[nodiscard]] Surface repair_on_base(const TriangleSoup& soup, const ScanBaseOptions& base,
                                      const RepairOptions& options, ScanBaseReport& stands,
                                      RepairReport& report);
