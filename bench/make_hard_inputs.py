@@ -17,6 +17,7 @@ sys.pycache_prefix = os.devnull
 from hard_inputs import walls  # noqa: E402
 from hard_inputs.cars import car_case  # noqa: E402
 from hard_inputs.command_line import add_seed, make_parser  # noqa: E402
+from hard_inputs.hollows import MAKERS as HOLLOWS, hollow_case  # noqa: E402
 from hard_inputs.layers import SHAPES as LAYERED, WAYS, layers_case  # noqa: E402
 from hard_inputs.patches import SHAPES as PATCHES, patches_case  # noqa: E402
 from hard_inputs.scenes import BODIES, PLACES, scene_case  # noqa: E402
@@ -41,7 +42,7 @@ FAMILIES = {"walls": (walls.walls_case, ("shape", "holes", "size")), "soups": (s
             "patches": (patches_case, ("shape",)), "cards": (cards_case, ("cards",)),
             "garments": (garment_case, ("shape",)), "cars": (car_case, ("panels",)),
             "layers": (layers_case, ("shape", "way")), "scenes": (scene_case, ("shape", "place")),
-            "trays": (tray_case, ("heights",))}
+            "trays": (tray_case, ("heights",)), "hollows": (hollow_case, ("kind",))}
 
 
 def case_of(family, number, seed=0, **options):
@@ -107,6 +108,8 @@ def parser():
     scenes.add_argument("--place", choices=PLACES, help="where it is (default: in turn)")
     trays = add_family(commands, "trays", "open boxes with dividers")
     trays.add_argument("--heights", choices=("even", "lower"), help="of the dividers (default: in turn)")
+    hollows = add_family(commands, "hollows", "hollow bodies: by mistake, or on purpose")
+    hollows.add_argument("--kind", choices=list(HOLLOWS), help="of body (default: in turn)")
     add_family(commands, "vessels", "a bust, a mug, a bottle and a bell, for --seal", 0)
     return main
 

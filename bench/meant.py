@@ -43,7 +43,7 @@ SHARES = (0.001, 0.005, 0.01, 0.05)
 TURNS = 20
 # How far the volume of a family may be off: what was meant is known only so well.
 LIMITS = {"walls": TOO_FAR, "soups": 0.01, "patches": 0.05, "cards": TOO_FAR_SHEET, "garments": TOO_FAR_SHEET,
-          "cars": 0.05, "layers": 0.001, "scenes": 0.001, "trays": 0.03}
+          "cars": 0.05, "layers": 0.001, "scenes": 0.001, "trays": 0.03, "hollows": 0.01}
 
 
 class Tables:

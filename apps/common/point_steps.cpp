@@ -132,18 +132,20 @@ void add_base_options(CommandLine& app, RepairPointsOptions& options) {
   app.add_flag("--base", options.base,
                "Close an open scan or mesh, such as a terrain, by walls down to a floor")
       ->group("Points");
-  CommandOption* depth = app.add_option_function(
-         "--base-depth",
-         [&options, &base](const std::string& word) {
-           options.base = true;
-           std::tie(base.depth, base.is_share) = length_in(word).value_or(std::pair(0.0, false));
-         },
-         "How far the floor is below the lowest point, in the units of IN, or with % a share\n"
-         "of its bounding box's diagonal")
-      ->check(why_no_length)
-      ->type_name("X|X%")
-      ->default_str("5%")
-      ->group("Points");
+  CommandOption* depth =
+      app.add_option_function(
+             "--base-depth",
+             [&options, &base](const std::string& word) {
+               options.base = true;
+               std::tie(base.depth, base.is_share) =
+                   length_in(word).value_or(std::pair(0.0, false));
+             },
+             "How far the floor is below the lowest point, in the units of IN, or with % a share\n"
+             "of its bounding box's diagonal")
+          ->check(why_no_length)
+          ->type_name("X|X%")
+          ->default_str("5%")
+          ->group("Points");
   app.add_option_function(
          "--base-at",
          [&options, &base](const std::string& word) {

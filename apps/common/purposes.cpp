@@ -18,8 +18,8 @@ struct Setting {
   std::string_view value;
 };
 
-// Nothing that can be seen from outside needs to be hollow, and crumbs do not print.
-constexpr std::array kPrint = {Setting{"--seal", "auto"}, Setting{"--thicken", "auto"},
+// A void that nobody sees, and what a generator left hollow, is to be full; crumbs do not print.
+constexpr std::array kPrint = {Setting{"--seal", "double-walls"}, Setting{"--thicken", "auto"},
                                Setting{"--cavities", "fill"}, Setting{"--min-part", "1e-6"}};
 // A void is part of a body that bears a load; crumbs make elements that are far too small.
 constexpr std::array kSimulation = {Setting{"--min-part", "1e-6"}};

@@ -11,7 +11,7 @@ namespace meshrepair {
 // What the command line asks for.
 struct Purpose {
   std::string name;                     // empty: none
-  std::vector<std::string> options;     // that come of it: "--seal auto"
+  std::vector<std::string> options;     // that come of it: "--min-part 1e-6"
   std::vector<std::string> overridden;  // that were given otherwise
 };
 

@@ -102,6 +102,11 @@ std::string why_no_size_or_word(const std::string& word) {
   return word == "auto" || word == "none" ? std::string() : why_no_length(word);
 }
 
+// For check(): an empty text where the word is what --seal takes.
+std::string why_no_sealing(const std::string& word) {
+  return word == "double-walls" ? std::string() : why_no_size_or_word(word);
+}
+
 // For check(): an empty text where the word is a tolerance.
 std::string why_no_epsilon(const std::string& word) {
   const std::optional<double> value = parse_number(word);
@@ -156,13 +161,15 @@ void add_seal_option(CommandLine& app, SealOptions& seal) {
          "--seal",
          [&seal](const std::string& word) {
            seal.automatic = word == "auto";
+           seal.double_walls = word == "double-walls";
            std::tie(seal.size, seal.is_share) = length_in(word).value_or(std::pair(0.0, false));
          },
          "Close openings that a ball of this diameter cannot pass, and fill what is behind:\n"
          "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
-         "auto: narrow openings that lead into far wider spaces")
-      ->check(why_no_size_or_word)
-      ->type_name("auto|none|X|X%")
+         "  auto          narrow openings that lead into far wider spaces\n"
+         "  double-walls  pinholes of bodies that are hollow by mistake, as generators make them")
+      ->check(why_no_sealing)
+      ->type_name("auto|double-walls|none|X|X%")
       ->default_str("none")
       ->group("Repair");
 }

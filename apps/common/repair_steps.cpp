@@ -87,6 +87,17 @@ void warn_of_made_up_surface(const Findings& findings) {
       findings.input_name(), 100 * repair.closing_area / repair.output_area);
 }
 
+// What is done unasked to a solid that was one.
+void warn_of_filled_walls(const Findings& findings) {
+  const SealReport& seal = findings.repair.seal;
+  if (seal.double_walls == 0) return;
+  logger().warn(
+      "{}: {} hollow between two walls is filled, and {} up to {:.3g} wide closed; "
+      "--seal none leaves them",
+      findings.input_name(), seal.double_walls == 1 ? "what is" : "what is in several bodies",
+      number_of(seal.openings, "pinhole"), seal.size);
+}
+
 // Of what there was before `area` of it went.
 double share_of_surface(double area, const RepairReport& repair) {
   return area > 0 ? area / (area + repair.output_area) : 0;
@@ -205,6 +216,7 @@ void warn_of_findings(const Findings& findings) {
   warn_of_lost_triangles(findings);
   warn_of_lost_surface(findings);
   warn_of_made_up_surface(findings);
+  warn_of_filled_walls(findings);
   warn_of_poking_walls(findings);
   warn_of_unknown_parts(findings);
   warn_of_coarse_numbers(findings);

@@ -153,6 +153,7 @@ Json section_of(const HoleReport& holes) {
 
 Json section_of(const SealReport& seal) {
   return {{"automatic", seal.automatic},
+          {"double_walls", seal.double_walls},
           {"size", seal.size},
           {"step", seal.step},
           {"openings", seal.openings},

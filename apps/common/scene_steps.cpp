@@ -239,7 +239,7 @@ class SceneRepair {
   [[nodiscard]] std::string walls_text() const {
     std::string text;
     std::size_t meshes = 0;
-    bool any_sealed = !repair_options_.seal.wanted();
+    bool any_sealed = !repair_options_.seal.wanted() || repair_options_.seal.double_walls;
     for (const MeshOutcome& one : outcomes_) {
       const RepairReport& repair = one.findings.repair;
       any_sealed |= repair.seal.openings + repair.seal.leaks + repair.seal.cannot_cut > 0;

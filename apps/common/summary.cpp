@@ -237,7 +237,11 @@ void describe_seals(const SealReport& seal, Lines& lines) {
   if (seal.size <= 0) {
     texts.emplace_back("nothing: no narrow opening leads into a far wider space");
   } else if (seal.openings > 0) {
-    texts.push_back(fmt::format("{} below {:.6g}", number_of(seal.openings, "opening"), seal.size));
+    texts.push_back(
+        seal.double_walls > 0
+            ? fmt::format("{} of {}, up to {:.3g} wide", number_of(seal.openings, "pinhole"),
+                          number_of(seal.double_walls, "double wall"), seal.size)
+            : fmt::format("{} below {:.6g}", number_of(seal.openings, "opening"), seal.size));
     if (std::isfinite(seal.filled_volume)) {
       texts.back() += fmt::format(", volume {:.6g} behind", seal.filled_volume);
     }

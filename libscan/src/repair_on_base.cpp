@@ -15,7 +15,7 @@ namespace {
 // A soup without copies: triangles with the same corners, in whatever order.
 struct DistinctSoup {
   TriangleSoup soup;
-  std::vector<std::uint32_t> source;  // of each of its triangles, in the soup that was given
+  std::vector<std::uint32_t> source;       // of each of its triangles, in the soup that was given
   std::size_t copies = 0, degenerate = 0;  // that were dropped
 
   explicit DistinctSoup(const TriangleSoup& given) {

@@ -53,7 +53,7 @@ export interface RepairOptions extends FileOptions {
   inside?: 'auto' | 'winding' | 'solidity' | 'parity';
   cavities?: 'keep' | 'fill';
   sew?: 'auto' | 'none' | number | string;
-  seal?: 'auto' | 'none' | number | string;
+  seal?: 'auto' | 'double-walls' | 'none' | number | string;
   thicken?: 'auto' | 'none' | number | string;
   holes?: 'patch' | 'flat' | 'extend' | 'none';
   keep?: 'all' | 'outer' | 'largest' | number;

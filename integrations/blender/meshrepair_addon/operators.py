@@ -6,7 +6,7 @@ from mathutils import Matrix
 from . import engine, layers
 
 PURPOSES = (("none", "Any", "Nothing but what the options say"),
-            ("print", "Print", "Full inside, narrow openings sealed, sheets with walls"),
+            ("print", "Print", "No closed voids, no double walls, sheets with walls"),
             ("simulation", "Simulation", "Voids stay, crumbs go"),
             ("render", "Render", "What nobody sees goes"),
             ("boolean", "Boolean", "As it is, to be combined with others"))
@@ -46,8 +46,8 @@ class MESHREPAIR_OT_repair(MeshOperator, bpy.types.Operator):
     bl_label = "Repair"
 
     purpose: bpy.props.EnumProperty(name="For", items=PURPOSES, default="none")
-    seal: bpy.props.StringProperty(name="Seal", description="Close openings below this size: a number, a share as 1%, or auto")
-    thicken: bpy.props.StringProperty(name="Thicken", description="Walls for open sheets: a number, a share as 1%, or auto")
+    seal: bpy.props.StringProperty(name="Seal", description="Close openings below this size: a number, a share as 1%, auto, or double-walls")
+    thicken: bpy.props.StringProperty(name="Thicken", description="Walls for open sheets: a number, a share as 1%, auto, or double-walls")
     keep: bpy.props.EnumProperty(name="Keep", items=(("all", "All", "All solids"), ("largest", "Largest", "The largest solid"),
                                                      ("outer", "Outer", "Solids that are in no void of others")), default="all")
 

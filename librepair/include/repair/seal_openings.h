@@ -30,20 +30,25 @@ struct SealOptions {
   // With 1/1024, 1/512, ... 1/8 of the diagonal in turn, openings are closed that are small beside
   // what they lead to, where all of these together are worth it (kWorthSealing).
   bool automatic = false;
+  // Instead: bodies that are hollow by mistake become full. An inner wall follows the outer one,
+  // and is joined to it around pinholes alone. Found on the surface, whatever its size; bottles,
+  // drain holes and vents are left as they are. See docs/sealing.md.
+  bool double_walls = false;
   // Of the grid. More than an eighth only where openings need it; where even 6 to the diameter are
   // more, the size is refused with a UsageError.
   std::size_t most_cubes = std::size_t{1} << 23;
 
-  [[nodiscard]] bool wanted() const { return automatic || size > 0; }
+  [[nodiscard]] bool wanted() const { return automatic || double_walls || size > 0; }
 };
 
 struct SealReport {
-  bool automatic = false;    // the size was found, not given; 0 where there is none
-  double size = 0;           // in the soup's unit; the largest of those found
-  double step = 0;           // of the grid, in the soup's unit; the largest of all bodies
-  std::size_t openings = 0;  // that were closed
-  double patches_area = 0;   // over them, in the soup's unit, squared
-  double filled_volume = 0;  // that is solid since, in the soup's unit, cubed
+  bool automatic = false;        // the size was found, not given; 0 where there is none
+  std::size_t double_walls = 0;  // bodies that were hollow by mistake, see SealOptions
+  double size = 0;               // in the soup's unit; the largest of those found
+  double step = 0;               // of the grid, in the soup's unit; the largest of all bodies
+  std::size_t openings = 0;      // that were closed
+  double patches_area = 0;       // over them, in the soup's unit, squared
+  double filled_volume = 0;      // that is solid since, in the soup's unit, cubed
   // Spaces behind openings that stay open, as a way around leads into them that cubes do not show.
   std::size_t leaks = 0;
   // Bodies whose openings stay open, as walls that nearly coincide cannot be divided there.

@@ -40,8 +40,8 @@ struct BoundaryLoops {
 
 // The border is where an odd number of triangles meet: that is always a set of loops, also where
 // three or more meet, and however they are turned. Loops without an open edge are left out: they
-// are rims of walls, and nothing is missing there; so are edges of dividers (dividers.h). `triangles`
-// are those of the soup.
+// are rims of walls, and nothing is missing there; so are edges of dividers (dividers.h).
+// `triangles` are those of the soup.
 [[nodiscard]] BoundaryLoops find_boundary_loops(const CleanSoup& soup,
                                                 std::span<const IndexTriangle> triangles,
                                                 const EdgeTable& table, ProgressObserver* progress);

@@ -18,6 +18,7 @@
 #include "again/second_repair.h"
 #include "bodies_apart.h"
 #include "closed_openings.h"
+#include "fill_double_walls.h"
 #include "openings.h"
 #include "report/describe_result.h"
 
@@ -193,7 +194,9 @@ class BodiesSealer {
 Surface seal_solid(const TriangleSoup& soup, Surface solid, const RepairOptions& options,
                    const RepairAgain& repair_again, RepairReport& report) {
   std::optional<Sealed> sealed =
-      BodiesSealer(solid, options_of_bodies(solid.mesh, options), repair_again, report).run();
+      options.seal.double_walls
+          ? fill_double_walls(solid, options, repair_again, report)
+          : BodiesSealer(solid, options_of_bodies(solid.mesh, options), repair_again, report).run();
   report.seal.automatic = options.seal.automatic;
   if (!sealed) return solid;
   note_fates(soup.triangles.size(), solid, sealed->surface, report);

@@ -1,0 +1,92 @@
+#include "triangle_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace meshrepair::internal {
+namespace {
+
+RawVector<Box> boxes_of(const TriangleSoup& mesh) {
+  RawVector<Box> boxes(mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    boxes[t] = Box();
+    for (const std::uint32_t p : mesh.triangles[t]) boxes[t].add(mesh.points[p]);
+  }
+  return boxes;
+}
+
+struct Ray {
+  Vec3d from, direction, inverse;
+
+  Ray(const Vec3d& start, const Vec3d& along)
+      : from(start), direction(along), inverse(along.cwiseInverse()) {}
+
+  // Whether a box lies on it, no farther than `reach`. Where the ray runs along a face of the box
+  // the product is no number, and the comparisons let it pass.
+  [[nodiscard]] bool meets(const Box& box, double reach) const {
+    double enter = 0, leave = reach;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      double near = (box.low[k] - from[axis]) * inverse[axis];
+      double far = (box.high[k] - from[axis]) * inverse[axis];
+      if (near > far) std::swap(near, far);
+      if (near > enter) enter = near;
+      if (far < leave) leave = far;
+    }
+    return enter <= leave;
+  }
+
+  // The distance to a triangle; infinite if it is not met.
+  [[nodiscard]] double to(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+    const Vec3d ab = b - a, ac = c - a, start = from - a;
+    const Vec3d across = direction.cross(ac);
+    const double determinant = ab.dot(across);
+    const double u = start.dot(across) / determinant;
+    const Vec3d other = start.cross(ab);
+    const double v = direction.dot(other) / determinant;
+    const double distance = ac.dot(other) / determinant;
+    const bool is_met = u >= 0 && v >= 0 && u + v <= 1 && distance > 0;
+    return is_met ? distance : std::numeric_limits<double>::infinity();
+  }
+};
+
+}  // namespace
+
+TriangleRays::TriangleRays(const TriangleSoup& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
+
+RayHit TriangleRays::first_hit(std::uint32_t triangle, const Vec3d& direction, double reach) const {
+  const auto corner = [&](std::uint32_t t, std::size_t k) -> const Vec3d& {
+    return mesh_.points[mesh_.triangles[t][k]];
+  };
+  const Vec3d middle = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3;
+  const Ray ray(middle, direction);
+  RayHit hit;
+  tree_.visit([&](const Box& box) { return ray.meets(box, std::min(reach, hit.distance)); },
+              [&](std::uint32_t t) {
+                if (t == triangle) return;
+                const double distance = ray.to(corner(t, 0), corner(t, 1), corner(t, 2));
+                if (distance < hit.distance && distance <= reach) hit = {distance, t};
+              });
+  return hit;
+}
+
+bool TriangleRays::escapes(std::uint32_t triangle, const Vec3d& direction) const {
+  const auto corner = [&](std::uint32_t t, std::size_t k) -> const Vec3d& {
+    return mesh_.points[mesh_.triangles[t][k]];
+  };
+  const Vec3d middle = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3;
+  const Ray ray(middle, direction);
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  bool is_met = false;
+  tree_.visit([&](const Box& box) { return !is_met && ray.meets(box, kFar); },
+              [&](std::uint32_t t) {
+                is_met = is_met ||
+                         (t != triangle && ray.to(corner(t, 0), corner(t, 1), corner(t, 2)) < kFar);
+              });
+  return !is_met;
+}
+
+}  // namespace meshrepair::internal
