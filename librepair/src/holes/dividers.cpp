@@ -41,7 +41,7 @@ class DividerFinder {
   }
 
  private:
-  enum Trait : char { kOpen = 1, kCrowded = 2, kUnclear = 4 };
+  enum Trait : char { open = 1, crowded = 2, unclear = 4 };
 
   // Whether one is both open and crowded: has an edge of one triangle, and one of more than two.
   bool find_parts() {
@@ -57,21 +57,21 @@ class DividerFinder {
     });
     traits_.assign(triangles_.size(), 0);
     table_.for_each_edge([&](std::span<const std::uint32_t> sides) {
-      if (sides.size() == 1) traits_[part_of(sides[0])] |= kOpen;
-      if (sides.size() > 2) traits_[part_of(sides[0])] |= kCrowded;
+      if (sides.size() == 1) traits_[part_of(sides[0])] |= open;
+      if (sides.size() > 2) traits_[part_of(sides[0])] |= crowded;
     });
     // Where closed surfaces overlap, a triangle of both has more than two faces.
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      if (soup_.triangles[TriangleId(t)].layers > 1) traits_[parts_.root(t)] |= kUnclear;
+      if (soup_.triangles[TriangleId(t)].layers > 1) traits_[parts_.root(t)] |= unclear;
     }
     return std::any_of(traits_.begin(), traits_.end(),
-                       [](char trait) { return trait == (kOpen | kCrowded); });
+                       [](char trait) { return trait == (open | crowded); });
   }
 
   [[nodiscard]] std::uint32_t part_of(std::uint32_t side) { return parts_.root(side / 3); }
 
   [[nodiscard]] bool may_have_dividers(std::uint32_t side) {
-    return traits_[part_of(side)] == (kOpen | kCrowded);
+    return traits_[part_of(side)] == (open | crowded);
   }
 
   void join_faces() {
@@ -81,7 +81,7 @@ class DividerFinder {
       if (sides.size() < 2 || !may_have_dividers(sides[0])) return;
       around.assign(sides.begin(), sides.end());
       if (sides.size() > 2 && !sort_around_edge(soup_, triangles_, around)) {
-        traits_[part_of(sides[0])] |= kUnclear;
+        traits_[part_of(sides[0])] |= unclear;
         return;
       }
       const std::uint32_t start = side_start(triangles_, around[0]);
@@ -136,16 +136,16 @@ class DividerFinder {
   }
 
   std::vector<char> mark() {
-    enum : char { kRim = 1, kDivider = 2 };
+    enum : char { rim = 1, divider = 2 };
     std::vector<char> found(triangles_.size(), 0);
     for_each_open_edge([&](std::uint32_t side) {
       const int rooms = int{looks_into_room(front(side))} + int{looks_into_room(back(side))};
-      if (rooms == 0) traits_[part_of(side)] |= kUnclear;
-      if (rooms > 0) found[part_of(side)] |= rooms == 1 ? kRim : kDivider;
+      if (rooms == 0) traits_[part_of(side)] |= unclear;
+      if (rooms > 0) found[part_of(side)] |= rooms == 1 ? rim : divider;
     });
     std::vector<char> is_marked;
     table_.for_each_edge([&](std::span<const std::uint32_t> sides) {
-      if (found[part_of(sides[0])] != (kRim | kDivider) || !may_have_dividers(sides[0])) return;
+      if (found[part_of(sides[0])] != (rim | divider) || !may_have_dividers(sides[0])) return;
       if (sides.size() == 2 || (sides.size() == 1 && !is_of_divider(sides[0]))) return;
       is_marked.resize(3 * triangles_.size(), 0);
       for (const std::uint32_t side : sides) is_marked[side] = 1;
