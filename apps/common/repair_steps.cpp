@@ -87,15 +87,15 @@ void warn_of_made_up_surface(const Findings& findings) {
       findings.input_name(), 100 * repair.closing_area / repair.output_area);
 }
 
-// What is done unasked to a solid that was one.
+// A solid that was sound is another one now, and a purpose may have asked for that.
 void warn_of_filled_walls(const Findings& findings) {
   const SealReport& seal = findings.repair.seal;
   if (seal.double_walls == 0) return;
   logger().warn(
-      "{}: {} hollow between two walls is filled, and {} up to {:.3g} wide closed; "
-      "--seal none leaves them",
-      findings.input_name(), seal.double_walls == 1 ? "what is" : "what is in several bodies",
-      number_of(seal.openings, "pinhole"), seal.size);
+      "{}: the hollow of {} is filled, volume {:.6g}, as only {} up to {:.3g} wide {} into it; "
+      "--seal none leaves it",
+      findings.input_name(), number_of(seal.double_walls, "double wall"), seal.filled_volume,
+      number_of(seal.openings, "pinhole"), seal.size, seal.openings == 1 ? "leads" : "lead");
 }
 
 // Of what there was before `area` of it went.

@@ -107,6 +107,11 @@ class Tables(unittest.TestCase):
         self.assertIn("| cards | as needed | 3 | 0: 3 |", done.stdout)
         self.assertTrue(done.stdout.endswith("\n0 not as meant\n"))
 
+    def test_trays_and_hollow_bodies_are_as_meant(self):
+        done = run("meant.py", "families", "--family", "trays", "--family", "hollows", "--count", 8, "--programs", PROGRAMS)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("| hollows | as needed | 4 | 0: 4 |", done.stdout)
+
     def test_a_program_that_leaves_everything_as_it_is_is_found_out(self):
         with tempfile.TemporaryDirectory() as name:
             fake = Path(name) / "meshrepair"

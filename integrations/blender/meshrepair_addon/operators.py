@@ -47,7 +47,7 @@ class MESHREPAIR_OT_repair(MeshOperator, bpy.types.Operator):
 
     purpose: bpy.props.EnumProperty(name="For", items=PURPOSES, default="none")
     seal: bpy.props.StringProperty(name="Seal", description="Close openings below this size: a number, a share as 1%, auto, or double-walls")
-    thicken: bpy.props.StringProperty(name="Thicken", description="Walls for open sheets: a number, a share as 1%, auto, or double-walls")
+    thicken: bpy.props.StringProperty(name="Thicken", description="Walls for open sheets: a number, a share as 1%, or auto")
     keep: bpy.props.EnumProperty(name="Keep", items=(("all", "All", "All solids"), ("largest", "Largest", "The largest solid"),
                                                      ("outer", "Outer", "Solids that are in no void of others")), default="all")
 

@@ -26,7 +26,7 @@ struct HoleOptions {
   double largest_share = 0.75;
   // The same for patches that lie in a plane: hills and dishes have them.
   double largest_flat_share = 0.95;
-  bool rings = true;  // between two loops that face each other
+  bool rings = true;  // may join two loops that face each other
   // Loops of more edges than this are cut along short chords before they are triangulated.
   std::size_t most_edges = 200;
 };

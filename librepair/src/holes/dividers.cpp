@@ -36,6 +36,7 @@ class DividerFinder {
   std::vector<char> run() {
     if (!find_parts()) return {};
     join_faces();
+    number_rooms();
     measure_rooms();
     return mark();
   }
@@ -97,12 +98,24 @@ class DividerFinder {
     return as_vector(soup_.grid_points[PointId(side_start(triangles_, side))]);
   }
 
+  // There are few of them, and many faces.
+  void number_rooms() {
+    room_of_.assign(2 * triangles_.size(), 0);
+    for (std::uint32_t face = 0; face < room_of_.size(); ++face) {
+      if (!may_have_dividers(3 * (face / 2))) continue;
+      // The lowest face of a set stands for it, so that its number is there.
+      const std::uint32_t root = faces_.root(face);
+      if (root == face) rooms_.emplace_back();
+      room_of_[face] =
+          root == face ? static_cast<std::uint32_t>(rooms_.size() - 1) : room_of_[root];
+    }
+  }
+
   void measure_rooms() {
-    rooms_.resize(2 * triangles_.size());
     for_each_open_edge([&](std::uint32_t side) {
       const Vec3d both = corner(side) + corner(next_side(side));
       for (const std::uint32_t face : {front(side), back(side)}) {
-        Room& room = rooms_[faces_.root(face)];
+        Room& room = rooms_[room_of_[face]];
         room.middle += 0.5 * both;
         room.rim_edges += 1;
       }
@@ -111,7 +124,7 @@ class DividerFinder {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       if (!may_have_dividers(3 * t)) continue;
       for (const std::uint32_t face : {2 * t, 2 * t + 1}) {
-        Room& room = rooms_[faces_.root(face)];
+        Room& room = rooms_[room_of_[face]];
         const Vec3d a = corner(3 * t) - room.middle, b = corner(3 * t + 1) - room.middle;
         const double volume = a.dot(b.cross(corner(3 * t + 2) - room.middle)) / 6;
         room.volume += face % 2 == 0 ? -volume : volume;
@@ -128,7 +141,7 @@ class DividerFinder {
   }
 
   [[nodiscard]] bool looks_into_room(std::uint32_t face) {
-    return rooms_[faces_.root(face)].volume > 0;
+    return rooms_[room_of_[face]].volume > 0;
   }
 
   [[nodiscard]] bool is_of_divider(std::uint32_t side) {
@@ -159,7 +172,8 @@ class DividerFinder {
   DisjointSets parts_;        // of triangles
   std::vector<char> traits_;  // of each part
   DisjointSets faces_;
-  std::vector<Room> rooms_;  // of each set of faces
+  std::vector<std::uint32_t> room_of_;  // of each face of a part that may have dividers
+  std::vector<Room> rooms_;             // of each set of faces
 };
 
 }  // namespace

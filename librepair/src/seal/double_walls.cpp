@@ -68,6 +68,10 @@ std::vector<Vec3d> ray_directions() {
   return directions;
 }
 
+double diagonal_of(const Box& box) {
+  return Vec3d(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]).norm();
+}
+
 // What one opening of a wall ends at.
 struct Rim {
   std::size_t edges = 0;
@@ -82,8 +86,7 @@ class BodyWalls {
     const std::size_t triangles = body.triangles.size();
     Box box;
     for (const Vec3d& p : body.points) box.add(p);
-    diagonal_ =
-        Vec3d(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]).norm();
+    diagonal_ = diagonal_of(box);
     area_.resize(triangles);
     double total = 0;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -96,15 +99,15 @@ class BodyWalls {
     mean_edge_ = std::sqrt(4 / std::numbers::sqrt3 * total / static_cast<double>(triangles));
   }
 
-  // Of each triangle, whether it is of the inner wall or a tube; nothing if there is no such wall.
-  std::optional<std::vector<char>> run() {
+  // Of each triangle, whether it is of the inner wall or a tube; empty if there is no such wall.
+  std::vector<char> run() {
     rays_.emplace(body_);
     look_from_samples();
-    if (!has_facing_walls()) return std::nullopt;
+    if (!has_facing_walls()) return {};
     sides_ = EdgeTable(body_.triangles);
     std::vector<char> inner = cut_apart();
     keep_walls(inner);
-    if (rims_.empty()) return std::nullopt;
+    if (rims_.empty()) return {};
     drop_tubes(inner);
     return inner;
   }
@@ -304,76 +307,60 @@ class BodyWalls {
   std::vector<Rim> rims_;  // of the inner wall
 };
 
-// A body by itself, and the triangles of the whole that it has.
-struct Body {
-  TriangleSoup mesh;
-  std::vector<std::uint32_t> triangles;
-};
-
-std::vector<Body> thin_bodies(const TriangleSoup& mesh) {
-  const MeshParts parts = find_parts(mesh);
+// The parts that may have two walls, each a group.
+MeshParts thin_parts(const TriangleSoup& mesh, const UnitScale& scale) {
+  MeshParts parts = find_parts(mesh);
   std::vector<std::size_t> counts(parts.count, 0);
-  for (const std::uint32_t part : parts.of_triangle) ++counts[part];
-  const UnitScale scale(mesh.points);
-  const std::vector<PartSize> sizes =
-      part_sizes(mesh.points, mesh.triangles, parts.of_triangle, parts.count, scale);
   std::vector<Box> boxes(parts.count);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t p : mesh.triangles[t]) {
-      boxes[parts.of_triangle[t]].add(scale(mesh.points[p]));
-    }
+    const std::uint32_t part = parts.of_triangle[t];
+    ++counts[part];
+    for (const std::uint32_t p : mesh.triangles[t]) boxes[part].add(scale(mesh.points[p]));
   }
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  std::vector<std::uint32_t> number(parts.count, kNone);
-  std::vector<Body> bodies;
+  const std::vector<PartSize> sizes =
+      part_sizes(mesh.points, mesh.triangles, parts.of_triangle, parts.count, scale);
+  std::vector<std::uint32_t> group(parts.count, kNoGroup);
+  std::uint32_t groups = 0;
   for (std::uint32_t part = 0; part < parts.count; ++part) {
-    const auto& [low, high] = boxes[part];
-    const double diagonal = Vec3d(high[0] - low[0], high[1] - low[1], high[2] - low[2]).norm();
     const double thickness = 2 * sizes[part].volume / sizes[part].area;
-    if (counts[part] < kFewestTriangles || !(sizes[part].volume > 0)) continue;
-    if (thickness > kThickestOnAverage * diagonal) continue;
-    number[part] = static_cast<std::uint32_t>(bodies.size());
-    bodies.emplace_back();
-  }
-  if (bodies.empty()) return bodies;
-  std::vector<std::uint32_t> point(mesh.points.size(), kNone);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t b = number[parts.of_triangle[t]];
-    if (b == kNone) continue;
-    Body& body = bodies[b];
-    IndexTriangle corners = mesh.triangles[t];
-    for (std::uint32_t& p : corners) {
-      if (point[p] == kNone) {
-        point[p] = static_cast<std::uint32_t>(body.mesh.points.size());
-        body.mesh.points.push_back(scale(mesh.points[p]));
-      }
-      p = point[p];
+    const bool is_thin = thickness <= kThickestOnAverage * diagonal_of(boxes[part]);
+    if (counts[part] >= kFewestTriangles && sizes[part].volume > 0 && is_thin) {
+      group[part] = groups++;
     }
-    body.mesh.triangles.push_back(corners);
-    body.triangles.push_back(t);
   }
-  return bodies;
+  for (std::uint32_t& part : parts.of_triangle) part = group[part];
+  parts.count = groups;
+  return parts;
 }
 
 }  // namespace
 
-DoubleWalls find_double_walls(const TriangleSoup& mesh, ProgressObserver* progress) {
+DoubleWalls find_double_walls(const Surface& solid, ProgressObserver* progress) {
   DoubleWalls found;
-  const UnitScale scale(mesh.points);
-  for (const Body& body : thin_bodies(mesh)) {
+  const UnitScale scale(solid.mesh.points);
+  const MeshParts parts = thin_parts(solid.mesh, scale);
+  if (parts.count == 0) return found;
+  std::vector<Surface> bodies = divide_surface(solid, parts);
+  found.is_inner.assign(solid.mesh.triangles.size(), 0);
+  std::vector<std::vector<char>> inner(parts.count);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (progress != nullptr && progress->cancelled()) throw Cancelled();
-    BodyWalls walls(body.mesh);
-    const std::optional<std::vector<char>> inner = walls.run();
-    if (!inner) continue;
+    for (Vec3d& p : bodies[b].mesh.points) p = scale(p);
+    BodyWalls walls(bodies[b].mesh);
+    inner[b] = walls.run();
+    if (inner[b].empty()) continue;
     ++found.bodies;
     found.pinholes += walls.pinholes().size();
     for (const Rim& rim : walls.pinholes()) {
       found.widest = std::max(found.widest, scale.back(rim.width()));
     }
-    found.is_inner.resize(mesh.triangles.size(), 0);
-    for (std::size_t i = 0; i < inner->size(); ++i) {
-      if ((*inner)[i] != 0) found.is_inner[body.triangles[i]] = 1;
-    }
+  }
+  // The triangles of a body are in their order.
+  std::vector<std::size_t> next(parts.count, 0);
+  for (std::size_t t = 0; t < parts.of_triangle.size(); ++t) {
+    const std::uint32_t b = parts.of_triangle[t];
+    if (b == kNoGroup || inner[b].empty()) continue;
+    found.is_inner[t] = inner[b][next[b]++];
   }
   return found;
 }

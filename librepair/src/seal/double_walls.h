@@ -10,15 +10,15 @@
 // - The least cut between the two, by length, are the rims of openings. They are pinholes where
 // each
 //   is narrower than 1 % of the body, or has 12 edges at most, as long as those of the whole body,
-//   and is narrower than 8 %. Where six or more are, others may have up to 80 edges: pinholes that
-//   lie side by side.
+//   and is narrower than 8 %. Where six or more are, and seven of ten, others may have up to 80
+//   edges: pinholes that lie side by side. All together are small beside the inner wall.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include <base/progress.h>
-#include <mesh/soup.h>
+#include <extract/surface.h>
 
 namespace meshrepair::internal {
 
@@ -29,8 +29,8 @@ struct DoubleWalls {
   std::vector<char> is_inner;  // of each triangle: of an inner wall, or of a tube to it
 };
 
-// Of the boundary of a solid. Bodies of fewer than 2,000 triangles have none. n log n, with a small
+// Bodies of fewer than 2,000 triangles have none. n log n, with a small
 // factor where a body is not thin beside its extent. `progress` is asked whether to go on.
-[[nodiscard]] DoubleWalls find_double_walls(const TriangleSoup& mesh, ProgressObserver* progress);
+[[nodiscard]] DoubleWalls find_double_walls(const Surface& solid, ProgressObserver* progress);
 
 }  // namespace meshrepair::internal

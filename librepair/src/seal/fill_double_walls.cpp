@@ -60,7 +60,7 @@ std::optional<Sealed> fill_double_walls(const Surface& solid, const RepairOption
   {
     StageMeter meter(report.stages, options.progress);
     meter.begin("seal");
-    walls = find_double_walls(solid.mesh, options.progress);
+    walls = find_double_walls(solid, options.progress);
   }
   if (walls.bodies == 0) return std::nullopt;
   report.seal.size = walls.widest;

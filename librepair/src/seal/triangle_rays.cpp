@@ -1,28 +1,29 @@
 #include "triangle_rays.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <Eigen/Geometry>
+
+#include <check/triangle_list.h>
 
 namespace meshrepair::internal {
 namespace {
 
 RawVector<Box> boxes_of(const TriangleSoup& mesh) {
   RawVector<Box> boxes(mesh.triangles.size());
-  for (std::size_t t = 0; t < boxes.size(); ++t) {
-    boxes[t] = Box();
-    for (const std::uint32_t p : mesh.triangles[t]) boxes[t].add(mesh.points[p]);
-  }
+  for (std::uint32_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(mesh, t);
   return boxes;
 }
 
 struct Ray {
   Vec3d from, direction, inverse;
 
-  Ray(const Vec3d& start, const Vec3d& along)
-      : from(start), direction(along), inverse(along.cwiseInverse()) {}
+  Ray(const TriangleSoup& mesh, std::uint32_t triangle, const Vec3d& along)
+      : direction(along), inverse(along.cwiseInverse()) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    from = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3;
+  }
 
   // Whether a box lies on it, no farther than `reach`. Where the ray runs along a face of the box
   // the product is no number, and the comparisons let it pass.
@@ -40,8 +41,11 @@ struct Ray {
   }
 
   // The distance to a triangle; infinite if it is not met.
-  [[nodiscard]] double to(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
-    const Vec3d ab = b - a, ac = c - a, start = from - a;
+  [[nodiscard]] double to(const TriangleSoup& mesh, std::uint32_t triangle) const {
+    const auto& corners = mesh.triangles[triangle];
+    const Vec3d& a = mesh.points[corners[0]];
+    const Vec3d ab = mesh.points[corners[1]] - a, ac = mesh.points[corners[2]] - a;
+    const Vec3d start = from - a;
     const Vec3d across = direction.cross(ac);
     const double determinant = ab.dot(across);
     const double u = start.dot(across) / determinant;
@@ -58,34 +62,24 @@ struct Ray {
 TriangleRays::TriangleRays(const TriangleSoup& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
 
 RayHit TriangleRays::first_hit(std::uint32_t triangle, const Vec3d& direction, double reach) const {
-  const auto corner = [&](std::uint32_t t, std::size_t k) -> const Vec3d& {
-    return mesh_.points[mesh_.triangles[t][k]];
-  };
-  const Vec3d middle = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3;
-  const Ray ray(middle, direction);
+  const Ray ray(mesh_, triangle, direction);
   RayHit hit;
   tree_.visit([&](const Box& box) { return ray.meets(box, std::min(reach, hit.distance)); },
               [&](std::uint32_t t) {
                 if (t == triangle) return;
-                const double distance = ray.to(corner(t, 0), corner(t, 1), corner(t, 2));
+                const double distance = ray.to(mesh_, t);
                 if (distance < hit.distance && distance <= reach) hit = {distance, t};
               });
   return hit;
 }
 
 bool TriangleRays::escapes(std::uint32_t triangle, const Vec3d& direction) const {
-  const auto corner = [&](std::uint32_t t, std::size_t k) -> const Vec3d& {
-    return mesh_.points[mesh_.triangles[t][k]];
-  };
-  const Vec3d middle = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3;
-  const Ray ray(middle, direction);
+  const Ray ray(mesh_, triangle, direction);
   constexpr double kFar = std::numeric_limits<double>::infinity();
   bool is_met = false;
-  tree_.visit([&](const Box& box) { return !is_met && ray.meets(box, kFar); },
-              [&](std::uint32_t t) {
-                is_met = is_met ||
-                         (t != triangle && ray.to(corner(t, 0), corner(t, 1), corner(t, 2)) < kFar);
-              });
+  tree_.visit(
+      [&](const Box& box) { return !is_met && ray.meets(box, kFar); },
+      [&](std::uint32_t t) { is_met = is_met || (t != triangle && ray.to(mesh_, t) < kFar); });
   return !is_met;
 }
 

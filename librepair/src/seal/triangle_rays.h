@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include <base/raw_vector.h>
 #include <check/box_tree.h>

@@ -147,8 +147,9 @@ TEST(DoubleWalls, EachBodyIsLookedAtByItself) {
 }
 
 TEST(DoubleWalls, AFullBodyHasNone) {
-  EXPECT_EQ(find_double_walls(cube(), nullptr).bodies, 0u);
-  EXPECT_EQ(find_double_walls(TriangleSoup(), nullptr).bodies, 0u);
+  RepairReport report;
+  EXPECT_EQ(find_double_walls(repair(cube(), {}, report), nullptr).bodies, 0u);
+  EXPECT_EQ(find_double_walls(Surface(), nullptr).bodies, 0u);
 }
 
 }  // namespace
