@@ -19,6 +19,7 @@ from hard_inputs.cars import car_case  # noqa: E402
 from hard_inputs.command_line import add_seed, make_parser  # noqa: E402
 from hard_inputs.hollows import MAKERS as HOLLOWS, hollow_case  # noqa: E402
 from hard_inputs.layers import SHAPES as LAYERED, WAYS, layers_case  # noqa: E402
+from hard_inputs.openings import FLANGES, HUBS, LIMBS, VESSELS, flange_case, hub_case, limb_case, vessel_case  # noqa: E402
 from hard_inputs.patches import SHAPES as PATCHES, patches_case  # noqa: E402
 from hard_inputs.scenes import BODIES, PLACES, scene_case  # noqa: E402
 from hard_inputs.sheets import GARMENTS, cards_case, garment_case  # noqa: E402
@@ -42,7 +43,9 @@ FAMILIES = {"walls": (walls.walls_case, ("shape", "holes", "size")), "soups": (s
             "patches": (patches_case, ("shape",)), "cards": (cards_case, ("cards",)),
             "garments": (garment_case, ("shape",)), "cars": (car_case, ("panels",)),
             "layers": (layers_case, ("shape", "way")), "scenes": (scene_case, ("shape", "place")),
-            "trays": (tray_case, ("heights",)), "hollows": (hollow_case, ("kind",))}
+            "trays": (tray_case, ("heights",)), "hollows": (hollow_case, ("kind",)),
+            "rims": (vessel_case, ("shape",)), "flanges": (flange_case, ("shape",)), "limbs": (limb_case, ("shape",)),
+            "hubs": (hub_case, ("shape",))}
 
 
 def case_of(family, number, seed=0, **options):
@@ -110,6 +113,14 @@ def parser():
     trays.add_argument("--heights", choices=("even", "lower"), help="of the dividers (default: in turn)")
     hollows = add_family(commands, "hollows", "hollow bodies: by mistake, or on purpose")
     hollows.add_argument("--kind", choices=list(HOLLOWS), help="of body (default: in turn)")
+    rims = add_family(commands, "rims", "walls of vessels without the rim between them")
+    rims.add_argument("--shape", choices=VESSELS, help="the vessel (default: in turn)")
+    flanges = add_family(commands, "flanges", "cups with a flange around the opening")
+    flanges.add_argument("--shape", choices=FLANGES, help="the flange (default: in turn)")
+    limbs = add_family(commands, "limbs", "limbs that are cut off")
+    limbs.add_argument("--shape", choices=LIMBS, help="the cut (default: in turn)")
+    hubs = add_family(commands, "hubs", "two-sided rings around a hub")
+    hubs.add_argument("--shape", choices=HUBS, help="how often the hub is there (default: in turn)")
     add_family(commands, "vessels", "a bust, a mug, a bottle and a bell, for --seal", 0)
     return main
 

@@ -200,9 +200,23 @@ class LoopWalker {
 
 BoundaryLoops find_boundary_loops(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
                                   const EdgeTable& table, ProgressObserver* progress) {
-  std::vector<BorderEdge> border = find_border(soup, triangles, table);
+  return walk_border(soup, triangles, table, find_border(soup, triangles, table), progress);
+}
+
+BoundaryLoops walk_border(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
+                          const EdgeTable& table, std::vector<BorderEdge> border,
+                          ProgressObserver* progress) {
   if (border.empty()) return {};
   return LoopWalker(soup, triangles, table, std::move(border), progress).run();
+}
+
+void append_loops(BoundaryLoops& loops, const BoundaryLoops& more) {
+  const std::size_t points = loops.point.size(), edges = loops.edges.size();
+  loops.edges.insert(loops.edges.end(), more.edges.begin(), more.edges.end());
+  loops.point.insert(loops.point.end(), more.point.begin(), more.point.end());
+  for (const std::uint32_t e : more.edge)
+    loops.edge.push_back(static_cast<std::uint32_t>(edges + e));
+  for (std::size_t l = 0; l < more.loops(); ++l) loops.first.push_back(points + more.first[l + 1]);
 }
 
 }  // namespace meshrepair::internal

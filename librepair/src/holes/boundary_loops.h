@@ -46,4 +46,13 @@ struct BoundaryLoops {
                                                 std::span<const IndexTriangle> triangles,
                                                 const EdgeTable& table, ProgressObserver* progress);
 
+// The same of other edges than the border: all that are open are where the surface is to end.
+[[nodiscard]] BoundaryLoops walk_border(const CleanSoup& soup,
+                                        std::span<const IndexTriangle> triangles,
+                                        const EdgeTable& table, std::vector<BorderEdge> border,
+                                        ProgressObserver* progress);
+
+// Puts loops behind those that are there.
+void append_loops(BoundaryLoops& loops, const BoundaryLoops& more);
+
 }  // namespace meshrepair::internal

@@ -20,6 +20,7 @@
 #include "collars.h"
 #include "curve_patch.h"
 #include "facing_rims.h"
+#include "flanges.h"
 #include "large_openings.h"
 #include "loop_triangulation.h"
 #include "new_points.h"
@@ -99,6 +100,9 @@ class HolePatcher {
       report_.loops = loops_.loops();
       report_.stray_edges = loops_.stray_edges;
       if (loops_.loops() == 0) return;
+      flanges_ = internal::find_flanges(soup_, triangles_, table, loops_, progress_);
+      flanges_.is_outer_rim.resize(loops_.loops() + flanges_.openings.loops(), 0);
+      internal::append_loops(loops_, flanges_.openings);
       measure_sheets(table);
     }
     find_rims();
@@ -165,7 +169,8 @@ class HolePatcher {
       patches_[l] = internal::triangulate_loop(rims_[l], options);
       flat_[l] = internal::least_area(rims_[l]) >= kFlat * patches_[l].area ? 1 : 0;
       const bool is_large = patches_[l].area > (flat_[l] != 0 ? most(l) : kSmallPatch) * area[l];
-      folded_[l] = is_large && lies_on_surface(l) ? 1 : 0;
+      const bool is_rim = flanges_.is_outer_rim[l] != 0;
+      folded_[l] = is_rim || (is_large && lies_on_surface(l)) ? 1 : 0;
       shared.done();
     });
   }
@@ -248,6 +253,7 @@ class HolePatcher {
     for (const auto& pair : internal::find_facing_rims(rims_, progress_)) {
       const std::size_t a = pair.first, b = pair.second;
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
+      if (flanges_.is_outer_rim[a] != 0 || flanges_.is_outer_rim[b] != 0) continue;
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
       if (!is_large_opening(a) && !is_large_opening(b)) continue;
       const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
@@ -442,6 +448,7 @@ class HolePatcher {
   DisjointSets parts_;  // of triangles: sheets that are joined by rims and rings
   std::vector<Ring> rings_;
   BoundaryLoops loops_;
+  internal::Flanges flanges_;
   std::vector<Rim> rims_;                                   // of each loop
   std::vector<LoopTriangulation> patches_;                  // of each loop
   std::vector<char> folded_;                                // of each loop: onto the surface
