@@ -8,6 +8,9 @@ namespace meshrepair::internal {
 namespace {
 
 constexpr std::size_t kSamples = 16;
+// Rims that face each other are about as long: a stray triangle beside a mouth has no say.
+constexpr double kAsLong = 4;
+
 // About a second.
 constexpr std::size_t kMostRimSteps = 200'000'000;
 constexpr std::size_t kNowhere = ~std::size_t{0};
@@ -29,6 +32,7 @@ class SortedPoints {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
       }
+      lengths_.push_back(length_of(rims[r]));
     }
     (high - low).maxCoeff(&axis_);
     std::stable_sort(points_.begin(), points_.end(), [this](const RimPoint& a, const RimPoint& b) {
@@ -36,7 +40,8 @@ class SortedPoints {
     });
   }
 
-  // The rim other than `own` that comes nearest to a point; kNowhere if there is none.
+  // The rim other than `own`, and about as long, that comes nearest to a point; kNowhere if there
+  // is none.
   [[nodiscard]] std::size_t nearest_rim(const Vec3d& p, std::size_t own) {
     const auto middle =
         std::lower_bound(points_.begin(), points_.end(), p[axis_],
@@ -64,8 +69,18 @@ class SortedPoints {
     return along * along > nearest.distance;
   }
 
-  static void note(const RimPoint& q, const Vec3d& p, std::size_t own, Nearest& nearest) {
+  static double length_of(const Rim& rim) {
+    double sum = 0;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      sum += (rim.points[(i + 1) % rim.size()] - rim.points[i]).norm();
+    }
+    return sum;
+  }
+
+  void note(const RimPoint& q, const Vec3d& p, std::size_t own, Nearest& nearest) const {
     if (q.rim == own) return;
+    const double length = lengths_[q.rim];
+    if (length > kAsLong * lengths_[own] || kAsLong * length < lengths_[own]) return;
     const double distance = (q.at - p).squaredNorm();
     if (distance > nearest.distance) return;
     if (distance == nearest.distance && nearest.rim < q.rim) return;
@@ -73,6 +88,7 @@ class SortedPoints {
   }
 
   std::vector<RimPoint> points_;
+  std::vector<double> lengths_;  // of the rims
   Eigen::Index axis_ = 0;
   CancelCheck check_;
   std::size_t steps_ = 0;

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,7 @@
 #include "large_openings.h"
 #include "loop_triangulation.h"
 #include "new_points.h"
+#include "notches.h"
 #include "rim.h"
 #include "strip_triangulation.h"
 
@@ -32,6 +35,7 @@ namespace {
 
 using internal::BoundaryLoops;
 using internal::CornerIds;
+using internal::FilledNotches;
 using internal::LoopTriangulation;
 using internal::LoopTriangulationOptions;
 using internal::Rim;
@@ -255,17 +259,23 @@ class HolePatcher {
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
       if (flanges_.is_outer_rim[a] != 0 || flanges_.is_outer_rim[b] != 0) continue;
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
-      if (!is_large_opening(a) && !is_large_opening(b)) continue;
-      const StripTriangulation ring = internal::triangulate_strip(rims_[a], rims_[b]);
-      if (ring.folded || ring.area > options_.largest_share * sheet_area(a, b)) continue;
-      if (ring.area >= most_of_ring(a, b)) continue;
+      if (!is_large_opening(a) && !is_large_opening(b) && !are_two_walls(a, b)) continue;
+      const std::array<FilledNotches, 2> filled = {internal::fill_notches(rims_[a]),
+                                                   internal::fill_notches(rims_[b])};
+      const StripTriangulation ring = internal::triangulate_strip(filled[0].rim, filled[1].rim);
+      const double area = ring.area + filled[0].area + filled[1].area;
+      if (ring.folded || area > options_.largest_share * sheet_area(a, b)) continue;
+      if (area >= most_of_ring(a, b)) continue;
       closed_[a] = closed_[b] = 1;
       parts_.join(a_triangle_at(a), a_triangle_at(b));
-      rings_.push_back({a, ring.area});
-      note_patch(2, ring.area, std::max(rims_[a].size(), rims_[b].size()));
+      rings_.push_back({a, area});
+      note_patch(2, area, std::max(rims_[a].size(), rims_[b].size()));
+      add_all(a, filled[0].triangles);
+      add_all(b, filled[1].triangles);
+      const std::size_t first = filled[0].left.size();
       const auto id = [&](std::uint32_t i) {
-        return PointId(i < rims_[a].size() ? loops_.points_of(a)[i]
-                                           : loops_.points_of(b)[i - rims_[a].size()]);
+        return i < first ? PointId(loops_.points_of(a)[filled[0].left[i]])
+                         : PointId(loops_.points_of(b)[filled[1].left[i - first]]);
       };
       const bool turn = runs_along_surface(a);
       for (const auto& t : ring.triangles) add({id(t[0]), id(t[1]), id(t[2])}, turn);
@@ -283,6 +293,24 @@ class HolePatcher {
 
   bool is_large_opening(std::size_t loop) {
     return patches_[loop].area > kLargeOpening * sheet_area(loop, loop);
+  }
+
+  // Whether two sheets end at these rims, one of which lies within the bounds of the other.
+  bool are_two_walls(std::size_t a, std::size_t b) {
+    const std::uint32_t first = sheets_.sets.root(a_triangle_at(a));
+    const std::uint32_t second = sheets_.sets.root(a_triangle_at(b));
+    if (first == second) return false;
+    if (sheet_boxes_.empty()) measure_sheet_boxes();
+    return sheet_boxes_[first].contains(sheet_boxes_[second]) ||
+           sheet_boxes_[second].contains(sheet_boxes_[first]);
+  }
+
+  void measure_sheet_boxes() {
+    sheet_boxes_.resize(triangles_.size());
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      Eigen::AlignedBox3d& box = sheet_boxes_[sheets_.sets.root(t)];
+      for (const std::uint32_t p : triangles_[t]) box.extend(position(soup_, PointId(p)));
+    }
   }
 
   // A sheet, or a piece of a surface.
@@ -340,11 +368,7 @@ class HolePatcher {
       return;
     }
     const std::size_t before = soup_.triangles.size();
-    const auto ids = loops_.points_of(loop);
-    const bool turn = runs_along_surface(loop);
-    for (const auto& t : patch.triangles) {
-      add({PointId(ids[t[0]]), PointId(ids[t[1]]), PointId(ids[t[2]])}, turn);
-    }
+    add_all(loop, patch.triangles);
     if (soup_.triangles.size() == before) {
       ++report_.slits;
     } else {
@@ -374,6 +398,15 @@ class HolePatcher {
     report_.area += area;
     report_.largest_area = std::max(report_.largest_area, area);
     report_.longest_loop = std::max(report_.longest_loop, longest);
+  }
+
+  // Between points of the loop, in its direction.
+  void add_all(std::size_t loop, std::span<const std::array<std::uint32_t, 3>> triangles) {
+    const auto ids = loops_.points_of(loop);
+    const bool turn = runs_along_surface(loop);
+    for (const auto& t : triangles) {
+      add({PointId(ids[t[0]]), PointId(ids[t[1]]), PointId(ids[t[2]])}, turn);
+    }
   }
 
   void add(CornerIds corners, bool turn) {
@@ -446,6 +479,7 @@ class HolePatcher {
   std::vector<IndexTriangle> triangles_;
   Sheets sheets_;
   DisjointSets parts_;  // of triangles: sheets that are joined by rims and rings
+  std::vector<Eigen::AlignedBox3d> sheet_boxes_;  // of each root
   std::vector<Ring> rings_;
   BoundaryLoops loops_;
   internal::Flanges flanges_;
