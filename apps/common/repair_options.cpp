@@ -23,7 +23,8 @@ constexpr std::array<Choice<InsideRule>, 4> kRules = {{{"auto", InsideRule::auto
                                                        {"parity", InsideRule::parity},
                                                        {"winding", InsideRule::winding}}};
 
-constexpr std::array<Choice<HoleMode>, 4> kHoleModes = {{{"patch", HoleMode::patch},
+constexpr std::array<Choice<HoleMode>, 5> kHoleModes = {{{"patch", HoleMode::patch},
+                                                         {"curved", HoleMode::curved},
                                                          {"flat", HoleMode::flat},
                                                          {"extend", HoleMode::extend},
                                                          {"none", HoleMode::none}}};
@@ -180,6 +181,7 @@ void add_holes_option(CommandLine& app, HoleOptions& holes) {
       "How to close holes and gaps:\n"
       "  patch   by triangles over each hole, curved as the surface around it is;\n"
       "          what is left, as with extend\n"
+      "  curved  the same, also where that makes the bounding box larger\n"
       "  flat    the same, without new points\n"
       "  extend  along planes that the mesh already has\n"
       "  none    not at all: a component with a hole encloses nothing\n")

@@ -55,7 +55,7 @@ export interface RepairOptions extends FileOptions {
   sew?: 'auto' | 'none' | number | string;
   seal?: 'auto' | 'double-walls' | 'none' | number | string;
   thicken?: 'auto' | 'none' | number | string;
-  holes?: 'patch' | 'flat' | 'extend' | 'none';
+  holes?: 'patch' | 'curved' | 'flat' | 'extend' | 'none';
   keep?: 'all' | 'outer' | 'largest' | number;
   simplify?: number;
   always?: boolean;

@@ -11,6 +11,7 @@ namespace meshrepair {
 
 enum class HoleMode {
   patch,   // triangles close the holes; what stays open is as with `extend`
+  curved,  // the same, also where a patch leaves the bounding box of the rest
   flat,    // the same, between the points of each rim alone
   extend,  // the optimisation closes gaps along planes that are there (WM)
   none,    // what is not sealed off by the triangles alone is outside
@@ -48,13 +49,12 @@ struct HoleReport {
 
 // Adds triangles with Triangle::source kNoSource that close the holes: over each loop a
 // triangulation of its own points, of little area and with few folds, and where the surface around
-// it is curved, with HoleMode::patch, one with new points that goes on as the surface does (Liepa
-// 2003). A loop is found
-// whatever the orientation of the triangles around it, and also where three or more meet at an
-// edge. Two loops that face each other across a gap, as the rims of a missing ring or of
-// two halves do, are joined by a ring where that has less area than two patches. Patches may cross
-// anything. Does nothing unless options.mode is `patch` or `flat`. Throws UsageError where the
-// share is not a number from 0 on, Cancelled.
+// it is curved, with HoleMode::patch and `curved`, one with new points that goes on as the surface
+// does (Liepa 2003). A loop is found whatever the orientation of the triangles around it, and also
+// where three or more meet at an edge. Two loops that face each other across a gap, as the rims of
+// a missing ring or of two halves do, are joined by a ring where that has less area than two
+// patches. Patches may cross anything. Does nothing if options.mode is `extend` or `none`. Throws
+// UsageError where the share is not a number from 0 on, Cancelled.
 void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report,
                  ProgressObserver* progress = nullptr);
 

@@ -24,6 +24,10 @@ constexpr double kSteep = 1.2;
 constexpr double kSteepAtPlane = 0.3;
 constexpr double kPlanar = 1e-3;  // of the rim's extent
 
+// The same for a ragged cut: the mean angle to the plane of a rim that lies in it but for so much.
+constexpr double kSteepAtCut = 0.7;
+constexpr double kNearlyPlanar = 0.05;
+
 // Solutions with the weights of the shape at hand: the rounds of least bending, and at most those
 // of even bending, which end where no point moves by more than a share of the rim's extent.
 constexpr int kLeastRounds = 2;
@@ -49,18 +53,43 @@ double extent_of(const std::vector<Vec3d>& points) {
   return (high - low).norm();
 }
 
-bool is_planar(const Rim& rim) {
-  Vec3d normal = Vec3d::Zero(), middle = Vec3d::Zero();
+// The plane that has the direction of the rim's vector area.
+struct RimPlane {
+  Vec3d normal = Vec3d::Zero();
+  double mean_distance = 0;  // of the points from it: the root of the mean square
+  double farthest = 0;       // of them
+};
+
+RimPlane plane_of(const Rim& rim) {
+  RimPlane plane;
+  Vec3d middle = Vec3d::Zero();
   for (std::size_t i = 0; i < rim.size(); ++i) {
-    normal +=
+    plane.normal +=
         (rim.points[i] - rim.points[0]).cross(rim.points[(i + 1) % rim.size()] - rim.points[0]);
     middle += rim.points[i];
   }
   middle /= static_cast<double>(rim.size());
-  normal.normalize();
-  const double allowed = kPlanar * extent_of(rim.points);
-  return std::all_of(rim.points.begin(), rim.points.end(),
-                     [&](const Vec3d& p) { return std::abs(normal.dot(p - middle)) <= allowed; });
+  plane.normal.normalize();
+  for (const Vec3d& p : rim.points) {
+    const double distance = std::abs(plane.normal.dot(p - middle));
+    plane.farthest = std::max(plane.farthest, distance);
+    plane.mean_distance += distance * distance / static_cast<double>(rim.size());
+  }
+  plane.mean_distance = std::sqrt(plane.mean_distance);
+  return plane;
+}
+
+// Between the surface at the rim and the plane, up to a right angle, weighted by the lengths of the
+// edges.
+double mean_angle(const Rim& rim, const RimPlane& plane) {
+  double sum = 0, length = 0;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const Vec3d edge = rim.points[(i + 1) % rim.size()] - rim.points[i];
+    const Vec3d normal = edge.cross(rim.apex[i] - rim.points[i]).normalized();
+    sum += edge.norm() * std::acos(std::clamp(std::abs(normal.dot(plane.normal)), 0.0, 1.0));
+    length += edge.norm();
+  }
+  return length > 0 ? sum / length : 0;
 }
 
 // Between the surface and a patch, weighted by the lengths of the rim's edges.
@@ -88,7 +117,10 @@ bool goes_on_curved(const Rim& rim, const LoopTriangulation& flat) {
   if (rim.size() < kShortestRim) return false;
   const double bend = mean_bend(rim, rim.points, flat.triangles);
   if (bend < kStraight || bend > kSteep) return false;
-  return bend <= kSteepAtPlane || !is_planar(rim);
+  const RimPlane plane = plane_of(rim);
+  const double extent = extent_of(rim.points);
+  if (plane.farthest <= kPlanar * extent) return bend <= kSteepAtPlane;
+  return plane.mean_distance > kNearlyPlanar * extent || mean_angle(rim, plane) <= kSteepAtCut;
 }
 
 // Solves for the new points: they minimise the sum over all points of the rim and the patch of

@@ -64,6 +64,9 @@ constexpr double kFlat = 0.999;
 // something round.
 constexpr double kLargestCurved = 0.45;
 
+// Of the bounding box, by a curved patch, as a share of its rim's width.
+constexpr double kMostGrowth = 0.01;
+
 // A patch may lie on the surface where it is small beside it: there two sheets overlap by a seam.
 constexpr double kSmallPatch = 0.1;
 
@@ -323,14 +326,29 @@ class HolePatcher {
     if (options_.mode == HoleMode::flat) return;
     const std::vector<char> too_large = find_large(kLargestCurved, kLargestCurved);
     const std::vector<internal::Collar> collars = internal::find_collars(soup_, triangles_, loops_);
+    Eigen::AlignedBox3d bounds;
+    for (PointId p(0u); p < soup_.points.end_id(); ++p.value) bounds.extend(position(soup_, p));
     SharedProgress shared(progress_, rims_.size());
     parallel_for(rims_.size(), [&](std::size_t l) {
       if (closed_[l] == 0 && is_patched(l) && too_large[l] == 0) {
         curved_[l] =
             internal::curve_patch(rims_[l], patches_[l], collars[l], [&] { shared.poll(); });
+        if (options_.mode != HoleMode::curved && curved_[l] &&
+            leaves(*curved_[l], rims_[l], bounds)) {
+          curved_[l].reset();
+        }
       }
       shared.done();
     });
+  }
+
+  // Whether it would make the bounds larger by more than a share of its rim's width.
+  [[nodiscard]] static bool leaves(const internal::PatchMesh& patch, const Rim& rim,
+                                   const Eigen::AlignedBox3d& bounds) {
+    Eigen::AlignedBox3d larger = bounds, own;
+    for (const Vec3d& p : rim.points) own.extend(p);
+    for (const Vec3d& p : patch.points) larger.extend(p);
+    return (larger.sizes() - bounds.sizes()).maxCoeff() > kMostGrowth * own.sizes().maxCoeff();
   }
 
   [[nodiscard]] bool is_patched(std::size_t loop) const {
@@ -502,6 +520,8 @@ std::string_view hole_mode_name(HoleMode mode) {
   switch (mode) {
     case HoleMode::patch:
       return "patch";
+    case HoleMode::curved:
+      return "curved";
     case HoleMode::flat:
       return "flat";
     case HoleMode::extend:
@@ -517,7 +537,7 @@ void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report
   report = {};
   const bool is_share = options.largest_share >= 0 && options.largest_flat_share >= 0;
   if (!is_share) throw UsageError("the largest hole is to be 0 or more");
-  if (options.mode != HoleMode::patch && options.mode != HoleMode::flat) return;
+  if (options.mode == HoleMode::extend || options.mode == HoleMode::none) return;
   HolePatcher(soup, options, report, progress).run();
 }
 

@@ -44,6 +44,10 @@ constexpr double kPokingShareOfInward = 0.34;
 constexpr double kSurelyWall = 0.2;
 constexpr double kSurelyBody = 0.5;
 
+// A part that does not tell its way out is no wall of a cavity in what holes make up by more than
+// this share of its area: a ring with lids is no vessel for its hub.
+constexpr double kMostMadeUp = 0.5;
+
 bool in_doubt(const Orientation& orientation, const std::vector<double>& w) {
   return std::any_of(w.begin(), w.end(), [](double x) { return x < -0.5; }) ||
          std::any_of(orientation.parts.begin(), orientation.parts.end(),
@@ -80,6 +84,7 @@ class PartTurner {
  private:
   struct Blob {
     bool positive = false, negative = false, doubtful = false;
+    double area = 0, made_up = 0;  // of the parts that no other encloses
     [[nodiscard]] bool reversed() const { return negative && !positive && !doubtful; }
     [[nodiscard]] bool mixed() const { return negative && !reversed(); }
   };
@@ -223,18 +228,35 @@ class PartTurner {
     return parts_[p].believed ? kPokingShareOfInward : kPokingShare;
   }
 
+  void measure_made_up(std::uint32_t p) {
+    if (part_blob_[p] == kNone) return;
+    Blob& blob = blobs_[part_blob_[p]];
+    for (const std::uint32_t l : links_of_part(p)) {
+      const Link& link = graph_.links()[l];
+      blob.area += link.area;
+      if (!link.given) blob.made_up += link.area;
+    }
+  }
+
+  [[nodiscard]] bool may_be_wall(std::uint32_t p) const {
+    const Blob& blob = blobs_[part_blob_[p]];
+    return parts_[p].believed || blob.made_up <= kMostMadeUp * blob.area;
+  }
+
   // Those that others enclose, from the outermost on.
   std::vector<Candidate> enclosed_candidates(const std::vector<double>& w_outward) {
     std::vector<Candidate> enclosed;
     for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      const double outside = is_candidate(p) ? share_outside(p, w_outward) : 1;
+      if (outside > most_outside(p)) measure_made_up(p);
       if (!is_candidate(p)) continue;
-      const double outside = share_outside(p, w_outward);
       if (outside <= most_outside(p)) {
         enclosed.push_back({depth_of(p, w_outward), p, outside});
       } else if (parts_[p].believed && outside < kSurelyBody) {
         report_.other = InsideRule::winding;
       }
     }
+    std::erase_if(enclosed, [this](const Candidate& c) { return !may_be_wall(c.part); });
     std::stable_sort(enclosed.begin(), enclosed.end(),
                      [](const Candidate& a, const Candidate& b) { return a.depth < b.depth; });
     return enclosed;

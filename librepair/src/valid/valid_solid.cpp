@@ -13,6 +13,7 @@
 #include <mesh/mesh_parts.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
+#include <mesh/triangle_measures.h>
 #include <mesh/weld_points.h>
 #include <repair/valid_solid.h>
 
@@ -135,6 +136,28 @@ bool may_turn(const PartOrientation& found, const std::vector<char>& tells) {
   return !any_told_wrong || all_told_wrong || !any_nested;
 }
 
+// Whether a part that does not tell its way out lies in one of which holes make up most:
+// turn_parts() decides what it is.
+bool is_wall_in_made_up(const CleanSoup& soup, const TriangleSoup& mesh,
+                        const PartOrientation& found, const std::vector<char>& tells) {
+  std::vector<double> area(tells.size(), 0), made_up(tells.size(), 0);
+  bool any_wall = false, any_made_up = false;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const IndexTriangle& corners = mesh.triangles[t];
+    const double size = internal::triangle_area(mesh.points[corners[0]], mesh.points[corners[1]],
+                                                mesh.points[corners[2]]);
+    area[found.part_of[t]] += size;
+    if (soup.triangles[TriangleId(t)].source == Triangle::kNoSource) {
+      made_up[found.part_of[t]] += size;
+    }
+  }
+  for (std::size_t part = 0; part < tells.size(); ++part) {
+    any_wall |= found.depth[part] % 2 != 0 && tells[part] == 0;
+    any_made_up |= found.depth[part] % 2 == 0 && 2 * made_up[part] > area[part];
+  }
+  return any_wall && any_made_up;
+}
+
 // Thinner, on average, than a step of the grid: it is nothing to the rest of a repair.
 bool any_part_is_thin(const TriangleSoup& mesh, const PartOrientation& found, double step) {
   const UnitScale scale(mesh.points);
@@ -171,6 +194,7 @@ std::optional<MendedSolid> mended_solid(const CleanSoup& soup, const Orientation
   const std::vector<char> tells = parts_that_tell(found, orientation);
   const bool turns_any = any(found.inside_out);
   if (turns_any && (orientation.parts.empty() || !may_turn(found, tells))) return std::nullopt;
+  if (is_wall_in_made_up(soup, surface->mesh, found, tells)) return std::nullopt;
   if (any_part_is_thin(surface->mesh, found, soup.grid.unit)) return std::nullopt;
   MendedSolid solid{std::move(*surface)};
   for (std::size_t part = 0; part < tells.size(); ++part) {
