@@ -181,7 +181,7 @@ void add_holes_option(CommandLine& app, HoleOptions& holes) {
       "How to close holes and gaps:\n"
       "  patch   by triangles over each hole, curved as the surface around it is;\n"
       "          what is left, as with extend\n"
-      "  curved  the same, also where that makes the bounding box larger\n"
+      "  curved  the same, also where that makes the bounding box larger or the rim is a cut\n"
       "  flat    the same, without new points\n"
       "  extend  along planes that the mesh already has\n"
       "  none    not at all: a component with a hole encloses nothing\n")
@@ -219,7 +219,7 @@ void add_thicken_options(CommandLine& app, const CommandOption& max_hole, Thicke
              "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
              "auto: a thickness that fits, where nothing encloses anything, or more than half\n"
              "of the area is of parts that do not.\n"
-             "Only holes up to SHARE 0.25 are closed then, unless --max-hole is given")
+             "Only holes up to SHARE 0.25 are closed then, and no ends of tubes, unless --max-hole is given")
           ->check(why_no_size_or_word)
           ->type_name("auto|none|X|X%")
           ->default_str("none")

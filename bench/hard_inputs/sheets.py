@@ -42,7 +42,7 @@ def cards_case(number, random, cards=None):
     volume = leaves.area() * thickness - lines * SHARED[quads] * thickness ** 2
     truth = {"family": "cards", "shape": f"{count} bunches of {quads}", "area": leaves.area(), "thickness": thickness,
              "volume": volume + (trunk.volume() if has_trunk else 0),
-             "options": ["--thicken", repr(thickness), "--holes", "none"]}
+             "options": ["--thicken", repr(thickness)]}
     return Case(broken, truth)
 
 
@@ -131,5 +131,5 @@ def garment_case(number, random, shape=None):
     broken = turned(GARMENTS[shape](random), random_turn(random))
     thickness = 0.004 * broken.diagonal()
     truth = {"family": "garments", "shape": shape, "area": broken.area(), "thickness": thickness,
-             "volume": broken.area() * thickness, "options": ["--thicken", repr(thickness), "--holes", "none"]}
+             "volume": broken.area() * thickness, "options": ["--thicken", repr(thickness)]}
     return Case(broken, truth)

@@ -25,7 +25,8 @@ struct ThickenOptions {
   bool automatic = false;
   ThickenSide side = ThickenSide::middle;
   // Holes of a larger share of their part are the rim of a sheet, whatever HoleOptions says:
-  // whoever asks for walls has sheets. A box without a lid has 1/5, a half-ball 1/2.
+  // whoever asks for walls has sheets. A half-ball has 1/2. Unless it is infinite,
+  // HoleOptions::sheets_end_steeply holds, too.
   double largest_hole_share = 0.25;
 
   [[nodiscard]] bool wanted() const { return automatic || thickness > 0; }

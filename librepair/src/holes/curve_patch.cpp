@@ -6,6 +6,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "rim_plane.h"
+
 namespace meshrepair::internal {
 namespace {
 
@@ -53,45 +55,6 @@ double extent_of(const std::vector<Vec3d>& points) {
   return (high - low).norm();
 }
 
-// The plane that has the direction of the rim's vector area.
-struct RimPlane {
-  Vec3d normal = Vec3d::Zero();
-  double mean_distance = 0;  // of the points from it: the root of the mean square
-  double farthest = 0;       // of them
-};
-
-RimPlane plane_of(const Rim& rim) {
-  RimPlane plane;
-  Vec3d middle = Vec3d::Zero();
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    plane.normal +=
-        (rim.points[i] - rim.points[0]).cross(rim.points[(i + 1) % rim.size()] - rim.points[0]);
-    middle += rim.points[i];
-  }
-  middle /= static_cast<double>(rim.size());
-  plane.normal.normalize();
-  for (const Vec3d& p : rim.points) {
-    const double distance = std::abs(plane.normal.dot(p - middle));
-    plane.farthest = std::max(plane.farthest, distance);
-    plane.mean_distance += distance * distance / static_cast<double>(rim.size());
-  }
-  plane.mean_distance = std::sqrt(plane.mean_distance);
-  return plane;
-}
-
-// Between the surface at the rim and the plane, up to a right angle, weighted by the lengths of the
-// edges.
-double mean_angle(const Rim& rim, const RimPlane& plane) {
-  double sum = 0, length = 0;
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    const Vec3d edge = rim.points[(i + 1) % rim.size()] - rim.points[i];
-    const Vec3d normal = edge.cross(rim.apex[i] - rim.points[i]).normalized();
-    sum += edge.norm() * std::acos(std::clamp(std::abs(normal.dot(plane.normal)), 0.0, 1.0));
-    length += edge.norm();
-  }
-  return length > 0 ? sum / length : 0;
-}
-
 // Between the surface and a patch, weighted by the lengths of the rim's edges.
 double mean_bend(const Rim& rim, const std::vector<Vec3d>& points,
                  const std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -113,14 +76,15 @@ double mean_bend(const Rim& rim, const std::vector<Vec3d>& points,
   return length > 0 ? sum / length : 0;
 }
 
-bool goes_on_curved(const Rim& rim, const LoopTriangulation& flat) {
+bool goes_on_curved(const Rim& rim, const LoopTriangulation& flat, bool from_cuts) {
   if (rim.size() < kShortestRim) return false;
   const double bend = mean_bend(rim, rim.points, flat.triangles);
   if (bend < kStraight || bend > kSteep) return false;
   const RimPlane plane = plane_of(rim);
   const double extent = extent_of(rim.points);
   if (plane.farthest <= kPlanar * extent) return bend <= kSteepAtPlane;
-  return plane.mean_distance > kNearlyPlanar * extent || mean_angle(rim, plane) <= kSteepAtCut;
+  if (from_cuts || plane.mean_distance > kNearlyPlanar * extent) return true;
+  return mean_angle(rim, plane) <= kSteepAtCut;
 }
 
 // Solves for the new points: they minimise the sum over all points of the rim and the patch of
@@ -303,8 +267,9 @@ bool bend_evenly(PatchMesh& patch, const Rim& rim, const Collar& collar,
 }  // namespace
 
 std::optional<PatchMesh> curve_patch(const Rim& rim, const LoopTriangulation& flat,
-                                     const Collar& collar, const std::function<void()>& poll) {
-  if (!goes_on_curved(rim, flat)) return std::nullopt;
+                                     const Collar& collar, bool from_cuts,
+                                     const std::function<void()>& poll) {
+  if (!goes_on_curved(rim, flat, from_cuts)) return std::nullopt;
   PatchMesh patch{rim.points, flat.triangles};
   refine_patch(patch, std::max(kMostPoints, 2 * rim.size()), poll);
   if (patch.points.size() == rim.size()) return std::nullopt;

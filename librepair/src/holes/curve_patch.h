@@ -24,9 +24,10 @@ struct Collar {
 // around it arrives there: first to one of least bending (Liepa 2003, section 5, with the cotangent
 // Laplacian), then to one of even mean curvature, as a sphere has it, where that is sound. Nothing
 // where the flat patch is as good or better: the rim is short, the surface goes on straight, or it
-// arrives so steeply that what is missing is rather a face of its own, as the lid of a box.
+// arrives so steeply that what is missing is rather a face of its own, as the lid of a box. So is
+// what a ragged cut leaves, unless `from_cuts`.
 [[nodiscard]] std::optional<PatchMesh> curve_patch(const Rim& rim, const LoopTriangulation& flat,
-                                                   const Collar& collar,
+                                                   const Collar& collar, bool from_cuts,
                                                    const std::function<void()>& poll);
 
 }  // namespace meshrepair::internal

@@ -17,6 +17,9 @@ namespace {
 constexpr double kFlatAtRim = 0.85;
 constexpr double kFlat = 0.7;
 
+// Of the loop, by length.
+constexpr double kNearlyAll = 0.9;
+
 // Of the largest opening, in area.
 constexpr double kSmallestShare = 0.01;
 
@@ -62,7 +65,7 @@ class FlangeFinder {
     return sum;
   }
 
-  // Whether the surface does so from more than half of the loop, nearly in its plane.
+  // Whether the surface does so from nearly all of the loop, nearly in its plane.
   [[nodiscard]] bool goes_inward(std::size_t l, const Vec3d& normal) const {
     const auto points = loops_.points_of(l);
     const auto edges = loops_.edges_of(l);
@@ -79,7 +82,7 @@ class FlangeFinder {
       const Vec3d area = area_of_triangle(side / 3);
       if (std::abs(area.dot(normal)) >= kFlatAtRim * area.norm() * size) inward += length;
     }
-    return 2 * inward > all;
+    return inward > kNearlyAll * all;
   }
 
   void find_neighbours() {

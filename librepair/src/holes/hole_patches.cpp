@@ -28,6 +28,7 @@
 #include "new_points.h"
 #include "notches.h"
 #include "rim.h"
+#include "rim_plane.h"
 #include "strip_triangulation.h"
 
 namespace meshrepair {
@@ -49,6 +50,10 @@ constexpr std::size_t kLargestRing = 4'000'000;
 // rim at least has to have this share of the area that it is joined to.
 constexpr double kLargeOpening = 0.1;
 
+// The same where one of the pieces lies within the other: they are the walls of a vessel, and the
+// gap was the rim of its mouth.
+constexpr double kMouth = 0.01;
+
 // A ring has to have less than this share of the area of two patches: those over holes that touch
 // in a point are a ring, too.
 constexpr double kWorthARing = 0.9;
@@ -63,6 +68,12 @@ constexpr double kFlat = 0.999;
 // A patch of more than this share of its part is rather the floor of a hill than a hole in
 // something round.
 constexpr double kLargestCurved = 0.45;
+
+// With HoleOptions::sheets_end_steeply: the angle in radians to the plane of the rim, the share of
+// the rim that has it, and that of the sheet below which a patch closes the end of a bore.
+constexpr double kSteepEnd = 0.7;
+constexpr double kMostOfEnd = 0.75;
+constexpr double kSmallEnd = 0.002;
 
 // Of the bounding box, by a curved patch, as a share of its rim's width.
 constexpr double kMostGrowth = 0.01;
@@ -176,10 +187,16 @@ class HolePatcher {
       patches_[l] = internal::triangulate_loop(rims_[l], options);
       flat_[l] = internal::least_area(rims_[l]) >= kFlat * patches_[l].area ? 1 : 0;
       const bool is_large = patches_[l].area > (flat_[l] != 0 ? most(l) : kSmallPatch) * area[l];
-      const bool is_rim = flanges_.is_outer_rim[l] != 0;
+      const bool is_rim = flanges_.is_outer_rim[l] != 0 || is_end_of_sheet(l, area[l]);
       folded_[l] = is_rim || (is_large && lies_on_surface(l)) ? 1 : 0;
       shared.done();
     });
+  }
+
+  [[nodiscard]] bool is_end_of_sheet(std::size_t loop, double area) const {
+    if (!options_.sheets_end_steeply || patches_[loop].area <= kSmallEnd * area) return false;
+    const Rim& rim = rims_[loop];
+    return internal::share_steeper(rim, internal::plane_of(rim), kSteepEnd) > kMostOfEnd;
   }
 
   void judge_openings() {
@@ -262,7 +279,7 @@ class HolePatcher {
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
       if (flanges_.is_outer_rim[a] != 0 || flanges_.is_outer_rim[b] != 0) continue;
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
-      if (!is_large_opening(a) && !is_large_opening(b) && !are_two_walls(a, b)) continue;
+      if (!may_be_gap(a, b)) continue;
       const std::array<FilledNotches, 2> filled = {internal::fill_notches(rims_[a]),
                                                    internal::fill_notches(rims_[b])};
       const StripTriangulation ring = internal::triangulate_strip(filled[0].rim, filled[1].rim);
@@ -294,9 +311,13 @@ class HolePatcher {
     return kLargerThanPatch * patches_[a].area + sheet_area(b, b);
   }
 
-  bool is_large_opening(std::size_t loop) {
-    return patches_[loop].area > kLargeOpening * sheet_area(loop, loop);
+  bool may_be_gap(std::size_t a, std::size_t b) {
+    const double share = std::max(share_of_sheets(a), share_of_sheets(b));
+    return share > kLargeOpening || (share > kMouth && are_two_walls(a, b));
   }
+
+  // That the patch has, in area.
+  double share_of_sheets(std::size_t loop) { return patches_[loop].area / sheet_area(loop, loop); }
 
   // Whether two sheets end at these rims, one of which lies within the bounds of the other.
   bool are_two_walls(std::size_t a, std::size_t b) {
@@ -331,12 +352,10 @@ class HolePatcher {
     SharedProgress shared(progress_, rims_.size());
     parallel_for(rims_.size(), [&](std::size_t l) {
       if (closed_[l] == 0 && is_patched(l) && too_large[l] == 0) {
-        curved_[l] =
-            internal::curve_patch(rims_[l], patches_[l], collars[l], [&] { shared.poll(); });
-        if (options_.mode != HoleMode::curved && curved_[l] &&
-            leaves(*curved_[l], rims_[l], bounds)) {
-          curved_[l].reset();
-        }
+        const bool anywhere = options_.mode == HoleMode::curved;
+        curved_[l] = internal::curve_patch(rims_[l], patches_[l], collars[l], anywhere,
+                                           [&] { shared.poll(); });
+        if (!anywhere && curved_[l] && leaves(*curved_[l], rims_[l], bounds)) curved_[l].reset();
       }
       shared.done();
     });
@@ -503,7 +522,7 @@ class HolePatcher {
   internal::Flanges flanges_;
   std::vector<Rim> rims_;                                   // of each loop
   std::vector<LoopTriangulation> patches_;                  // of each loop
-  std::vector<char> folded_;                                // of each loop: onto the surface
+  std::vector<char> folded_;                                // of each loop: a rim of an open sheet
   std::vector<char> flat_;                                  // of each loop: its patch
   std::vector<char> too_large_;                             // of each loop: its patch
   std::vector<char> closed_;                                // of each loop: by a ring

@@ -1,5 +1,7 @@
 // Patches that go on as the surface around the hole does.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <set>
@@ -67,7 +69,7 @@ TEST(CurvedPatches, OfALargeCapOfASphereAreNearlyRound) {
   const TriangleSoup whole = sphere(5000);
   const TriangleSoup open = pierced(whole, kLargeCap);
   EXPECT_GT(volume_error(whole, open, HoleMode::flat), 3e-2);
-  EXPECT_LT(volume_error(whole, open, HoleMode::patch), 2e-3);
+  EXPECT_LT(volume_error(whole, open, HoleMode::curved), 2e-3);
 }
 
 // The patch runs round its rim in a direction of its own.
@@ -75,8 +77,10 @@ TEST(CurvedPatches, AreTheSameWhicheverWayTheSurfaceRuns) {
   TriangleSoup open = pierced(sphere(5000), kLargeCap);
   for (int turn = 0; turn < 2; ++turn) {
     CleanSoup soup = cleaned(open);
+    HoleOptions options;
+    options.mode = HoleMode::curved;
     HoleReport report;
-    patch_holes(soup, {}, report);
+    patch_holes(soup, options, report);
     EXPECT_EQ(report.curved, 1u);
     for (PointId p(0u); p < soup.points.end_id(); ++p.value) {
       EXPECT_NEAR(soup.points[p].norm(), 1, 5e-3);
@@ -95,8 +99,8 @@ TEST(CurvedPatches, OfNoisySpheresDoNotBulge) {
         p += noise * Vec3d(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1));
       }
       const TriangleSoup open = pierced(whole, kLargeCap);
-      EXPECT_LT(volume_error(whole, open, HoleMode::patch), 1.5e-2);
-      for (const Vec3d& p : closed_by(open, HoleMode::patch).surface.mesh.points) {
+      EXPECT_LT(volume_error(whole, open, HoleMode::curved), 1.5e-2);
+      for (const Vec3d& p : closed_by(open, HoleMode::curved).surface.mesh.points) {
         EXPECT_LT(p.norm(), 1.02 + noise);
       }
     }
@@ -128,7 +132,7 @@ TEST(CurvedPatches, OfACylinderStayOnIt) {
 TEST(CurvedPatches, GrowCoarserInwards) {
   const TriangleSoup whole = sphere(20000);
   const TriangleSoup open = pierced(whole, kLargeCap);
-  const RepairResult result = closed_by(open, HoleMode::patch);
+  const RepairResult result = closed_by(open, HoleMode::curved);
   const std::size_t missing = whole.triangles.size() - open.triangles.size();
   EXPECT_LT(result.report.holes.triangles, 0.5 * static_cast<double>(missing));
   EXPECT_LT(std::abs(result.report.output_volume / signed_volume(whole) - 1), 2e-3);
@@ -138,8 +142,47 @@ TEST(CurvedPatches, OfATorusFollowBothCurvatures) {
   const TriangleSoup whole = torus(120, 60);
   for (const Vec3d& centre : {Vec3d(2.7, 0, 0), Vec3d(1.3, 0, 0), Vec3d(2, 0, 0.7)}) {
     const TriangleSoup open = pierced(whole, ball(centre, 0.35));
-    EXPECT_LT(volume_error(whole, open, HoleMode::patch),
+    EXPECT_LT(volume_error(whole, open, HoleMode::curved),
               0.3 * volume_error(whole, open, HoleMode::flat));
+  }
+}
+
+// A hole on top is closed flat, unless it is asked for more.
+TEST(CurvedPatches, StayWithinTheBoundingBox) {
+  const TriangleSoup whole = sphere(6000);
+  const TriangleSoup open = pierced(whole, ball({0, 0.28, 0.96}, 0.45));
+  double top = 0;
+  for (const IndexTriangle& t : open.triangles) {
+    for (const std::uint32_t p : t) top = std::max(top, open.points[p].z());
+  }
+  for (const Vec3d& p : closed_by(open, HoleMode::patch).surface.mesh.points) {
+    EXPECT_LE(p.z(), top + 0.01);
+  }
+  EXPECT_LT(volume_error(whole, open, HoleMode::curved), 5e-4);
+}
+
+// As where an arm is cut off between triangles.
+TEST(CurvedPatches, ARaggedCutIsFlat) {
+  TriangleSoup arm;
+  constexpr std::uint32_t kAround = 30, kAlong = 40;
+  for (std::uint32_t z = 0; z <= kAlong; ++z) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double a = 2 * std::numbers::pi * i / kAround;
+      arm.points.emplace_back(std::cos(a), std::sin(a), 0.1 * z);
+    }
+  }
+  const auto floor = static_cast<std::uint32_t>(arm.points.size());
+  arm.points.emplace_back(0, 0, 0);
+  for (std::uint32_t p = 0; p < kAlong * kAround; ++p) {
+    const std::uint32_t next = p % kAround + 1 == kAround ? p + 1 - kAround : p + 1;
+    if (p < kAround) arm.triangles.push_back({floor, next, p});
+    arm.triangles.push_back({p, next, next + kAround});
+    arm.triangles.push_back({p, next + kAround, p + kAround});
+  }
+  const TriangleSoup open = pierced(
+      arm, [](const Vec3d& p) { return p.z() > 3 + 0.3 * p.x() + 0.05 * std::sin(20 * p.y()); });
+  for (const Vec3d& p : closed_by(open, HoleMode::patch).surface.mesh.points) {
+    EXPECT_LE(p.z(), 3 + 0.3 * p.x() + 0.2);
   }
 }
 
@@ -213,7 +256,7 @@ TEST(CurvedPatches, RandomHolesAreClosed) {
       open = pierced(open, ball(centre.normalized(), random.real(0.1, 0.5)));
     }
     for (Vec3d& p : open.points) p *= random.real(0.97, 1.03);
-    const RepairResult result = closed_by(open, HoleMode::patch);
+    const RepairResult result = closed_by(open, HoleMode::curved);
     EXPECT_GT(result.report.output_volume, 0.85 * signed_volume(whole));
     EXPECT_LT(result.report.output_volume, 1.1 * signed_volume(whole));
   }

@@ -1,11 +1,14 @@
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include <repair/repair.h>
 
 #include "random_solids.h"
+#include "revolved.h"
 #include "shapes.h"
 #include "share_of_cases.h"
 
@@ -158,6 +161,18 @@ TEST(TurnParts, WhatSaysNothingAndPokesOutIsABody) {
   EXPECT_EQ(report.inside.cavity_walls, 0u);
   EXPECT_EQ(report.inside.poking_walls, 0u);
   EXPECT_GT(report.output_volume, signed_volume(ball));
+}
+
+// A ring of which each triangle is there both ways round, and a hub within it likewise.
+TEST(TurnParts, AHubIsNoVoidInARingWithLids) {
+  TriangleSoup soup = revolved({{1, 0.5}, {1, 0}}, 20);
+  append(soup, revolved({{0, 0.4}, {0.3, 0.4}, {0.3, 0.1}, {0, 0.1}}, 12));
+  TriangleSoup back = soup;
+  for (IndexTriangle& t : back.triangles) std::swap(t[1], t[2]);
+  append(soup, back);
+  const RepairReport report = report_by(soup, InsideRule::automatic);
+  EXPECT_EQ(report.inside.cavity_walls, 0u);
+  EXPECT_NEAR(report.output_volume, 0.5 * 10 * std::sin(0.1 * std::numbers::pi), 1e-6);
 }
 
 }  // namespace

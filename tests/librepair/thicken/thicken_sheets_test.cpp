@@ -124,16 +124,17 @@ TEST(ThickenSheets, WhatEnclosesNothingIsAnotherThing) {
   }
 }
 
-TEST(ThickenSheets, HowLargeAHoleIsDecidesWhatATubeIs) {
+TEST(ThickenSheets, TheEndsOfATubeAreItsRims) {
   const TriangleSoup garment = tube(6);
-  EXPECT_EQ(expect_solid(garment, walls_of(0.05)).report.thicken.triangles, 0u);
-  for (const bool none : {true, false}) {
+  for (const HoleMode mode : {HoleMode::patch, HoleMode::none}) {
     RepairOptions options = walls_of(0.05);
-    if (none) options.holes.mode = HoleMode::none;
-    if (!none) options.holes.largest_share = options.holes.largest_flat_share = 0.01;
+    options.holes.mode = mode;
     EXPECT_NEAR(expect_solid(garment, options).report.output_volume, 0.05 * surface_area(garment),
                 1e-3);
   }
+  RepairOptions options = walls_of(0.05);
+  options.thicken.largest_hole_share = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(expect_solid(garment, options).report.thicken.triangles, 0u);
 }
 
 TEST(ThickenSheets, AWallThickerThanItsTubeFillsIt) {
