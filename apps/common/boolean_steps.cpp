@@ -58,9 +58,6 @@ Json facts_of_operand(const Operand& operand, const Findings& findings, const Js
   return facts;
 }
 
-// Of the volume, from the rounding of points.
-constexpr double kTolerableChange = 0.01;
-
 // What repair says of its own grid, of the one of all operands.
 void warn_of_common_grid(const BooleanCommand& command, const BooleanReport& report) {
   for (std::size_t i = 0; i < report.operands.size(); ++i) {
@@ -70,12 +67,6 @@ void warn_of_common_grid(const BooleanCommand& command, const BooleanReport& rep
           "{}: {} narrower than the steps of the grid over all solids, {:.3g} each, and left out",
           command.inputs[i], number_of(operand.clean.dropped_below_grid, "triangle"),
           operand.clean.grid_unit);
-    }
-    if (std::abs(operand.volume_on_grid - operand.volume) > kTolerableChange * operand.volume) {
-      logger().warn(
-          "{}: its volume is {:.3g} where its points are on the grid over all solids, of steps of "
-          "{:.3g}, not {:.3g}",
-          command.inputs[i], operand.volume_on_grid, operand.clean.grid_unit, operand.volume);
     }
   }
 }

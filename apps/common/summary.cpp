@@ -329,8 +329,12 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
                                 number_of(parts.parts, "part"), parts.parts == 1 ? "is" : "are",
                                 what, parts.area));
   };
-  add(repair.parts.enclosing_nothing, "no wall of the solid");
-  add(repair.parts.inside_solid, "inside the solid");
+  add(fates.enclosing_nothing, "no wall of the solid");
+  add(fates.inside_solid, "inside the solid");
+  if (fates.closed_inside > 0 && repair.inside.used == InsideRule::winding) {
+    texts.push_back(fmt::format("with --inside parity {} of these would be the wall of a void",
+                                grouped(fates.closed_inside)));
+  }
   add_count(texts, repair.open_regions, "region", "that open sheets hardly enclose");
   add_count(texts, repair.crumbs, "part", "thinner than a step of the working grid");
   add_count(texts, repair.thin_cells.filled, "piece",

@@ -1,7 +1,10 @@
 #include "operands.h"
 
+#include <cmath>
 #include <sstream>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include <base/error.h>
 #include <bsp/common_grid.h>
@@ -17,13 +20,24 @@ double volume_on_grid(const TriangleSoup& solid, const Grid& grid) {
   return signed_volume(rounded) * grid.unit * grid.unit * grid.unit;
 }
 
+// Of the solid's diagonal that a step of the grid may be: corners move by up to that. And of its
+// volume, from the rounding of points.
+constexpr double kLongestStep = 1e-3;
+constexpr double kMostChange = 0.01;
+
+double diagonal_of(const TriangleSoup& solid) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3d& p : solid.points) box.extend(p);
+  return box.diagonal().norm();
+}
+
 }  // namespace
 
 void throw_too_small(std::size_t operand, const Grid& grid) {
   std::ostringstream message;
   message << "solid " << operand + 1
-          << " is nothing beside the others: on the grid of 2^26 steps over all, of " << grid.unit
-          << " each, it has no volume";
+          << " is too small beside the others: the grid over all has 2^26 steps, of " << grid.unit
+          << " each; leave out of the others what is far from it";
   throw InputError(message.str());
 }
 
@@ -45,7 +59,11 @@ CleanSoup clean_operand(const TriangleSoup& solid, std::size_t number, const Gri
   if (solid.triangles.empty()) return clean;
   clean = clean_soup(solid, grid, operand.clean, options.repair.progress);
   if (clean.triangles.empty()) throw_too_small(number, grid);
-  operand.volume_on_grid = volume_on_grid(solid, grid);
+  const double change = volume_on_grid(solid, grid) - operand.volume;
+  if (std::abs(change) > kMostChange * operand.volume ||
+      grid.unit > kLongestStep * diagonal_of(solid)) {
+    throw_too_small(number, grid);
+  }
   return clean;
 }
 

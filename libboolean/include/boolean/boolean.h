@@ -22,8 +22,6 @@ struct OperandReport {
   CleanReport clean;  // on the grid of all operands
   BuildTreeReport tree;
   double volume = 0;  // as given, in the input's units, cubed
-  // The same with all points on the grid: where walls are not much thicker than its steps, another.
-  double volume_on_grid = 0;
 };
 
 // Filled as far as the work came, also when it ended with an exception.

@@ -21,6 +21,7 @@ struct PartsAndArea {
 struct PartFates {
   PartsAndArea enclosing_nothing;  // not a piece bounds the solid, and some lies outside it
   PartsAndArea inside_solid;       // not a piece bounds the solid, and all lies inside it
+  std::size_t closed_inside = 0;   // of these: without an open edge; voids by another rule
   // Triangles of the input: of which a piece bounds the solid; that lie inside it with all pieces;
   // the others, which lie outside it, or coincide with another triangle.
   std::size_t bounding_triangles = 0;

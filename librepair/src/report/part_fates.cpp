@@ -52,6 +52,8 @@ PartFates find_part_fates(const CleanSoup& soup, const std::vector<std::uint8_t>
   const std::size_t parts =
       examine_topology(index_triangles(soup), soup.points.size(), &topology).parts;
   std::vector<std::uint8_t> places_of_part(parts, 0);
+  std::vector<char> is_open(parts, 0);
+  for (const std::uint32_t side : topology.open_sides) is_open[topology.parts[side / 3]] = 1;
   std::vector<double> area(parts, 0);
   for (TriangleId t(0u); t < soup.triangles.end_id(); ++t.value) {
     const std::uint32_t part = topology.parts[t.index()];
@@ -67,6 +69,7 @@ PartFates find_part_fates(const CleanSoup& soup, const std::vector<std::uint8_t>
     PartsAndArea& fate = outside ? fates.enclosing_nothing : fates.inside_solid;
     ++fate.parts;
     fate.area += area[part];
+    if (!outside && is_open[part] == 0) ++fates.closed_inside;
   }
   return fates;
 }

@@ -56,8 +56,10 @@ auto fields_of(T& stage) {
 
 template <Is<PartFates> T>
 auto fields_of(T& fates) {
-  auto& [nothing, inside, bounding, inside_triangles, outside_triangles, places] = fates;
-  return std::tie(nothing, inside, bounding, inside_triangles, outside_triangles, places);
+  auto& [nothing, inside, closed_inside, bounding, inside_triangles, outside_triangles, places] =
+      fates;
+  return std::tie(nothing, inside, closed_inside, bounding, inside_triangles, outside_triangles,
+                  places);
 }
 
 template <Is<InsideReport> T>

@@ -27,6 +27,7 @@ TEST(PartFates, SheetsAndHiddenPartsAreToldApart) {
   append(soup, moved(triangle, {1, 5, 5}));
   const RepairReport report = repair(soup).report;
   EXPECT_EQ(report.parts.inside_solid.parts, 1u);
+  EXPECT_EQ(report.parts.closed_inside, 1u);
   EXPECT_DOUBLE_EQ(report.parts.inside_solid.area, 6.0 / 16);
   EXPECT_EQ(report.parts.enclosing_nothing.parts, 2u);
   EXPECT_DOUBLE_EQ(report.parts.enclosing_nothing.area, 1);
