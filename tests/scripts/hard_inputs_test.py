@@ -112,6 +112,12 @@ class Tables(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("| hollows | as needed | 4 | 0: 4 |", done.stdout)
 
+    def test_openings_are_closed_as_meant(self):
+        families = [word for name in ("rims", "flanges", "limbs", "hubs") for word in ("--family", name)]
+        done = run("meant.py", "families", *families, "--count", 24, "--programs", PROGRAMS)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("| hubs | as needed | 6 | 0: 6 |", done.stdout)
+
     def test_a_program_that_leaves_everything_as_it_is_is_found_out(self):
         with tempfile.TemporaryDirectory() as name:
             fake = Path(name) / "meshrepair"

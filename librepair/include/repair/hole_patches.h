@@ -27,9 +27,9 @@ struct HoleOptions {
   double largest_share = 0.75;
   // The same for patches that lie in a plane: hills and dishes have them.
   double largest_flat_share = 0.95;
-  // A loop at which the surface arrives steeply is the rim of a sheet, as the ends of a tube are,
-  // unless its patch has less than 0.2 % of the sheet's area.
-  bool sheets_end_steeply = false;
+  // Loops at which the surface arrives steeply are the ends of a tube, if a sheet has two or more,
+  // and stay open. Not those whose patch has less than 0.2 % of the sheet's area.
+  bool tubes_stay_open = false;
   bool rings = true;  // may join two loops that face each other
   // Loops of more edges than this are cut along short chords before they are triangulated.
   std::size_t most_edges = 200;

@@ -69,7 +69,7 @@ constexpr double kFlat = 0.999;
 // something round.
 constexpr double kLargestCurved = 0.45;
 
-// With HoleOptions::sheets_end_steeply: the angle in radians to the plane of the rim, the share of
+// With HoleOptions::tubes_stay_open: the angle in radians to the plane of the rim, the share of
 // the rim that has it, and that of the sheet below which a patch closes the end of a bore.
 constexpr double kSteepEnd = 0.7;
 constexpr double kMostOfEnd = 0.75;
@@ -187,14 +187,27 @@ class HolePatcher {
       patches_[l] = internal::triangulate_loop(rims_[l], options);
       flat_[l] = internal::least_area(rims_[l]) >= kFlat * patches_[l].area ? 1 : 0;
       const bool is_large = patches_[l].area > (flat_[l] != 0 ? most(l) : kSmallPatch) * area[l];
-      const bool is_rim = flanges_.is_outer_rim[l] != 0 || is_end_of_sheet(l, area[l]);
+      const bool is_rim = flanges_.is_outer_rim[l] != 0;
       folded_[l] = is_rim || (is_large && lies_on_surface(l)) ? 1 : 0;
       shared.done();
     });
+    if (options_.tubes_stay_open) open_tubes(area);
+  }
+
+  void open_tubes(const std::vector<double>& area) {
+    std::vector<std::uint32_t> ends(triangles_.size(), 0);
+    std::vector<char> is_end(rims_.size(), 0);
+    for (std::size_t l = 0; l < rims_.size(); ++l) {
+      is_end[l] = is_end_of_sheet(l, area[l]) ? 1 : 0;
+      ends[sheets_.sets.root(a_triangle_at(l))] += is_end[l] != 0 ? 1 : 0;
+    }
+    for (std::size_t l = 0; l < rims_.size(); ++l) {
+      if (is_end[l] != 0 && ends[sheets_.sets.root(a_triangle_at(l))] > 1) folded_[l] = 1;
+    }
   }
 
   [[nodiscard]] bool is_end_of_sheet(std::size_t loop, double area) const {
-    if (!options_.sheets_end_steeply || patches_[loop].area <= kSmallEnd * area) return false;
+    if (patches_[loop].area <= kSmallEnd * area) return false;
     const Rim& rim = rims_[loop];
     return internal::share_steeper(rim, internal::plane_of(rim), kSteepEnd) > kMostOfEnd;
   }
