@@ -26,7 +26,7 @@ struct ThickenOptions {
   ThickenSide side = ThickenSide::middle;
   // Holes of a larger share of their part are the rim of a sheet, whatever HoleOptions says:
   // whoever asks for walls has sheets. A half-ball has 1/2. Unless it is infinite,
-  // HoleOptions::tubes_stay_open holds, too.
+  // HoleOptions::sheets_stay_open holds, too.
   double largest_hole_share = 0.25;
 
   [[nodiscard]] bool wanted() const { return automatic || thickness > 0; }

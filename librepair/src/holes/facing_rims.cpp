@@ -69,14 +69,6 @@ class SortedPoints {
     return along * along > nearest.distance;
   }
 
-  static double length_of(const Rim& rim) {
-    double sum = 0;
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-      sum += (rim.points[(i + 1) % rim.size()] - rim.points[i]).norm();
-    }
-    return sum;
-  }
-
   void note(const RimPoint& q, const Vec3d& p, std::size_t own, Nearest& nearest) const {
     if (q.rim == own) return;
     const double length = lengths_[q.rim];

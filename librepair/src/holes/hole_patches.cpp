@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -69,7 +70,7 @@ constexpr double kFlat = 0.999;
 // something round.
 constexpr double kLargestCurved = 0.45;
 
-// With HoleOptions::tubes_stay_open: the angle in radians to the plane of the rim, the share of
+// With HoleOptions::sheets_stay_open: the angle in radians to the plane of the rim, the share of
 // the rim that has it, and that of the sheet below which a patch closes the end of a bore.
 constexpr double kSteepEnd = 0.7;
 constexpr double kMostOfEnd = 0.75;
@@ -191,10 +192,10 @@ class HolePatcher {
       folded_[l] = is_rim || (is_large && lies_on_surface(l)) ? 1 : 0;
       shared.done();
     });
-    if (options_.tubes_stay_open) open_tubes(area);
+    if (options_.sheets_stay_open) open_sheets(area);
   }
 
-  void open_tubes(const std::vector<double>& area) {
+  void open_sheets(const std::vector<double>& area) {
     std::vector<std::uint32_t> ends(triangles_.size(), 0);
     std::vector<char> is_end(rims_.size(), 0);
     for (std::size_t l = 0; l < rims_.size(); ++l) {
@@ -202,8 +203,16 @@ class HolePatcher {
       ends[sheets_.sets.root(a_triangle_at(l))] += is_end[l] != 0 ? 1 : 0;
     }
     for (std::size_t l = 0; l < rims_.size(); ++l) {
-      if (is_end[l] != 0 && ends[sheets_.sets.root(a_triangle_at(l))] > 1) folded_[l] = 1;
+      const bool is_of_tube = is_end[l] != 0 && ends[sheets_.sets.root(a_triangle_at(l))] > 1;
+      if (is_of_tube || is_rim_of_disk(l, area[l])) folded_[l] = 1;
     }
+  }
+
+  // Whether it is at least as long as that of a flat disk of the sheet's area: what is folded or
+  // rolled has such a rim, what is hollow has not.
+  [[nodiscard]] bool is_rim_of_disk(std::size_t loop, double area) const {
+    const double length = internal::length_of(rims_[loop]);
+    return length * length >= 4 * std::numbers::pi * area;
   }
 
   [[nodiscard]] bool is_end_of_sheet(std::size_t loop, double area) const {

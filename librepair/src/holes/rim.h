@@ -15,6 +15,14 @@ struct Rim {
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 
+inline double length_of(const Rim& rim) {
+  double sum = 0;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    sum += (rim.points[(i + 1) % rim.size()] - rim.points[i]).norm();
+  }
+  return sum;
+}
+
 // Whether a triangle with the edge `edge` of the rim and this third corner folds back by more than
 // 150 degrees: rather onto the surface than on from it.
 inline bool is_sharp_fold(const Rim& rim, std::size_t edge, const Vec3d& third) {

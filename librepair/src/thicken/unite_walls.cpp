@@ -68,7 +68,7 @@ RepairOptions options_for_sheets(const RepairOptions& options) {
   for (double* share : {&first.holes.largest_share, &first.holes.largest_flat_share}) {
     *share = std::min(*share, thicken.largest_hole_share);
   }
-  first.holes.tubes_stay_open = std::isfinite(thicken.largest_hole_share);
+  first.holes.sheets_stay_open = std::isfinite(thicken.largest_hole_share);
   return first;
 }
 
