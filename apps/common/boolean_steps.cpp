@@ -38,7 +38,7 @@ void add_operation_options(CommandLine& app, BooleanCommand& command) {
       "  xor           what is in an odd number of solids")
       ->required();
   app.add_flag("--always", command.always,
-               "Merge trees of all solids, also where cutting their triangles alone would do;\n"
+               "Merge trees of all solids instead of cutting their triangles;\n"
                "the result is the same");
 }
 

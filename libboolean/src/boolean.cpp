@@ -96,7 +96,7 @@ Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
                 const BooleanOptions& options, BooleanReport& report) {
   if (may_spare_trees(options)) {
     auto surface = boolean_by_chambers(solids, operation, options, report);
-    if (surface) return std::move(*surface);
+    return surface ? std::move(*surface) : boolean_by_cells(solids, operation, options, report);
   }
   return boolean_surface(boolean_tree(solids, operation, options, report), options, report);
 }

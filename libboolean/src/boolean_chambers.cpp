@@ -8,7 +8,7 @@
 #include <boolean/join_soups.h>
 #include <extract/arrange.h>
 #include <repair/chamber_graph.h>
-#include <repair/walk.h>
+#include <repair/inside_rule.h>
 
 #include "operands.h"
 
@@ -69,22 +69,29 @@ Orientation orientation_of(const JoinedSolids& solids) {
   return orientation;
 }
 
-// Of each chamber; empty if a solid winds around some place otherwise than solids do.
-std::vector<char> combine_chambers(CellGraph& graph, const JoinedSolids& solids,
-                                   SetOperation operation, ProgressObserver* progress) {
+// Which chambers or cells the operation makes solid. What rounding to the common grid turned inside
+// out, or laid over each other, is as small as that: it winds otherwise than solids do, and is
+// solid where it winds around. Empty if `exact` is asked for and windings contradict each other.
+std::vector<char> combine_regions(CellGraph& graph, std::span<const TriangleSoup> given,
+                                  const JoinedSolids& solids, SetOperation operation, bool exact,
+                                  const BooleanOptions& options) {
+  InsideOptions inside;
+  inside.rule = InsideRule::winding;
+  inside.solve.progress = options.repair.progress;
   std::vector<Label> result;
-  for (const Windings& windings : solids.windings) {
-    graph.set_windings(windings);
-    const Walk walk = walk_winding(graph, progress);
-    const bool is_solid =
-        walk.consistent() && std::all_of(walk.value.begin(), walk.value.end(),
-                                         [](std::int32_t w) { return w == 0 || w == 1; });
-    if (!is_solid) return {};
-    const bool first = result.empty();
-    result.resize(walk.value.size());
-    for (std::size_t c = 0; c < result.size(); ++c) {
-      const Label inside = walk.value[c] > 0 ? Label::solid : Label::empty;
-      result[c] = first ? inside : combine(operation, result[c], inside);
+  for (std::size_t k = 0; k < solids.windings.size(); ++k) {
+    graph.set_windings(solids.windings[k]);
+    InsideReport report;
+    const std::vector<char> solid = label_cells(graph, {}, inside, report).solid;
+    if (exact && !report.exact) return {};
+    const bool any = std::find(solid.begin(), solid.end(), 1) != solid.end();
+    if (!any && !given[k].triangles.empty()) {
+      internal::throw_too_small(k, solids.soup.grid);
+    }
+    result.resize(solid.size());
+    for (std::size_t c = 0; c < solid.size(); ++c) {
+      const Label label = solid[c] != 0 ? Label::solid : Label::empty;
+      result[c] = k == 0 ? label : combine(operation, result[c], label);
     }
   }
   std::vector<char> solid;
@@ -128,11 +135,26 @@ std::optional<Surface> boolean_by_chambers(std::span<const TriangleSoup> solids,
     if (!arrangement) return std::nullopt;
     meter.begin("inside");
     CellGraph graph = graph_of_chambers(*arrangement, joined.soup, orientation_of(joined));
-    solid = combine_chambers(graph, joined, operation, options.repair.progress);
+    solid = combine_regions(graph, solids, joined, operation, true, options);
   }
   if (solid.empty()) return std::nullopt;
   if (std::find(solid.begin(), solid.end(), 1) == solid.end()) return Surface();
   return extract_mesh(joined.soup, *arrangement, solid, options.repair, report.result);
+}
+
+Surface boolean_by_cells(std::span<const TriangleSoup> solids, SetOperation operation,
+                         const BooleanOptions& options, BooleanReport& report) {
+  report = {};
+  JoinedSolids joined;
+  {
+    StageMeter meter(report.result.stages, options.repair.progress);
+    meter.begin("operands");
+    joined = join_operands(solids, options, report);
+  }
+  const auto combined = [&](CellGraph& graph) {
+    return combine_regions(graph, solids, joined, operation, false, options);
+  };
+  return extract_mesh(joined.soup, combined, options.repair, report.result);
 }
 
 }  // namespace meshrepair

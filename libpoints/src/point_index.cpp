@@ -1,5 +1,6 @@
 #include "point_index.h"
 
+#include <algorithm>
 #include <limits>
 #include <nanoflann.hpp>
 
@@ -104,6 +105,30 @@ class NearestSet {
   std::size_t size_ = 0;
 };
 
+// All that are nearer than this.
+class NearSet {
+ public:
+  using DistanceType = double;
+
+  NearSet(std::span<const std::uint32_t> order, double within, std::vector<Neighbour>& found)
+      : order_(order), within_(within), found_(found) {}
+
+  [[nodiscard]] std::size_t size() const { return found_.size(); }
+  [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] double worstDist() const {  // NOLINT(readability-identifier-naming)
+    return within_;
+  }
+  bool addPoint(double distance, std::uint32_t point) {  // NOLINT(readability-identifier-naming)
+    found_.push_back({distance, order_[point]});
+    return true;
+  }
+
+ private:
+  std::span<const std::uint32_t> order_;
+  double within_;
+  std::vector<Neighbour>& found_;
+};
+
 using Metric = nanoflann::L2_Simple_Adaptor<double, Points, double, std::uint32_t>;
 using KdTree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Points, 3, std::uint32_t>;
 
@@ -127,6 +152,19 @@ std::size_t PointIndex::nearest(const Vec3d& at, std::span<Neighbour> out) const
   NearestSet found(tree_->points.order, out);
   tree_->index.findNeighbors(found, at.data(), nanoflann::SearchParams());
   return found.size();
+}
+
+std::size_t PointIndex::nearest(const Vec3d& at, double within, std::vector<Neighbour>& scratch,
+                                std::span<Neighbour> out) const {
+  scratch.clear();
+  NearSet near(tree_->points.order, within, scratch);
+  tree_->index.findNeighbors(near, at.data(), nanoflann::SearchParams());
+  if (scratch.size() < out.size()) return nearest(at, out);
+  const auto end = scratch.begin() + static_cast<std::ptrdiff_t>(out.size());
+  std::nth_element(scratch.begin(), end, scratch.end());
+  std::sort(scratch.begin(), end);
+  std::copy(scratch.begin(), end, out.begin());
+  return out.size();
 }
 
 std::span<const std::uint32_t> PointIndex::order() const { return tree_->points.order; }

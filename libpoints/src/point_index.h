@@ -34,6 +34,11 @@ class PointIndex {
   // are: as many as `out` has room for, or all.
   std::size_t nearest(const Vec3d& at, std::span<Neighbour> out) const;
 
+  // The same; faster for many where `within`, a squared distance, is little more than that of the
+  // last one. Where it is less, it takes longer.
+  std::size_t nearest(const Vec3d& at, double within, std::vector<Neighbour>& scratch,
+                      std::span<Neighbour> out) const;
+
   // All points, those near to each other one after the other: to look up many, best in this order.
   [[nodiscard]] std::span<const std::uint32_t> order() const;
 

@@ -19,6 +19,7 @@
 //
 // Voids are filled in two ways: where it is asked what is solid, they are; where it is not, they
 // are parts of the surface, whose walls go last of all, and what stays is as it was given.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -312,6 +313,22 @@ std::optional<Surface> extract_mesh(const CleanSoup& soup, const Arrangement& ar
   surface = internal::finish_surface(soup, std::move(*surface), options, report, meter);
   if (options.certify.wanted && !report.certify.passed()) return std::nullopt;
   return surface;
+}
+
+Surface extract_mesh(CleanSoup soup, const SolidCells& solid, const RepairOptions& options,
+                     RepairReport& report) {
+  StageMeter meter(report.stages, options.progress);
+  Tree tree = internal::divide_space(std::move(soup), options, report, meter);
+  internal::CoveredCells covered =
+      internal::make_cells(tree, windings_of(tree.input), options, report, meter);
+  tree.nodes = {};
+  tree.node_triangles = {};
+  meter.begin("links");
+  CellGraph graph(covered.complex, covered.cover, options.progress, covered.layers);
+  meter.begin("inside");
+  const std::vector<char> flags = solid(graph);
+  if (std::find(flags.begin(), flags.end(), 1) == flags.end()) return {};
+  return internal::make_surface(std::move(covered), flags, options, report, meter);
 }
 
 }  // namespace meshrepair

@@ -15,6 +15,8 @@
 #include <scan/repair_on_base.h>
 #include <scan/repair_points.h>
 
+#include "columns.h"
+
 namespace meshrepair {
 namespace {
 
@@ -231,6 +233,10 @@ class PointRepair {
 
 PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& options,
                          RepairPointsReport& report, RepairReport& repair) {
+  if (options.base && options.repair.certify.precision == Precision::float32) {
+    const auto apart = internal::without_joined_columns(cloud, options.scan_base.axis);
+    if (apart) return PointRepair(*apart, options, report, repair).run();
+  }
   return PointRepair(cloud, options, report, repair).run();
 }
 

@@ -75,6 +75,37 @@ TEST(BooleanChambers, FacesInCommonAreTakenFromEachSolid) {
   }
 }
 
+TEST(BooleanChambers, CellsGiveTheSame) {
+  for (std::uint64_t seed = 1; seed <= share_of_cases(40u); ++seed) {
+    SCOPED_TRACE(seed);
+    const SetOperation operation = kAll[seed % 4];
+    SCOPED_TRACE(operation_name(operation));
+    BooleanReport report, of_trees;
+    BooleanOptions options;
+    const Surface surface = boolean_by_cells(random_pair(seed), operation, options, report);
+    options.by_trees = true;
+    const Surface other = boolean(random_pair(seed), operation, options, of_trees);
+    const double volume = signed_volume(other.mesh), area = surface_area(other.mesh);
+    EXPECT_NEAR(signed_volume(surface.mesh), volume, 1e-9 * std::abs(volume));
+    EXPECT_NEAR(surface_area(surface.mesh), area, 1e-9 * area);
+    EXPECT_EQ(report.result.output.parts, of_trees.result.output.parts);
+  }
+}
+
+// On the grid of all, the sphere's triangles are a few steps large, and fold over each other.
+TEST(BooleanChambers, WhatRoundingFoldsTakesNoTrees) {
+  const TriangleSoup small = scaled(sphere(2000), 2e-6);
+  const TriangleSoup large = box({0, -2, -2}, {4, 2, 2});
+  for (const SetOperation operation : kAll) {
+    SCOPED_TRACE(operation_name(operation));
+    BooleanReport report;
+    const Surface surface = boolean(std::vector{small, large}, operation, {}, report);
+    EXPECT_TRUE(report.merges.empty());
+    EXPECT_TRUE(report.result.certify.passed());
+    EXPECT_GT(signed_volume(surface.mesh), 0);
+  }
+}
+
 TEST(BooleanChambers, WhoAsksForARegionTestGetsTrees) {
   BooleanOptions options;
   BooleanReport report;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <base/error.h>
@@ -202,6 +203,24 @@ TEST(RepairPoints, StagesOfTriesBeforeAreOne) {
   ASSERT_GT(outcome.repair.stages.size(), 2U);
   EXPECT_EQ(outcome.repair.stages[0].name, "read");
   EXPECT_EQ(outcome.repair.stages[1].name, "tries");
+}
+
+// Rows of single precision are half a metre apart there: points move by two of them at most.
+TEST(RepairPoints, ATerrainFarFromTheOriginIsWrittenInSinglePrecisionWithoutSpikes) {
+  PointCloud cloud = ground(900, 0, hills);
+  for (Vec3d& p : cloud.points) p = Vec3d(5e5, 5e6, 0) + 6 * p;
+  RepairPointsOptions options;
+  options.base = true;
+  options.repair.certify.precision = Precision::float32;
+  const Outcome outcome = outcome_of(cloud, options);
+  ASSERT_EQ(outcome.why, "");
+  EXPECT_TRUE(outcome.repair.certify.passed());
+  EXPECT_LT(outcome.report.soup->points, 900U);
+  Eigen::AlignedBox3d given, made;
+  for (const Vec3d& p : cloud.points) given.extend(p);
+  for (const Vec3d& p : outcome.solid.surface.mesh.points) made.extend(p);
+  EXPECT_LT((made.max() - given.max()).maxCoeff(), 1);
+  EXPECT_LT((given.min() - made.min()).head<2>().maxCoeff(), 1);
 }
 
 }  // namespace

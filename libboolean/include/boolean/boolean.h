@@ -12,7 +12,7 @@ namespace meshrepair {
 
 struct BooleanOptions {
   RegionTest test = RegionTest::cells;
-  // Only boolean() looks at this: merges trees of all solids also where that can be spared.
+  // Only boolean() looks at this: merges trees of all solids, which gives the same.
   bool by_trees = false;
   // How the result is extracted and certified; of the rest, the progress.
   RepairOptions repair;

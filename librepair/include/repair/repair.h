@@ -2,6 +2,7 @@
 // the one call, unless that spares the cells of what is valid, or nearly.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include <extract/arrange.h>
 #include <extract/surface.h>
 #include <mesh/soup.h>
+#include <repair/cell_graph.h>
 #include <repair/repair_options.h>
 #include <repair/repair_report.h>
 
@@ -48,5 +50,11 @@ void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report);
                                                   const std::vector<char>& solid,
                                                   const RepairOptions& options,
                                                   RepairReport& report);
+
+// The same from the cells between the triangles of `soup`, those with a flag in what `solid` makes
+// of their graph: always. Without triangles where none has.
+using SolidCells = std::function<std::vector<char>(CellGraph& graph)>;
+[[nodiscard]] Surface extract_mesh(CleanSoup soup, const SolidCells& solid,
+                                   const RepairOptions& options, RepairReport& report);
 
 }  // namespace meshrepair

@@ -57,6 +57,12 @@ constexpr std::size_t kMostPlaces = 16;
 // How often corners of few places go onto a grid, each one four times as coarse as the last.
 constexpr std::size_t kMostSnaps = 3;
 
+// Of more faults than these, and than a share of the triangles, the surface is finer than the
+// numbers: neither chance nor mending place by place is a remedy for that, and both would look at
+// all of them often.
+constexpr std::size_t kManyFaults = 256;
+constexpr std::size_t kTrianglesOfFault = 8;
+
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
 constexpr std::size_t kMostGrowth = 4;
@@ -173,7 +179,7 @@ void Certification::start_again(Surface surface) {
 void Certification::mend_in_place() {
   if (may_move_points()) {
     if (best_.misplaced() > 0) improve(current_);
-  } else if (best_.joined > 0) {
+  } else if (best_.joined > 0 && options_.most_rounds == 0) {
     separate(best_);
   }
   most_triangles_ = kMostGrowth * current_.surface.mesh.triangles.size();
@@ -325,6 +331,8 @@ double Certification::reach() const {
 
 // What needs no new repair, as long as it is of much use.
 void Certification::improve(Attempt moved) {
+  const std::size_t triangles = moved.surface.mesh.triangles.size();
+  if (moved.found.count > std::max(kManyFaults, triangles / kTrianglesOfFault)) return;
   do {
     bool is_of_use = true;
     while (is_of_use) {

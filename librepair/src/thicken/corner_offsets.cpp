@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -28,6 +31,15 @@ constexpr double kTowardsMean = 1e-4;
 // What is left then is as thin as what rounding does.
 constexpr std::size_t kMostHalvings = 20;
 
+// Rounds of evening out; most of what it can do is done in a few.
+constexpr std::size_t kMostRounds = 24;
+
+// How far a vector goes towards what its neighbours say, as far as its triangles allow.
+constexpr std::array<double, 3> kWays = {1.0, 0.5, 0.25};
+
+// Points near each other are next to each other along it, and hardly ever all of a plane.
+const Vec3d kAcross = {1.0, 0.618, 0.382};
+
 class OffsetFinder {
  public:
   OffsetFinder(const SheetMesh& mesh, const WallReach& reach)
@@ -37,6 +49,10 @@ class OffsetFinder {
     join_corners();
     result_.of_corner.assign(3 * mesh_.triangles.size(), kNone);
     set_common_vectors();
+    list_corners();
+    result_.reach[0].assign(result_.vectors.size(), reach_.below);
+    result_.reach[1].assign(result_.vectors.size(), reach_.above);
+    even_out();
     for (const SheetSide side : kSheetSides) shorten(side);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       result_.has_wall.push_back(
@@ -67,18 +83,36 @@ class OffsetFinder {
       const std::size_t first = i;
       while (i < corners.size() && group_.root(corners[i]) == group_.root(corners[first])) ++i;
       const std::span<const std::uint32_t> group(corners.data() + first, i - first);
-      const Vec3d vector = common_vector(group);
-      const bool fits =
-          group.size() == 1 || std::all_of(group.begin(), group.end(), [&](std::uint32_t corner) {
-            return std::abs(vector.dot(mesh_.normal[corner / 3]) - 1) <= kMostBeside &&
-                   vector.norm() <= 1 + kMostBeside;
-          });
+      std::optional<Vec3d> vector = common_vector(group);
+      if (group.size() > 1) vector = fitting(group, *vector);
       for (const std::uint32_t corner : group) {
-        if (fits) result_.of_corner[corner] = static_cast<std::uint32_t>(result_.vectors.size());
-        if (!fits) set_own_vector(corner);
+        if (vector) result_.of_corner[corner] = static_cast<std::uint32_t>(result_.vectors.size());
+        if (!vector) set_own_vector(corner);
       }
-      if (fits) result_.vectors.push_back(vector);
+      if (vector) result_.vectors.push_back(*vector);
     }
+  }
+
+  // As long as all planes allow: where they do not, the planes that it is farthest beside are to be
+  // as far beside it on both sides. Nothing where that is too far.
+  [[nodiscard]] std::optional<Vec3d> fitting(std::span<const std::uint32_t> group,
+                                             Vec3d vector) const {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const std::uint32_t corner : group) {
+      const double along = vector.dot(mesh_.normal[corner / 3]);
+      least = std::min(least, along);
+      most = std::max(most, along);
+    }
+    double length = vector.norm(), factor = 1;
+    const auto fits = [&] {
+      return factor * least >= 1 - kMostBeside && factor * most <= 1 + kMostBeside &&
+             factor * length <= 1 + kMostBeside;
+    };
+    if (fits()) return vector;
+    if (!(least > 0)) return std::nullopt;
+    factor = std::min(2 / (least + most), (1 + kMostBeside) / length);
+    if (!fits()) return std::nullopt;
+    return Vec3d(factor * vector);
   }
 
   // Least squares: all planes at distance 1, each weighted by the angle that its triangle has
@@ -113,12 +147,95 @@ class OffsetFinder {
     result_.vectors.push_back(mesh_.normal[corner / 3]);
   }
 
+  void list_corners() {
+    first_corner_.assign(result_.vectors.size() + 1, 0);
+    for (const std::uint32_t vector : result_.of_corner) ++first_corner_[vector + 1];
+    std::partial_sum(first_corner_.begin(), first_corner_.end(), first_corner_.begin());
+    std::vector<std::uint32_t> next(first_corner_.begin(), first_corner_.end() - 1);
+    corners_.resize(result_.of_corner.size());
+    for (std::uint32_t c = 0; c < corners_.size(); ++c) corners_[next[result_.of_corner[c]]++] = c;
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> corners_of(std::uint32_t vector) const {
+    return std::span(corners_).subspan(first_corner_[vector],
+                                       first_corner_[vector + 1] - first_corner_[vector]);
+  }
+
+  // A triangle that is narrow beside its wall is turned over by vectors that differ by little. So
+  // those of its corners go nearer to those beside them, the nearest ones most.
+  void even_out() {
+    std::vector<std::uint32_t> all(mesh_.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    std::vector<std::uint32_t> turned = turned_over(all);
+    for (std::size_t round = 0; round < kMostRounds && !turned.empty(); ++round) {
+      std::vector<std::uint32_t> near;
+      for (const std::uint32_t vector : vectors_of(turned)) {
+        if (!go_with_neighbours(vector)) continue;
+        for (const std::uint32_t corner : corners_of(vector)) near.push_back(corner / 3);
+      }
+      if (near.empty()) return;
+      near.insert(near.end(), turned.begin(), turned.end());
+      sort_unique(near);
+      turned = turned_over(near);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> turned_over(
+      std::span<const std::uint32_t> triangles) const {
+    std::vector<std::uint32_t> turned;
+    for (const std::uint32_t t : triangles) {
+      const bool upright = std::all_of(kSheetSides.begin(), kSheetSides.end(), [&](SheetSide side) {
+        return result_.reach_at(3 * t, side) == 0 || is_upright_half(t, side);
+      });
+      if (!upright) turned.push_back(t);
+    }
+    return turned;
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> vectors_of(
+      std::span<const std::uint32_t> triangles) const {
+    std::vector<std::uint32_t> vectors;
+    for (const std::uint32_t t : triangles) {
+      for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) vectors.push_back(result_.of_corner[c]);
+    }
+    sort_unique(vectors);
+    return vectors;
+  }
+
+  static void sort_unique(std::vector<std::uint32_t>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+
+  // Whether it may.
+  bool go_with_neighbours(std::uint32_t vector) {
+    const std::span<const std::uint32_t> corners = corners_of(vector);
+    if (corners.size() == 1) return false;
+    Vec3d sum = Vec3d::Zero();
+    double weights = 0;
+    for (const std::uint32_t corner : corners) {
+      const std::uint32_t next = next_side(corner);
+      for (const std::uint32_t other : {next, next_side(next)}) {
+        const double weight = 1 / (mesh_.at(other) - mesh_.at(corner)).squaredNorm();
+        sum += weight * result_.vectors[result_.of_corner[other]];
+        weights += weight;
+      }
+    }
+    Vec3d& now = result_.vectors[vector];
+    for (const double way : kWays) {
+      const auto moved = fitting(corners, now + way * (sum / weights - now));
+      if (!moved) continue;
+      now = *moved;
+      return true;
+    }
+    return false;
+  }
+
   // Halves what vectors reach on one side until no triangle is turned over.
   void shorten(SheetSide side) {
     const auto number = static_cast<std::size_t>(side);
     const double all = side == SheetSide::below ? reach_.below : reach_.above;
     std::vector<double>& reach = result_.reach[number];
-    reach.assign(result_.vectors.size(), all);
     result_.has_own[number].assign(mesh_.triangles.size(), 0);
     if (all == 0) return;
     for (std::size_t halvings = 0; halvings < kMostHalvings; ++halvings) {
@@ -157,15 +274,19 @@ class OffsetFinder {
   }
 
   // The wall of a triangle is three tetrahedra, cut along the diagonals of its sides, each of which
-  // begins below the corner with the lower number. None of them may be turned over.
+  // begins below the corner that comes first along a line. None of them may be turned over. Of a
+  // narrow triangle the diagonals of both long sides begin at the same end.
   [[nodiscard]] bool is_upright(std::uint32_t t, Places low, Places high) const {
-    IndexTriangle triangle = mesh_.triangles[t];
-    const auto first = std::min_element(triangle.begin(), triangle.end()) - triangle.begin();
+    std::array<std::pair<double, std::uint32_t>, 3> order;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      order[k] = {kAcross.dot(mesh_.at(3 * t + k)), mesh_.triangles[t][k]};
+    }
+    const auto first = std::min_element(order.begin(), order.end()) - order.begin();
     std::rotate(low.begin(), low.begin() + first, low.end());
     std::rotate(high.begin(), high.begin() + first, high.end());
-    std::rotate(triangle.begin(), triangle.begin() + first, triangle.end());
+    std::rotate(order.begin(), order.begin() + first, order.end());
     if (orientation(low[0], high[1], high[2], high[0]) <= 0) return false;
-    if (triangle[1] < triangle[2]) {
+    if (order[1] < order[2]) {
       return orientation(low[0], low[1], low[2], high[2]) > 0 &&
              orientation(low[0], low[1], high[2], high[1]) > 0;
     }
@@ -176,6 +297,7 @@ class OffsetFinder {
   const SheetMesh& mesh_;
   const WallReach& reach_;
   DisjointSets group_;
+  std::vector<std::uint32_t> first_corner_, corners_;  // of each vector its corners
   CornerOffsets result_;
 };
 

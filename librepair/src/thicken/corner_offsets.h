@@ -47,7 +47,8 @@ struct CornerOffsets {
 
 // The corners at a point that lie between the same sharp folds, rims and other joints go the same
 // way, where that brings all their triangles nearly to the distance that is asked for. Any other
-// goes along its triangle's normal.
+// goes along its triangle's normal. Where narrow triangles would be turned over, ways that are near
+// each other are made more alike, within the same bounds.
 [[nodiscard]] CornerOffsets find_corner_offsets(const SheetMesh& mesh, const WallReach& reach);
 
 }  // namespace meshrepair::internal

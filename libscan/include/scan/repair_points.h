@@ -71,6 +71,9 @@ inline constexpr double kNoisyAgreement = 0.5;
 // - where these, or points without noise, are a terrain (points/terrain.h), the same on a base;
 // - with an automatic RepairOptions::thicken, walls around the triangles of the same points.
 //
+// On a base that was asked for, of points that single precision puts above each other, where that
+// is what is written, the first alone counts.
+//
 // A scan of one side encloses too little: most of its triangles would be no wall of the solid, or
 // too much of the surface would be made up. Solids of fewer triangles than soup.fewest_triangles
 // are left out. `repair` is the report of the last try that was repaired; its stages begin with

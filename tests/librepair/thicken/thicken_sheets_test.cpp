@@ -145,6 +145,18 @@ TEST(ThickenSheets, AWallThickerThanItsTubeFillsIt) {
   EXPECT_NEAR(result.report.output_volume, 4 * std::numbers::pi * 2.5 * 2.5, 3);
 }
 
+// Every other row of a saddle is a thousandth as wide as its wall is thick.
+TEST(ThickenSheets, NarrowTrianglesOfACurvedSheetShareTheWall) {
+  const TriangleSoup sheet = sheet_of(24, 24, [](double u, double v) {
+    const int row = static_cast<int>(std::lround(24 * v));
+    const double y = row / 2 / 12.0 + (row % 2) * 2e-4;
+    return Vec3d(u, y, 0.7 * (u - 0.5) * (y - 0.5) + 0.3 * (u * u - y * y));
+  });
+  const RepairResult result = expect_solid(sheet, walls_of(0.2));
+  EXPECT_EQ(result.report.thicken.folds, 0u);
+  EXPECT_NEAR(result.report.output_volume, 0.2 * surface_area(sheet), 0.01);
+}
+
 // Many points at which no common direction suits all triangles.
 TEST(ThickenSheets, ANoisySheetHasNoVoidsInItsWall) {
   Random random(5);
