@@ -20,12 +20,14 @@
 // Voids are filled in two ways: where it is asked what is solid, they are; where it is not, they
 // are parts of the surface, whose walls go last of all, and what stays is as it was given.
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <base/error.h>
 #include <repair/explain_repair.h>
+#include <repair/join_gaps.h>
 #include <repair/keep_parts.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
@@ -233,6 +235,44 @@ void keep_wanted_parts(const TriangleSoup& soup, const RepairOptions& options, S
   if (keep.fill_voids) report.inside.filled_voids += report.keep.voids;
 }
 
+Surface repair_whole(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
+  Surface surface = repair_what_is_there(soup, options, report);
+  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
+  if (options.seal.wanted()) {
+    surface = internal::seal_solid(soup, std::move(surface), without_states(options), repair_solids,
+                                   report);
+  }
+  if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
+  keep_wanted_parts(soup, options, surface, report);
+  internal::compare_with_input(soup, surface, report);
+  return surface;
+}
+
+template <class T>
+std::vector<T> of_sources(const std::vector<T>& values, const std::vector<std::uint32_t>& source) {
+  std::vector<T> of;
+  of.reserve(source.size());
+  for (const std::uint32_t t : source) of.push_back(values[t]);
+  return of;
+}
+
+// What comes out is told of the triangles that were given.
+Surface repair_joined(const TriangleSoup& soup, const JoinedSoup& joined,
+                      const RepairOptions& options, RepairReport& report) {
+  RepairOptions of_pieces = options;
+  of_pieces.explain = false;
+  if (!options.opacity.empty()) of_pieces.opacity = of_sources(options.opacity, joined.source);
+  if (!options.reach.empty()) of_pieces.reach = of_sources(options.reach, joined.source);
+  Surface surface = repair_whole(joined.soup, of_pieces, report);
+  for (std::uint32_t& source : surface.source) {
+    if (source != Surface::kNoSource) source = joined.source[source];
+  }
+  internal::note_moved_corners(soup, surface, report);
+  internal::compare_with_input(soup, surface, report);
+  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
+  return surface;
+}
+
 std::vector<char> solid_cells(const Tree& tree, const CellComplex& complex) {
   std::vector<char> solid;
   solid.reserve(complex.cells.size());
@@ -256,15 +296,19 @@ void require_labels(const Tree& tree) {
 }  // namespace
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
-  Surface surface = repair_what_is_there(soup, options, report);
-  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
-  if (options.seal.wanted()) {
-    surface = internal::seal_solid(soup, std::move(surface), without_states(options), repair_solids,
-                                   report);
-  }
-  if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
-  keep_wanted_parts(soup, options, surface, report);
-  internal::compare_with_input(soup, surface, report);
+  if (options.join_gaps.mode == JoinGapsMode::none) return repair_whole(soup, options, report);
+  std::vector<StageReport> stages;
+  StageMeter meter(stages, options.progress);
+  meter.begin("join_gaps");
+  JoinGapsReport gaps;
+  JoinGapsOptions joining = options.join_gaps;
+  joining.progress = options.progress;
+  const std::optional<JoinedSoup> joined = join_gaps(soup, joining, gaps);
+  meter.end();
+  Surface surface = joined ? repair_joined(soup, *joined, options, report)
+                           : repair_whole(soup, options, report);
+  report.join_gaps = gaps;
+  report.stages.insert(report.stages.begin(), stages.begin(), stages.end());
   return surface;
 }
 

@@ -1,0 +1,112 @@
+// Gaps are joined in the soup, before anything else: what comes after finds copies of triangles,
+// which it handles exactly.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <base/error.h>
+#include <check/box_tree.h>
+#include <check/near_faces.h>
+#include <repair/join_gaps.h>
+
+#include "near_parts.h"
+
+namespace meshrepair {
+namespace {
+
+// A corner of a body that is as far as the distance from three faces at once.
+const double kRadius = std::sqrt(3.0);
+// What is thin has to be so many times the distance, so that its two sides stay apart.
+constexpr double kThin = 2;
+
+double diagonal_of(const TriangleSoup& soup) {
+  Box box;
+  for (const auto& t : soup.triangles) {
+    for (const std::uint32_t p : t) {
+      if (soup.points[p].allFinite()) box.add(soup.points[p]);
+    }
+  }
+  const Vec3d low(box.low[0], box.low[1], box.low[2]), high(box.high[0], box.high[1], box.high[2]);
+  return low.x() <= high.x() ? (high - low).norm() : 0;
+}
+
+// What is as thin as that, or short.
+struct Thinnest {
+  double width = std::numeric_limits<double>::infinity();
+  const char* what = "";
+  Vec3d at = Vec3d::Zero();
+
+  void add(double other, const char* name, const Vec3d& place) {
+    if (other < width) *this = {other, name, place};
+  }
+};
+
+Thinnest find_thinnest(const TriangleSoup& soup, const NearFacesFound& near) {
+  Thinnest thinnest;
+  for (const NearFaces& wall : near.walls) {
+    thinnest.add(wall.apart, "a wall", soup.points[soup.triangles[wall.a][0]]);
+  }
+  for (const NearFaces& gap : near.gaps) {
+    for (const std::uint32_t t : {gap.a, gap.b}) {
+      const auto& c = soup.triangles[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d &a = soup.points[c[k]], &b = soup.points[c[(k + 1) % 3]];
+        if (a != b) thinnest.add((b - a).norm(), "an edge", a);
+      }
+    }
+  }
+  return thinnest;
+}
+
+// Below it, with two digits.
+double rounded_down(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::floor(value / unit) * unit;
+}
+
+void require_less_than(const Thinnest& thinnest, double distance) {
+  if (thinnest.width > kThin * distance) return;
+  std::ostringstream text;
+  text << "gaps of " << distance << " cannot be joined: the mesh has " << thinnest.what
+       << " of only " << thinnest.width << " at (" << thinnest.at.x() << ", " << thinnest.at.y()
+       << ", " << thinnest.at.z() << ")";
+  if (thinnest.width > 0) {
+    text << ", so the largest distance that would do is " << rounded_down(thinnest.width / kThin);
+  }
+  throw ValueError(text.str());
+}
+
+}  // namespace
+
+std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOptions& options,
+                                    JoinGapsReport& report) {
+  report = {};
+  if (options.mode == JoinGapsMode::none) return std::nullopt;
+  CancelCheck check(options.progress);
+  const double distance =
+      options.is_share ? options.distance * diagonal_of(soup) : options.distance;
+  if (!(distance > 0)) return std::nullopt;
+  NearFacesOptions looking;
+  looking.reach = kThin * distance;
+  looking.progress = options.progress;
+  NearFacesFound near = find_near_faces(soup, looking);
+  std::erase_if(near.gaps, [&](const NearFaces& gap) { return gap.apart > distance; });
+  require_less_than(find_thinnest(soup, near), distance);
+  for (const NearFaces& gap : near.gaps) {
+    report.pairs += gap.apart > 0 ? 1 : 0;
+    report.widest_gap = std::max(report.widest_gap, gap.apart);
+  }
+  if (report.pairs == 0) return std::nullopt;
+  report.distance = distance;
+  internal::NearParts parts(soup, near.gaps, kRadius * distance, check);
+  parts.bring_together();
+  JoinedSoup joined = parts.cut(report);
+  looking.reach = distance;
+  for (const NearFaces& gap : find_near_faces(joined.soup, looking).gaps) {
+    report.left += gap.apart > 0 ? 1 : 0;
+  }
+  return joined;
+}
+
+}  // namespace meshrepair
