@@ -58,6 +58,11 @@ bool may_spare_trees(const BooleanOptions& options) {
          options.repair.predicates == Predicates::exact && !options.repair.check_cells;
 }
 
+void put_before(const RepairReport& before, RepairReport& report) {
+  report.join_gaps = before.join_gaps;
+  report.stages.insert(report.stages.begin(), before.stages.begin(), before.stages.end());
+}
+
 BooleanOptions without_gaps(const BooleanOptions& options) {
   BooleanOptions changed = options;
   changed.repair.join_gaps = {};
@@ -96,15 +101,15 @@ bool has_solid(const Tree& tree) {
 
 Tree boolean_tree(std::span<const TriangleSoup> solids, SetOperation operation,
                   const BooleanOptions& options, BooleanReport& report) {
-  JoinGapsReport gaps;
-  const auto joined = internal::join_operands(solids, options, gaps);
+  RepairReport before;
+  const auto joined = internal::join_operands(solids, options, before);
   Tree tree = merge_operands(joined ? joined->solids : solids, operation, options, report);
   if (joined) {
     for (Triangle& triangle : tree.input.triangles) {
-      if (triangle.source != Triangle::kNoSource) triangle.source = joined->source[triangle.source];
+      triangle.source = internal::given_source(*joined, triangle.source);
     }
   }
-  report.result.join_gaps = gaps;
+  put_before(before, report.result);
   return tree;
 }
 
@@ -115,13 +120,11 @@ Surface boolean_surface(const Tree& tree, const BooleanOptions& options, Boolean
 
 Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
                 const BooleanOptions& options, BooleanReport& report) {
-  JoinGapsReport gaps;
-  if (const auto joined = internal::join_operands(solids, options, gaps)) {
+  RepairReport before;
+  if (const auto joined = internal::join_operands(solids, options, before)) {
     Surface surface = boolean(joined->solids, operation, without_gaps(options), report);
-    for (std::uint32_t& source : surface.source) {
-      if (source != Surface::kNoSource) source = joined->source[source];
-    }
-    report.result.join_gaps = gaps;
+    for (std::uint32_t& t : surface.source) t = internal::given_source(*joined, t);
+    put_before(before, report.result);
     return surface;
   }
   if (may_spare_trees(options)) {

@@ -16,10 +16,14 @@ struct JoinedOperands {
   std::vector<std::uint32_t> source;
 };
 
-// What join_gaps() makes of all operands together. One that it brought parts of together is
-// repaired. Nothing where there are no gaps. Throws ValueError, as that does.
+// What join_gaps() makes of all operands together. One that is no solid any more, as parts of it
+// came together, is repaired. Nothing where there are no gaps. The report gets the stage, and what
+// was joined. Throws ValueError, as join_gaps() does.
 [[nodiscard]] std::optional<JoinedOperands> join_operands(std::span<const TriangleSoup> solids,
                                                           const BooleanOptions& options,
-                                                          JoinGapsReport& report);
+                                                          RepairReport& report);
+
+// Of the solids that were given, instead of the joined ones.
+[[nodiscard]] std::uint32_t given_source(const JoinedOperands& joined, std::uint32_t source);
 
 }  // namespace meshrepair::internal

@@ -267,6 +267,9 @@ Surface repair_joined(const TriangleSoup& soup, const JoinedSoup& joined,
   for (std::uint32_t& source : surface.source) {
     if (source != Surface::kNoSource) source = joined.source[source];
   }
+  const CleanSoup given = clean_soup(soup, report.clean, options.progress);
+  report.input = examine_topology(index_triangles(given), given.points.size());
+  report.spared_cells |= std::exchange(report.kept_valid, false);
   internal::note_moved_corners(soup, surface, report);
   internal::compare_with_input(soup, surface, report);
   if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
@@ -303,7 +306,8 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   JoinGapsReport gaps;
   JoinGapsOptions joining = options.join_gaps;
   joining.progress = options.progress;
-  const std::optional<JoinedSoup> joined = join_gaps(soup, joining, gaps);
+  std::optional<JoinedSoup> joined = join_gaps(soup, joining, gaps);
+  if (joined) drop_facing_copies(soup, *joined);
   meter.end();
   Surface surface = joined ? repair_joined(soup, *joined, options, report)
                            : repair_whole(soup, options, report);

@@ -31,7 +31,14 @@ struct JoinGapsReport {
   std::size_t joined_points = 0;  // that became one with another
   std::size_t new_points = 0;     // where edges cross
   double farthest_move = 0;       // of a corner
-  std::size_t left = 0;           // pairs that are not joined
+  std::size_t left = 0;           // pairs that overlap and are still apart
+};
+
+// What is seen of gaps before anything is done about them.
+struct GapProposal {
+  std::size_t pairs = 0;  // of near triangles
+  double widest_gap = 0;  // of these
+  double distance = 0;    // that joins them all; 0: there are none
 };
 
 struct JoinedSoup {
@@ -45,10 +52,18 @@ struct JoinedSoup {
 // Where faces overlap they then are copies of the same triangles. What is near no such face stays
 // where it is.
 //
-// Throws ValueError where the distance is more than half of what is thin: of a wall, or of an edge
+// JoinGapsMode::automatic takes the distance that propose_gaps() finds. Throws ValueError where the distance is more than half of what is thin: of a wall, or of an edge
 // at such a face. Nothing if there is nothing to join. Throws Cancelled.
 [[nodiscard]] std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup,
                                                   const JoinGapsOptions& options,
                                                   JoinGapsReport& report);
+
+// The widest gaps that are far narrower than the next wider ones, than what is thin, and than the
+// edges of their triangles. n log n. Throws Cancelled.
+[[nodiscard]] GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress);
+
+// Takes out copies of triangles that face each other: walls inside the solid. Not those of bodies of
+// the soup that was given which have open edges.
+void drop_facing_copies(const TriangleSoup& given, JoinedSoup& joined);
 
 }  // namespace meshrepair

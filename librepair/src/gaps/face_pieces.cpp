@@ -8,73 +8,51 @@
 #include <optional>
 #include <tuple>
 
-#include <Eigen/Geometry>
-
 #include <base/ids.h>
 #include <mesh/triangulate_polygon.h>
+
+#include "flat_points.h"
+#include "improve_pieces.h"
 
 namespace meshrepair::internal {
 namespace {
 
 using Loop = std::vector<std::uint32_t>;
-using Flat = Eigen::Vector2d;
 
-// Points as seen against a normal, without the coordinate in which it is largest.
-class FlatPoints {
- public:
-  FlatPoints(const std::vector<Vec3d>& points, const Vec3d& normal) : points_(points) {
-    Eigen::Index drop = 0;
-    normal.cwiseAbs().maxCoeff(&drop);
-    u_ = (drop + 1) % 3;
-    v_ = (drop + 2) % 3;
-    if (normal[drop] < 0) std::swap(u_, v_);
+// Twice the area.
+double area_of(const FlatPoints& at, const Loop& loop) {
+  double sum = 0;
+  for (std::size_t i = 2; i < loop.size(); ++i) {
+    sum += left_turn(at(loop[0]), at(loop[i - 1]), at(loop[i]));
   }
+  return sum;
+}
 
-  Flat operator()(std::uint32_t p) const { return {points_[p][u_], points_[p][v_]}; }
-
-  [[nodiscard]] double left_turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const Flat ab = (*this)(b) - (*this)(a), ac = (*this)(c) - (*this)(a);
-    return ab.x() * ac.y() - ab.y() * ac.x();
+bool is_inside(const FlatPoints& at, const Flat& p, const Loop& loop) {
+  bool inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Flat a = at(loop[i]), b = at(loop[(i + 1) % loop.size()]);
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
   }
-
-  // Twice the area.
-  [[nodiscard]] double area(const Loop& loop) const {
-    double sum = 0;
-    for (std::size_t i = 2; i < loop.size(); ++i) sum += left_turn(loop[0], loop[i - 1], loop[i]);
-    return sum;
-  }
-
-  [[nodiscard]] bool is_inside(const Flat& p, const Loop& loop) const {
-    bool inside = false;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Flat a = (*this)(loop[i]), b = (*this)(loop[(i + 1) % loop.size()]);
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-    }
-    return inside;
-  }
-
- private:
-  const std::vector<Vec3d>& points_;
-  Eigen::Index u_ = 0, v_ = 1;
-};
+  return inside;
+}
 
 // The regions into which edges divide an outline. Both directions of each edge are there: those
 // against the outline bound what is outside.
 class Regions {
  public:
-  Regions(const FlatPoints& at, std::span<const std::uint32_t> outline,
+  Regions(const FlatPoints& at, std::span<const EdgeEnds> outline,
           std::span<const EdgeEnds> inside)
       : at_(at) {
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      add(outline[i], outline[(i + 1) % outline.size()], true);
-    }
+    for (const EdgeEnds& edge : outline) add(edge[0], edge[1], true);
     for (const EdgeEnds& edge : inside) add(edge[0], edge[1], false);
     link();
   }
 
-  // False where a loop has both.
+  // False where a loop bounds what is outside, too.
   [[nodiscard]] bool trace(std::vector<Loop>& loops) const {
+    bool is_plane = true;
     std::vector<char> passed(from_.size(), 0);
     for (std::uint32_t first = 0; first < from_.size(); ++first) {
       if (passed[first] != 0) continue;
@@ -86,10 +64,10 @@ class Regions {
         loop.push_back(from_[h]);
       }
       if (outside == loop.size()) continue;
-      if (outside > 0) return false;
+      is_plane = is_plane && outside == 0;
       loops.push_back(std::move(loop));
     }
-    return true;
+    return is_plane;
   }
 
  private:
@@ -143,19 +121,16 @@ std::optional<std::size_t> find_bridge(const FlatPoints& at, const Loop& loop, s
   if (!best) return best;
   // Corners of the loop may be in the way: the one that is seen under the smallest angle is not.
   const Flat c = at(loop[*best]), hit(nearest, m.y());
-  const auto turn = [](const Flat& a, const Flat& b, const Flat& p) {
-    return (b - a).x() * (p - a).y() - (b - a).y() * (p - a).x();
-  };
   const double way = c.y() > m.y() ? -1 : 1;
   const auto in_triangle = [&](const Flat& p) {
-    return p.x() < m.x() && way * turn(m, hit, p) >= 0 && way * turn(hit, c, p) >= 0 &&
-           way * turn(c, m, p) >= 0;
+    return p.x() < m.x() && way * left_turn(m, hit, p) >= 0 && way * left_turn(hit, c, p) >= 0 &&
+           way * left_turn(c, m, p) >= 0;
   };
   const auto looks_at = [&](std::size_t i) {
     const std::size_t n = loop.size();
     const Flat before = at(loop[(i + n - 1) % n]), p = at(loop[i]), after = at(loop[(i + 1) % n]);
-    const bool left_of_in = turn(before, p, m) > 0, left_of_out = turn(p, after, m) > 0;
-    return turn(before, p, after) > 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
+    const bool left_of_in = left_turn(before, p, m) > 0, left_of_out = left_turn(p, after, m) > 0;
+    return left_turn(before, p, after) > 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
   };
   double slope = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -192,6 +167,21 @@ Loop with_bridges(const FlatPoints& at, Loop loop, std::vector<Loop> holes) {
   return loop;
 }
 
+// In its direction, without those that it passes back again.
+std::vector<EdgeEnds> directed_edges(std::span<const std::uint32_t> outline) {
+  std::vector<EdgeEnds> all;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    all.push_back({outline[i], outline[(i + 1) % outline.size()]});
+  }
+  std::vector<EdgeEnds> edges;
+  for (const EdgeEnds& edge : all) {
+    if (std::find(all.begin(), all.end(), EdgeEnds{edge[1], edge[0]}) == all.end()) {
+      edges.push_back(edge);
+    }
+  }
+  return edges;
+}
+
 void list_edges(const Loop& loop, std::vector<EdgeEnds>& edges) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     edges.push_back(ascending(loop[i], loop[(i + 1) % loop.size()]));
@@ -211,22 +201,26 @@ bool FacePieces::cut(std::span<const std::uint32_t> outline, std::span<const Edg
                      const Vec3d& normal, std::vector<IndexTriangle>& pieces) {
   const FlatPoints at(points_, normal);
   std::vector<Loop> loops, holes;
-  const bool is_plane = Regions(at, outline, inside).trace(loops);
-  if (!is_plane) loops = {Loop(outline.begin(), outline.end())};
+  const std::vector<EdgeEnds> around = directed_edges(outline);
+  const bool is_plane = Regions(at, around, inside).trace(loops);
+  if (!is_plane) {
+    loops.clear();
+    (void)Regions(at, around, {}).trace(loops);
+  }
   if (loops.size() > 1) {
     const auto first_hole = std::stable_partition(
-        loops.begin(), loops.end(), [&](const Loop& loop) { return at.area(loop) > 0; });
+        loops.begin(), loops.end(), [&](const Loop& loop) { return area_of(at, loop) > 0; });
     holes.assign(first_hole, loops.end());
     loops.erase(first_hole, loops.end());
   }
   std::vector<std::vector<Loop>> holes_of(loops.size());
   for (Loop& hole : holes) {
-    std::size_t around = kNone;
+    std::size_t best = kNone;
     for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (!at.is_inside(at(hole[0]), loops[i])) continue;
-      if (around == kNone || at.area(loops[i]) < at.area(loops[around])) around = i;
+      if (!is_inside(at, at(hole[0]), loops[i])) continue;
+      if (best == kNone || area_of(at, loops[i]) < area_of(at, loops[best])) best = i;
     }
-    if (around != kNone) holes_of[around].push_back(std::move(hole));
+    if (best != kNone) holes_of[best].push_back(std::move(hole));
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
     fill(loops[i], std::move(holes_of[i]), normal, pieces);
@@ -245,12 +239,14 @@ void FacePieces::fill(const Loop& loop, std::vector<Loop> holes, const Vec3d& no
   Region& region = at->second;
   if (is_new) {
     region.outline = loop;
-    const Loop polygon = with_bridges(FlatPoints(points_, normal), loop, std::move(holes));
+    const FlatPoints flat(points_, normal);
+    const Loop polygon = with_bridges(flat, loop, std::move(holes));
     std::vector<IndexTriangle> triangles;
     triangulate_polygon(points_, polygon, triangles);
     for (const IndexTriangle& t : triangles) {
       region.pieces.push_back({polygon[t[0]], polygon[t[1]], polygon[t[2]]});
     }
+    improve_pieces(flat, region.pieces);
   }
   const bool is_turned = !passes(region.outline, loop[0], loop[1]);
   for (IndexTriangle piece : region.pieces) {

@@ -27,7 +27,7 @@ class FacePieces {
   explicit FacePieces(const std::vector<Vec3d>& points) : points_(points) {}
 
   // Appends triangles that together have this outline, which turns to the left as seen against the
-  // normal but for rounding, and passes no edge twice in one direction. Edges inside it, each given
+  // normal but for rounding; what it passes both ways is not of it. Edges inside it, each given
   // once, meet each other and the outline in their ends alone. A region between edges that an
   // earlier outline had, too, gets the same triangles, turned round where it is. False where the
   // edges do cross: then they are left out.

@@ -15,10 +15,18 @@
 namespace meshrepair {
 namespace {
 
-// A corner of a body that is as far as the distance from three faces at once.
-const double kRadius = std::sqrt(3.0);
 // What is thin has to be so many times the distance, so that its two sides stay apart.
 constexpr double kThin = 2;
+// Of the distance: what is left of a gap by rounding.
+constexpr double kClosed = 1e-3;
+
+// How far beyond the widest gap to go: corners that belong together may be farther apart.
+constexpr double kMargin = 2;
+
+// Of gaps that nobody named: how much narrower they are than anything else, and how wide they are
+// at most, as a share of the diagonal and of the longest edges beside them.
+constexpr double kFar = 10;
+constexpr double kWidest = 1e-2, kBesideEdges = 0.1;
 
 double diagonal_of(const TriangleSoup& soup) {
   Box box;
@@ -42,21 +50,35 @@ struct Thinnest {
   }
 };
 
-Thinnest find_thinnest(const TriangleSoup& soup, const NearFacesFound& near) {
-  Thinnest thinnest;
+void add_walls(const TriangleSoup& soup, const NearFacesFound& near, Thinnest& thinnest) {
   for (const NearFaces& wall : near.walls) {
     thinnest.add(wall.apart, "a wall", soup.points[soup.triangles[wall.a][0]]);
   }
-  for (const NearFaces& gap : near.gaps) {
-    for (const std::uint32_t t : {gap.a, gap.b}) {
-      const auto& c = soup.triangles[t];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3d &a = soup.points[c[k]], &b = soup.points[c[(k + 1) % 3]];
-        if (a != b) thinnest.add((b - a).norm(), "an edge", a);
-      }
+}
+
+void add_edges(const TriangleSoup& soup, const NearFaces& gap, Thinnest& thinnest) {
+  for (const std::uint32_t t : {gap.a, gap.b}) {
+    const auto& c = soup.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d &a = soup.points[c[k]], &b = soup.points[c[(k + 1) % 3]];
+      if (a != b) thinnest.add((b - a).norm(), "an edge", a);
     }
   }
+}
+
+Thinnest find_thinnest(const TriangleSoup& soup, const NearFacesFound& near) {
+  Thinnest thinnest;
+  add_walls(soup, near, thinnest);
+  for (const NearFaces& gap : near.gaps) add_edges(soup, gap, thinnest);
   return thinnest;
+}
+
+double distance_for(const TriangleSoup& soup, const JoinGapsOptions& options) {
+  if (options.mode == JoinGapsMode::none) return 0;
+  if (options.mode == JoinGapsMode::automatic) {
+    return propose_gaps(soup, options.progress).distance;
+  }
+  return options.is_share ? options.distance * diagonal_of(soup) : options.distance;
 }
 
 // Below it, with two digits.
@@ -79,13 +101,32 @@ void require_less_than(const Thinnest& thinnest, double distance) {
 
 }  // namespace
 
+GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress) {
+  NearFacesOptions looking;
+  looking.reach = kWidest * diagonal_of(soup);
+  looking.share = kBesideEdges;
+  looking.progress = progress;
+  NearFacesFound near = find_near_faces(soup, looking);
+  std::erase_if(near.gaps, [](const NearFaces& gap) { return gap.apart == 0; });
+  std::stable_sort(near.gaps.begin(), near.gaps.end(),
+                   [](const NearFaces& x, const NearFaces& y) { return x.apart < y.apart; });
+  Thinnest thinnest;
+  add_walls(soup, near, thinnest);
+  GapProposal proposal;
+  for (std::size_t i = 0; i < near.gaps.size(); ++i) {
+    add_edges(soup, near.gaps[i], thinnest);
+    const double gap = near.gaps[i].apart;
+    const double next = i + 1 < near.gaps.size() ? near.gaps[i + 1].apart : looking.reach;
+    if (kFar * gap <= std::min(next, thinnest.width)) proposal = {i + 1, gap, kMargin * gap};
+  }
+  return proposal;
+}
+
 std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOptions& options,
                                     JoinGapsReport& report) {
   report = {};
-  if (options.mode == JoinGapsMode::none) return std::nullopt;
   CancelCheck check(options.progress);
-  const double distance =
-      options.is_share ? options.distance * diagonal_of(soup) : options.distance;
+  const double distance = distance_for(soup, options);
   if (!(distance > 0)) return std::nullopt;
   NearFacesOptions looking;
   looking.reach = kThin * distance;
@@ -99,12 +140,14 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
   }
   if (report.pairs == 0) return std::nullopt;
   report.distance = distance;
-  internal::NearParts parts(soup, near.gaps, kRadius * distance, check);
+  // Where gaps are narrower than was asked for, so is what is taken for near beside them.
+  const double reach = std::min(distance, kMargin * report.widest_gap);
+  internal::NearParts parts(soup, near.gaps, reach, check);
   parts.bring_together();
   JoinedSoup joined = parts.cut(report);
   looking.reach = distance;
   for (const NearFaces& gap : find_near_faces(joined.soup, looking).gaps) {
-    report.left += gap.apart > 0 ? 1 : 0;
+    report.left += gap.apart > kClosed * distance ? 1 : 0;
   }
   return joined;
 }

@@ -13,8 +13,13 @@
 #include <check/box_tree.h>
 #include <mesh/weld_points.h>
 
+#include "level_faces.h"
+
 namespace meshrepair::internal {
 namespace {
+
+// A corner of a body that is as far as the distance from three faces at once is so far from theirs.
+const double kRadius = std::sqrt(3.0);
 
 // Each round adds what edges and faces have in common, of which there is only so much; most need
 // three.
@@ -51,13 +56,12 @@ Box box_around(const Vec3d& p, double radius) {
 
 }  // namespace
 
-NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double radius,
+NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double distance,
                      CancelCheck& check)
     : soup_(soup),
       pairs_(pairs),
-      radius_(radius),
+      radius_(kRadius * distance),
       check_(check),
-      at_(soup.points),
       is_placed_(soup.points.size(), 0),
       name_(first_in_place(soup.points)),
       inner_(soup.triangles.size()) {
@@ -65,6 +69,7 @@ NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs,
   for (const auto& t : soup.triangles) {
     corners_.push_back({name_[t[0]], name_[t[1]], name_[t[2]]});
   }
+  at_ = level_faces(soup, corners_, pairs, distance, radius_);
   list_edges();
 }
 

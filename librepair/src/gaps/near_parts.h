@@ -19,9 +19,9 @@ namespace meshrepair::internal {
 
 class NearParts {
  public:
-  // `pairs` are those that are to lie on each other, and nearer than the radius. All have to live
-  // as long.
-  NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double radius,
+  // `pairs` are those that are to lie on each other, no farther apart than the distance. All have to
+  // live as long.
+  NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double distance,
             CancelCheck& check);
 
   // Until nothing is near another without having its points.
