@@ -217,7 +217,8 @@ bool FacePieces::cut(std::span<const std::uint32_t> outline, std::span<const Edg
   for (Loop& hole : holes) {
     std::size_t best = kNone;
     for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (!is_inside(at, at(hole[0]), loops[i])) continue;
+      const bool is_own = std::find(loops[i].begin(), loops[i].end(), hole[0]) != loops[i].end();
+      if (is_own || !is_inside(at, at(hole[0]), loops[i])) continue;
       if (best == kNone || area_of(at, loops[i]) < area_of(at, loops[best])) best = i;
     }
     if (best != kNone) holes_of[best].push_back(std::move(hole));
@@ -248,7 +249,11 @@ void FacePieces::fill(const Loop& loop, std::vector<Loop> holes, const Vec3d& no
     }
     improve_pieces(flat, region.pieces);
   }
-  const bool is_turned = !passes(region.outline, loop[0], loop[1]);
+  bool is_turned = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+    is_turned |= passes(region.outline, b, a) && !passes(loop, b, a);
+  }
   for (IndexTriangle piece : region.pieces) {
     if (is_turned) std::swap(piece[1], piece[2]);
     pieces.push_back(piece);
