@@ -71,7 +71,7 @@ def bricks(random):
     for k in range(layers):
         for j in range(rows):
             cuts = np.arange(1, int(random.integers(2, 5)))
-            joints = [0, *(cuts / (len(cuts) + 1) + random.uniform(-0.06, 0.06, len(cuts))), 1]
+            joints = [0, *(cuts / (len(cuts) + 1) + 0.05 * random.integers(-1, 2, len(cuts))), 1]
             for x, u in zip(joints, joints[1:]):
                 bodies.append(box((x, depths[j], heights[k]), (u, depths[j + 1], heights[k + 1]), random))
     y, z = depths[-1], heights[-1]
@@ -152,6 +152,7 @@ def assembly_case(number, random, kind=None, noise=None):
     seen = kind != "thin" and share < 1e-4 and random.random() < 0.3  # how far to go is to be seen from the mesh
     truth = {"family": "assemblies", "shape": f"{what}, {way}, noise {off / size:.0e}{', auto' if seen else ''}",
              "volume": volume, "options": ["--join-gaps", "auto" if seen else repr(float(distance))]}
-    if kind == "thin":
+    lengths = np.linalg.norm(broken.corners() - np.roll(broken.corners(), 1, axis=1), axis=2)
+    if kind == "thin" or lengths.min() < 2 * distance:
         return Case(broken, truth | {"code": 2})
     return Case(broken, truth | {"area": area, "genus": genus, "parts": 1})
