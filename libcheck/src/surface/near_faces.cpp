@@ -87,12 +87,14 @@ class NearFacesFinder {
     });
     std::vector<double> volume(triangles_.size(), 0);
     is_void_.assign(triangles_.size(), 0);
+    body_box_.resize(triangles_.size());
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
       const std::uint32_t body = facing_[i].body = sets.root(i);
       const Corners c = corners_of(i);
       const Vec3d from = soup_.points[triangles_[body][0]];
       volume[body] += (c[0] - from).dot((c[1] - from).cross(c[2] - from));
       if (is_open[i] != 0) is_open[body] = 1;
+      body_box_[body].add(boxes_[i]);
     }
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
       is_void_[i] = volume[i] < 0 && is_open[i] == 0 ? 1 : 0;
@@ -124,6 +126,20 @@ class NearFacesFinder {
     measure(i, k, cosine);
   }
 
+  // Behind both of their faces: of one body, of a void and the body around it, or of two voids.
+  [[nodiscard]] bool have_solid_between(std::uint32_t a, std::uint32_t b) const {
+    if (a == b || (is_void_[a] != 0 && is_void_[b] != 0)) return true;
+    return (is_void_[a] != 0 && is_around(b, a)) || (is_void_[b] != 0 && is_around(a, b));
+  }
+
+  [[nodiscard]] bool is_around(std::uint32_t a, std::uint32_t b) const {
+    const Box &outer = body_box_[a], &inner = body_box_[b];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(outer.low[k] < inner.low[k] && outer.high[k] > inner.high[k])) return false;
+    }
+    return true;
+  }
+
   void measure(std::uint32_t i, std::uint32_t k, double cosine) {
     const bool is_larger = facing_[i].longest >= facing_[k].longest;
     const std::uint32_t base = is_larger ? i : k, other = is_larger ? k : i;
@@ -144,9 +160,7 @@ class NearFacesFinder {
     if (low < 0 && high > 0) least = 0;
     const double reach = std::min(reach_of(i), reach_of(k));
     const bool is_behind = cosine < 0 && std::abs(low) > high;
-    const bool is_wall =
-        is_behind && (facing_[i].body == facing_[k].body || is_void_[facing_[i].body] != 0 ||
-                      is_void_[facing_[k].body] != 0);
+    const bool is_wall = is_behind && have_solid_between(facing_[i].body, facing_[k].body);
     const double apart = is_wall ? least : most;
     if (apart > reach || 0.5 * area.norm() <= apart * extent) return;
     (is_wall ? found_.walls : found_.gaps)
@@ -187,6 +201,7 @@ class NearFacesFinder {
   std::vector<Facing> facing_;
   std::vector<Box> boxes_;
   std::vector<char> is_void_;  // of each body
+  std::vector<Box> body_box_;
   NearFacesFound found_;
 };
 

@@ -250,9 +250,10 @@ void FacePieces::fill(const Loop& loop, std::vector<Loop> holes, const Vec3d& no
     improve_pieces(flat, region.pieces);
   }
   bool is_turned = false;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
+  for (std::size_t i = 0; i < loop.size() && !is_new && !is_turned; ++i) {
     const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-    is_turned |= passes(region.outline, b, a) && !passes(loop, b, a);
+    is_turned = passes(region.outline, b, a) && !passes(loop, b, a);
+    if (!is_turned && !passes(region.outline, b, a)) break;
   }
   for (IndexTriangle piece : region.pieces) {
     if (is_turned) std::swap(piece[1], piece[2]);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <check/near_faces.h>
@@ -11,13 +12,35 @@
 
 namespace meshrepair::internal {
 
-// Where the points are to be: in the planes of the largest triangle of all that are near each other
-// or go on from each other, as far as these are within the distance of its plane; where they are
-// where several such planes meet no point farther than the radius, they stay. `corners` are those of
-// the soup, by the first points in their places.
-[[nodiscard]] std::vector<Vec3d> level_faces(const TriangleSoup& soup,
-                                             std::span<const IndexTriangle> corners,
-                                             std::span<const NearFaces> pairs, double distance,
-                                             double radius);
+// Triangles that are near each other, or go on from each other across edges, are in one level as far
+// as they are within the distance of the plane of the largest one that is near another.
+class Levels {
+ public:
+  // `corners` are those of the soup, by the first points in their places.
+  Levels(const TriangleSoup& soup, std::span<const IndexTriangle> corners,
+         std::span<const NearFaces> pairs, double distance);
+
+  // Moves points into the planes of all levels that they are in. Where these meet farther off than
+  // the radius, points stay. `corners` are those that the triangles have now.
+  void move_points(std::span<const IndexTriangle> corners, double radius,
+                   std::vector<Vec3d>& points) const;
+
+ private:
+  struct Level {
+    Vec3d normal = Vec3d::Zero();  // of length 1
+    Vec3d at = Vec3d::Zero();
+
+    [[nodiscard]] double height_of(const Vec3d& p) const { return normal.dot(p - at); }
+  };
+  using Neighbours = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+  void grow(std::uint32_t first, const TriangleSoup& soup, std::span<const IndexTriangle> corners,
+            const Neighbours& neighbours, double distance);
+  [[nodiscard]] Vec3d place_in(std::span<const std::pair<std::uint32_t, std::uint32_t>> levels,
+                               Vec3d place) const;
+
+  std::vector<Level> levels_;
+  std::vector<std::uint32_t> level_of_;  // of each triangle; kNone: none
+};
 
 }  // namespace meshrepair::internal

@@ -62,6 +62,7 @@ NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs,
       pairs_(pairs),
       radius_(kRadius * distance),
       check_(check),
+      at_(soup.points),
       is_placed_(soup.points.size(), 0),
       name_(first_in_place(soup.points)),
       inner_(soup.triangles.size()) {
@@ -69,8 +70,10 @@ NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs,
   for (const auto& t : soup.triangles) {
     corners_.push_back({name_[t[0]], name_[t[1]], name_[t[2]]});
   }
-  at_ = level_faces(soup, corners_, pairs, distance, radius_);
   list_edges();
+  const Levels levels(soup, corners_, pairs, distance);
+  (void)merge_points();
+  levels.move_points(corners_, radius_, at_);
 }
 
 void NearParts::list_edges() {
@@ -208,6 +211,8 @@ void NearParts::rename(const std::vector<std::uint32_t>& name) {
   edges_ = std::move(kept);
   for (std::vector<std::uint32_t>& inner : inner_) {
     for (std::uint32_t& p : inner) p = name[p];
+    std::sort(inner.begin(), inner.end());
+    inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
   }
 }
 
@@ -243,6 +248,7 @@ bool NearParts::put_on_edges() {
   return is_changed;
 }
 
+// Those on its outline, ascending.
 std::vector<std::uint32_t> NearParts::points_of(std::uint32_t triangle) const {
   std::vector<std::uint32_t> points;
   const IndexTriangle& t = corners_[triangle];
@@ -252,6 +258,7 @@ std::vector<std::uint32_t> NearParts::points_of(std::uint32_t triangle) const {
     if (e == kNone) continue;
     points.insert(points.end(), edges_[e].inner.begin(), edges_[e].inner.end());
   }
+  std::sort(points.begin(), points.end());
   return points;
 }
 
@@ -259,14 +266,21 @@ bool NearParts::put_on_faces() {
   bool is_changed = false;
   for (const NearFaces& pair : pairs_) {
     check_.tick();
-    for (const std::uint32_t p : points_of(pair.b)) is_changed |= put_on_face(p, pair.a);
-    for (const std::uint32_t p : points_of(pair.a)) is_changed |= put_on_face(p, pair.b);
+    const std::vector<std::uint32_t> of_a = points_of(pair.a), of_b = points_of(pair.b);
+    for (const std::uint32_t p : of_b) {
+      if (!std::binary_search(of_a.begin(), of_a.end(), p)) is_changed |= put_on_face(p, pair.a);
+    }
+    for (const std::uint32_t p : of_a) {
+      if (!std::binary_search(of_b.begin(), of_b.end(), p)) is_changed |= put_on_face(p, pair.b);
+    }
   }
   return is_changed;
 }
 
 bool NearParts::put_on_face(std::uint32_t point, std::uint32_t triangle) {
-  if (has(inner_[triangle], point) || has(points_of(triangle), point)) return false;
+  std::vector<std::uint32_t>& inner = inner_[triangle];
+  const auto before = std::lower_bound(inner.begin(), inner.end(), point);
+  if (before != inner.end() && *before == point) return false;
   const IndexTriangle& t = corners_[triangle];
   const Vec3d &a = at_[t[0]], &b = at_[t[1]], &c = at_[t[2]], &p = at_[point];
   const Vec3d area = (b - a).cross(c - a);
@@ -279,7 +293,7 @@ bool NearParts::put_on_face(std::uint32_t point, std::uint32_t triangle) {
   if (std::abs(height) > radius_ || !is_left(a, b) || !is_left(b, c) || !is_left(c, a)) {
     return false;
   }
-  inner_[triangle].push_back(point);
+  inner.insert(before, point);
   put(point, p - area * (area.dot(p - a) / squared));
   return true;
 }

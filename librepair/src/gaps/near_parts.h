@@ -61,7 +61,7 @@ class NearParts {
   std::vector<std::uint32_t> name_;   // of each point of the soup: the one it is now
   std::vector<IndexTriangle> corners_;  // of each triangle
   std::vector<Edge> edges_;           // sorted by their ends
-  std::vector<std::vector<std::uint32_t>> inner_;  // of each triangle: points in it
+  std::vector<std::vector<std::uint32_t>> inner_;  // of each triangle: points in it, ascending
 };
 
 }  // namespace meshrepair::internal
