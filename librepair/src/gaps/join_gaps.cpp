@@ -142,7 +142,7 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
   report.distance = distance;
   // Where gaps are narrower than was asked for, so is what is taken for near beside them.
   const double reach = std::min(distance, kMargin * report.widest_gap);
-  internal::NearParts parts(soup, near.gaps, reach, check);
+  internal::NearParts parts(soup, near.gaps, report.widest_gap, reach, check);
   parts.bring_together();
   JoinedSoup joined = parts.cut(report);
   looking.reach = distance;

@@ -56,8 +56,8 @@ Box box_around(const Vec3d& p, double radius) {
 
 }  // namespace
 
-NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double distance,
-                     CancelCheck& check)
+NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double gap,
+                     double distance, CancelCheck& check)
     : soup_(soup),
       pairs_(pairs),
       radius_(kRadius * distance),
@@ -71,7 +71,7 @@ NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs,
     corners_.push_back({name_[t[0]], name_[t[1]], name_[t[2]]});
   }
   list_edges();
-  const Levels levels(soup, corners_, pairs, distance);
+  const Levels levels(soup, corners_, pairs, gap);
   (void)merge_points();
   levels.move_points(corners_, radius_, at_);
 }

@@ -19,9 +19,10 @@ namespace meshrepair::internal {
 
 class NearParts {
  public:
-  // `pairs` are those that are to lie on each other, no farther apart than the distance. All have to
-  // live as long.
-  NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double distance,
+  // `pairs` are those that are to lie on each other, no farther apart than the gap. Corners beside
+  // them that belong together may be as far apart as the distance along each axis. All have to live
+  // as long.
+  NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double gap, double distance,
             CancelCheck& check);
 
   // Until nothing is near another without having its points.
