@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 
 #include <base/disjoint_sets.h>
+#include <base/parallel.h>
+#include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/near_faces.h>
 #include <mesh/edge_table.h>
@@ -18,6 +20,8 @@ namespace {
 // Of the angle between two faces: 25 degrees. Where they are much wider than they are apart, all
 // that overlap are more nearly parallel.
 constexpr double kParallel = 0.9;
+
+constexpr std::size_t kItemsPerTask = 4096;
 
 using Corners = std::array<Vec3d, 3>;
 
@@ -36,27 +40,33 @@ struct Facing {
 class NearFacesFinder {
  public:
   NearFacesFinder(const TriangleSoup& soup, const NearFacesOptions& options)
-      : soup_(soup), options_(options), check_(options.progress) {}
+      : soup_(soup), options_(options) {}
 
   NearFacesFound run() {
     place_triangles();
     find_bodies();
     const BoxTree tree(boxes_);
-    for (std::uint32_t i = 0; i < sound_.size(); ++i) {
-      check_.tick();
-      Box around = boxes_[i];
-      around.widen(reach_of(i));
-      tree.visit([&](const Box& box) { return box.meets(around); },
-                 [&](std::uint32_t k) {
-                   if (k > i && boxes_[k].meets(around)) compare(i, k);
-                 });
-    }
+    SharedProgress progress(options_.progress, 1);
+    NearFacesFound found = parallel_reduce(
+        sound_.size(), kItemsPerTask,
+        [&](std::size_t first, std::size_t last) {
+          NearFacesFound part;
+          progress.poll();
+          for (const std::uint32_t i : tree.order().subspan(first, last - first)) {
+            look_around(tree, i, part);
+          }
+          return part;
+        },
+        [](NearFacesFound& all, const NearFacesFound& part) {
+          all.gaps.insert(all.gaps.end(), part.gaps.begin(), part.gaps.end());
+          all.walls.insert(all.walls.end(), part.walls.begin(), part.walls.end());
+        });
     const auto by_triangles = [](const NearFaces& x, const NearFaces& y) {
       return std::array{x.a, x.b} < std::array{y.a, y.b};
     };
-    std::sort(found_.gaps.begin(), found_.gaps.end(), by_triangles);
-    std::sort(found_.walls.begin(), found_.walls.end(), by_triangles);
-    return std::move(found_);
+    std::sort(found.gaps.begin(), found.gaps.end(), by_triangles);
+    std::sort(found.walls.begin(), found.walls.end(), by_triangles);
+    return found;
   }
 
  private:
@@ -117,13 +127,22 @@ class NearFacesFinder {
     });
   }
 
-  void compare(std::uint32_t i, std::uint32_t k) {
+  void look_around(const BoxTree& tree, std::uint32_t i, NearFacesFound& found) const {
+    Box around = boxes_[i];
+    around.widen(reach_of(i));
+    tree.visit([&](const Box& box) { return box.meets(around); },
+               [&](std::uint32_t k) {
+                 if (k > i && boxes_[k].meets(around)) compare(i, k, found);
+               });
+  }
+
+  void compare(std::uint32_t i, std::uint32_t k, NearFacesFound& found) const {
     const Facing &a = facing_[i], &b = facing_[k];
     const double cosine = a.normal.dot(b.normal);
     const bool is_one_body = a.body == b.body;
     if (std::abs(cosine) < kParallel || (is_one_body && cosine > 0)) return;
     if (is_one_body && share_a_corner(i, k)) return;
-    measure(i, k, cosine);
+    measure(i, k, cosine, found);
   }
 
   // Behind both of their faces: of one body, of a void and the body around it, or of two voids.
@@ -140,7 +159,7 @@ class NearFacesFinder {
     return true;
   }
 
-  void measure(std::uint32_t i, std::uint32_t k, double cosine) {
+  void measure(std::uint32_t i, std::uint32_t k, double cosine, NearFacesFound& found) const {
     const bool is_larger = facing_[i].longest >= facing_[k].longest;
     const std::uint32_t base = is_larger ? i : k, other = is_larger ? k : i;
     const std::vector<OverlapCorner> overlap = overlap_of(base, other);
@@ -163,7 +182,7 @@ class NearFacesFinder {
     const bool is_wall = is_behind && have_solid_between(facing_[i].body, facing_[k].body);
     const double apart = is_wall ? least : most;
     if (apart > reach || 0.5 * area.norm() <= apart * extent) return;
-    (is_wall ? found_.walls : found_.gaps)
+    (is_wall ? found.walls : found.gaps)
         .push_back({std::min(sound_[i], sound_[k]), std::max(sound_[i], sound_[k]), apart});
   }
 
@@ -195,14 +214,12 @@ class NearFacesFinder {
 
   const TriangleSoup& soup_;
   const NearFacesOptions& options_;
-  CancelCheck check_;
   std::vector<std::uint32_t> sound_;  // numbers in the soup of those that follow
   std::vector<IndexTriangle> triangles_;
   std::vector<Facing> facing_;
   std::vector<Box> boxes_;
   std::vector<char> is_void_;  // of each body
   std::vector<Box> body_box_;
-  NearFacesFound found_;
 };
 
 }  // namespace
