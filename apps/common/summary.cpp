@@ -217,13 +217,17 @@ void describe_sewing(const SewReport& sew, Lines& lines) {
 
 void describe_gaps(const JoinGapsReport& gaps, Lines& lines) {
   if (gaps.distance == 0) return;
+  if (gaps.pairs == 0) {
+    lines.add("joined", fmt::format("nothing: there are no gaps of up to {:.3g}", gaps.distance));
+    return;
+  }
   std::string text =
       fmt::format("{} across gaps of at most {:.3g}; {} joined, moved by at most {:.3g}",
                   number_of(gaps.pairs, "pair of faces", "pairs of faces"), gaps.widest_gap,
                   number_of(gaps.joined_points, "corner"), gaps.farthest_move);
   if (gaps.left > 0) {
-    text += fmt::format("; {} still nearer than {:.3g}",
-                        number_of(gaps.left, "pair", "pairs"), gaps.distance);
+    text += fmt::format("; {} still nearer than {:.3g}", number_of(gaps.left, "pair", "pairs"),
+                        gaps.distance);
   }
   lines.add("joined", text);
 }

@@ -309,8 +309,8 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   std::optional<JoinedSoup> joined = join_gaps(soup, joining, gaps);
   if (joined) drop_facing_copies(soup, *joined);
   meter.end();
-  Surface surface = joined ? repair_joined(soup, *joined, options, report)
-                           : repair_whole(soup, options, report);
+  Surface surface =
+      joined ? repair_joined(soup, *joined, options, report) : repair_whole(soup, options, report);
   report.join_gaps = gaps;
   report.stages.insert(report.stages.begin(), stages.begin(), stages.end());
   return surface;

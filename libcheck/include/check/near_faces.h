@@ -12,7 +12,7 @@ namespace meshrepair {
 
 struct NearFaces {
   std::uint32_t a = 0, b = 0;  // triangles, a < b
-  double apart = 0;            // of a gap the largest distance where they overlap, of a wall the least
+  double apart = 0;  // of a gap the largest distance where they overlap, of a wall the least
 };
 
 struct NearFacesFound {

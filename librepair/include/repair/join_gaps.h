@@ -25,9 +25,9 @@ struct JoinGapsOptions {
 };
 
 struct JoinGapsReport {
-  double distance = 0;            // over which gaps were joined at most; 0: none were
-  std::size_t pairs = 0;          // of near triangles, with a gap between them
-  double widest_gap = 0;          // of these
+  double distance = 0;    // over which gaps are joined at most; 0: none was asked for, or found
+  std::size_t pairs = 0;  // of near triangles, with a gap between them
+  double widest_gap = 0;  // of these
   std::size_t joined_points = 0;  // that became one with another
   std::size_t new_points = 0;     // where edges cross
   double farthest_move = 0;       // of a corner
@@ -52,8 +52,9 @@ struct JoinedSoup {
 // Where faces overlap they then are copies of the same triangles. What is near no such face stays
 // where it is.
 //
-// JoinGapsMode::automatic takes the distance that propose_gaps() finds. Throws ValueError where the distance is more than half of what is thin: of a wall, or of an edge
-// at such a face. Nothing if there is nothing to join. Throws Cancelled.
+// JoinGapsMode::automatic takes the distance that propose_gaps() finds. Throws ValueError where the
+// distance is more than half of what is thin: of a wall, or of an edge at such a face. Nothing if
+// there is nothing to join. Throws Cancelled.
 [[nodiscard]] std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup,
                                                   const JoinGapsOptions& options,
                                                   JoinGapsReport& report);
@@ -62,8 +63,8 @@ struct JoinedSoup {
 // edges of their triangles. n log n. Throws Cancelled.
 [[nodiscard]] GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress);
 
-// Takes out copies of triangles that face each other: walls inside the solid. Not those of bodies of
-// the soup that was given which have open edges.
+// Takes out copies of triangles that face each other: walls inside the solid. Not those of bodies
+// of the soup that was given which have open edges.
 void drop_facing_copies(const TriangleSoup& given, JoinedSoup& joined);
 
 }  // namespace meshrepair

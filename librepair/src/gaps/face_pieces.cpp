@@ -42,8 +42,7 @@ bool is_inside(const FlatPoints& at, const Flat& p, const Loop& loop) {
 // against the outline bound what is outside.
 class Regions {
  public:
-  Regions(const FlatPoints& at, std::span<const EdgeEnds> outline,
-          std::span<const EdgeEnds> inside)
+  Regions(const FlatPoints& at, std::span<const EdgeEnds> outline, std::span<const EdgeEnds> inside)
       : at_(at) {
     for (const EdgeEnds& edge : outline) add(edge[0], edge[1], true);
     for (const EdgeEnds& edge : inside) add(edge[0], edge[1], false);
@@ -148,9 +147,9 @@ std::optional<std::size_t> find_bridge(const FlatPoints& at, const Loop& loop, s
 Loop with_bridges(const FlatPoints& at, Loop loop, std::vector<Loop> holes) {
   const auto place = [&](std::uint32_t p) { return std::tuple(at(p).x(), at(p).y(), p); };
   for (Loop& hole : holes) {
-    const auto leftmost = std::min_element(
-        hole.begin(), hole.end(),
-        [&](std::uint32_t p, std::uint32_t q) { return place(p) < place(q); });
+    const auto leftmost =
+        std::min_element(hole.begin(), hole.end(),
+                         [&](std::uint32_t p, std::uint32_t q) { return place(p) < place(q); });
     std::rotate(hole.begin(), leftmost, hole.end());
   }
   std::sort(holes.begin(), holes.end(),

@@ -88,7 +88,7 @@ double rounded_down(double value) {
 }
 
 void require_less_than(const Thinnest& thinnest, double distance) {
-  if (thinnest.width > kThin * distance) return;
+  if (thinnest.width >= kThin * distance) return;
   std::ostringstream text;
   text << "gaps of " << distance << " cannot be joined: the mesh has " << thinnest.what
        << " of only " << thinnest.width << " at (" << thinnest.at.x() << ", " << thinnest.at.y()
@@ -138,8 +138,8 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
     report.pairs += gap.apart > 0 ? 1 : 0;
     report.widest_gap = std::max(report.widest_gap, gap.apart);
   }
-  if (report.pairs == 0) return std::nullopt;
   report.distance = distance;
+  if (report.pairs == 0) return std::nullopt;
   // Where gaps are narrower than was asked for, so is what is taken for near beside them.
   const double reach = std::min(distance, kMargin * report.widest_gap);
   internal::NearParts parts(soup, near.gaps, report.widest_gap, reach, check);

@@ -12,8 +12,8 @@
 
 namespace meshrepair::internal {
 
-// Triangles that are near each other, or go on from each other across edges, are in one level as far
-// as they are within the distance of the plane of the largest one that is near another.
+// Triangles that are near each other, or go on from each other across edges, are in one level as
+// far as they are within the distance of the plane of the largest one that is near another.
 class Levels {
  public:
   // `corners` are those of the soup, by the first points in their places.

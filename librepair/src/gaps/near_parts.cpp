@@ -159,9 +159,8 @@ bool NearParts::merge_points() {
     const std::uint32_t b = std::max(name[merge.a], name[merge.b]);
     if (a == b) continue;
     const bool is_wide = std::any_of(members[a].begin(), members[a].end(), [&](std::uint32_t p) {
-      return std::any_of(members[b].begin(), members[b].end(), [&](std::uint32_t q) {
-        return (at_[p] - at_[q]).norm() > 2 * radius_;
-      });
+      return std::any_of(members[b].begin(), members[b].end(),
+                         [&](std::uint32_t q) { return (at_[p] - at_[q]).norm() > 2 * radius_; });
     });
     if (is_wide) continue;
     is_changed = true;
@@ -364,7 +363,9 @@ std::vector<std::vector<EdgeEnds>> NearParts::edges_inside(
     const std::vector<std::vector<std::uint32_t>>& outlines) const {
   std::vector<std::vector<std::uint32_t>> triangles_at(at_.size());
   for (std::uint32_t t = 0; t < outlines.size(); ++t) {
-    if (outlines[t].size() == 3 && inner_[t].empty() && edge_between(corners_[t][0], corners_[t][1]) == kNone) continue;
+    if (outlines[t].size() == 3 && inner_[t].empty() &&
+        edge_between(corners_[t][0], corners_[t][1]) == kNone)
+      continue;
     for (const std::vector<std::uint32_t>* list : {&outlines[t], &inner_[t]}) {
       for (const std::uint32_t p : *list) {
         if (triangles_at[p].empty() || triangles_at[p].back() != t) triangles_at[p].push_back(t);
@@ -386,9 +387,8 @@ std::vector<std::vector<EdgeEnds>> NearParts::edges_inside(
     for (std::size_t i = 1; i < points.size(); ++i) {
       const std::uint32_t a = points[i - 1], b = points[i];
       std::vector<std::uint32_t> both;
-      std::set_intersection(triangles_at[a].begin(), triangles_at[a].end(),
-                            triangles_at[b].begin(), triangles_at[b].end(),
-                            std::back_inserter(both));
+      std::set_intersection(triangles_at[a].begin(), triangles_at[a].end(), triangles_at[b].begin(),
+                            triangles_at[b].end(), std::back_inserter(both));
       for (const std::uint32_t t : both) {
         if (!are_on_one_side(t, a, b)) inside[t].push_back(ascending(a, b));
       }

@@ -57,11 +57,11 @@ class NearParts {
   std::span<const NearFaces> pairs_;
   double radius_;
   CancelCheck& check_;
-  std::vector<Vec3d> at_;             // of each point, also new ones
-  std::vector<char> is_placed_;       // it came to lie on what it was near
-  std::vector<std::uint32_t> name_;   // of each point of the soup: the one it is now
-  std::vector<IndexTriangle> corners_;  // of each triangle
-  std::vector<Edge> edges_;           // sorted by their ends
+  std::vector<Vec3d> at_;                          // of each point, also new ones
+  std::vector<char> is_placed_;                    // it came to lie on what it was near
+  std::vector<std::uint32_t> name_;                // of each point of the soup: the one it is now
+  std::vector<IndexTriangle> corners_;             // of each triangle
+  std::vector<Edge> edges_;                        // sorted by their ends
   std::vector<std::vector<std::uint32_t>> inner_;  // of each triangle: points in it, ascending
 };
 
