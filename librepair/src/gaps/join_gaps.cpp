@@ -10,6 +10,7 @@
 #include <check/near_faces.h>
 #include <repair/join_gaps.h>
 
+#include "cut_near_mesh.h"
 #include "near_parts.h"
 
 namespace meshrepair {
@@ -143,8 +144,7 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
   // Where gaps are narrower than was asked for, so is what is taken for near beside them.
   const double reach = std::min(distance, kMargin * report.widest_gap);
   internal::NearParts parts(soup, near.gaps, report.widest_gap, reach, check);
-  parts.bring_together();
-  JoinedSoup joined = parts.cut(report);
+  JoinedSoup joined = internal::cut_near_mesh(soup, parts.bring_together(), report, check);
   looking.reach = distance;
   for (const NearFaces& gap : find_near_faces(joined.soup, looking).gaps) {
     report.left += gap.apart > kClosed * distance ? 1 : 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -11,7 +10,6 @@
 
 #include <base/ids.h>
 #include <check/box_tree.h>
-#include <mesh/weld_points.h>
 
 #include "level_faces.h"
 
@@ -27,13 +25,6 @@ constexpr int kMostRounds = 16;
 
 bool has(const std::vector<std::uint32_t>& list, std::uint32_t value) {
   return std::find(list.begin(), list.end(), value) != list.end();
-}
-
-// Of the way from a to b, where that is nearest to p: not limited to it.
-double share_along(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d way = b - a;
-  const double squared = way.squaredNorm();
-  return squared > 0 ? way.dot(p - a) / squared : 0;
 }
 
 // Where the lines a b and c d are nearest to each other, as shares of the ways; not inside both
@@ -58,22 +49,15 @@ Box box_around(const Vec3d& p, double radius) {
 
 NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double gap,
                      double distance, CancelCheck& check)
-    : soup_(soup),
-      pairs_(pairs),
+    : pairs_(pairs),
       radius_(kRadius * distance),
       check_(check),
-      at_(soup.points),
-      is_placed_(soup.points.size(), 0),
-      name_(first_in_place(soup.points)),
-      inner_(soup.triangles.size()) {
-  corners_.reserve(soup.triangles.size());
-  for (const auto& t : soup.triangles) {
-    corners_.push_back({name_[t[0]], name_[t[1]], name_[t[2]]});
-  }
+      mesh_(soup),
+      is_placed_(soup.points.size(), 0) {
   list_edges();
-  const Levels levels(soup, corners_, pairs, gap);
+  const Levels levels(soup, mesh_.corners, pairs, gap);
   (void)merge_points();
-  levels.move_points(corners_, radius_, at_);
+  levels.move_points(mesh_.corners, radius_, mesh_.at);
 }
 
 void NearParts::list_edges() {
@@ -81,29 +65,30 @@ void NearParts::list_edges() {
   for (const NearFaces& pair : pairs_) {
     for (const std::uint32_t t : {pair.a, pair.b}) {
       for (std::size_t k = 0; k < 3; ++k) {
-        ends.push_back(ascending(corners_[t][k], corners_[t][(k + 1) % 3]));
+        ends.push_back(ascending(mesh_.corners[t][k], mesh_.corners[t][(k + 1) % 3]));
       }
     }
   }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  for (const EdgeEnds& edge : ends) edges_.push_back({edge, {}});
+  for (const EdgeEnds& edge : ends) mesh_.edges.push_back({edge, {}});
 }
 
-void NearParts::bring_together() {
+const NearMesh& NearParts::bring_together() {
   for (int round = 0; round < kMostRounds; ++round) {
     check_.ask();
     bool is_changed = merge_points();
     is_changed |= put_on_edges();
     is_changed |= put_on_faces();
     is_changed |= cross_edges();
-    if (!is_changed) return;
+    if (!is_changed) break;
   }
+  return mesh_;
 }
 
 std::vector<std::uint32_t> NearParts::near_points() const {
   std::vector<std::uint32_t> points;
-  for (const Edge& edge : edges_) {
+  for (const NearMesh::Edge& edge : mesh_.edges) {
     points.insert(points.end(), edge.ends.begin(), edge.ends.end());
     points.insert(points.end(), edge.inner.begin(), edge.inner.end());
   }
@@ -112,16 +97,8 @@ std::vector<std::uint32_t> NearParts::near_points() const {
   return points;
 }
 
-std::uint32_t NearParts::edge_between(std::uint32_t a, std::uint32_t b) const {
-  const EdgeEnds ends = ascending(a, b);
-  const auto at = std::lower_bound(edges_.begin(), edges_.end(), ends,
-                                   [](const Edge& e, const EdgeEnds& x) { return e.ends < x; });
-  return at != edges_.end() && at->ends == ends ? static_cast<std::uint32_t>(at - edges_.begin())
-                                                : kNone;
-}
-
 void NearParts::put(std::uint32_t point, const Vec3d& place) {
-  if (std::exchange(is_placed_[point], 1) == 0) at_[point] = place;
+  if (std::exchange(is_placed_[point], 1) == 0) mesh_.at[point] = place;
 }
 
 struct NearParts::Merge {
@@ -133,15 +110,15 @@ struct NearParts::Merge {
 bool NearParts::merge_points() {
   const std::vector<std::uint32_t> points = near_points();
   std::vector<Box> boxes;
-  for (const std::uint32_t p : points) boxes.push_back(box_around(at_[p], 0));
+  for (const std::uint32_t p : points) boxes.push_back(box_around(mesh_.at[p], 0));
   const BoxTree tree(boxes);
   std::vector<Merge> merges;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     check_.tick();
-    const Box around = box_around(at_[points[i]], radius_);
+    const Box around = box_around(mesh_.at[points[i]], radius_);
     tree.visit([&](const Box& box) { return box.meets(around); },
                [&](std::uint32_t k) {
-                 const double apart = (at_[points[k]] - at_[points[i]]).norm();
+                 const double apart = (mesh_.at[points[k]] - mesh_.at[points[i]]).norm();
                  if (k > i && apart <= radius_) merges.push_back({apart, points[i], points[k]});
                });
   }
@@ -149,9 +126,9 @@ bool NearParts::merge_points() {
   std::sort(merges.begin(), merges.end(), [](const Merge& x, const Merge& y) {
     return std::tie(x.apart, x.a, x.b) < std::tie(y.apart, y.a, y.b);
   });
-  std::vector<std::uint32_t> name(at_.size());
+  std::vector<std::uint32_t> name(mesh_.at.size());
   std::iota(name.begin(), name.end(), 0);
-  std::vector<std::vector<std::uint32_t>> members(at_.size());
+  std::vector<std::vector<std::uint32_t>> members(mesh_.at.size());
   for (const std::uint32_t p : points) members[p] = {p};
   bool is_changed = false;
   for (const Merge& merge : merges) {
@@ -159,8 +136,9 @@ bool NearParts::merge_points() {
     const std::uint32_t b = std::max(name[merge.a], name[merge.b]);
     if (a == b) continue;
     const bool is_wide = std::any_of(members[a].begin(), members[a].end(), [&](std::uint32_t p) {
-      return std::any_of(members[b].begin(), members[b].end(),
-                         [&](std::uint32_t q) { return (at_[p] - at_[q]).norm() > 2 * radius_; });
+      return std::any_of(members[b].begin(), members[b].end(), [&](std::uint32_t q) {
+        return (mesh_.at[p] - mesh_.at[q]).norm() > 2 * radius_;
+      });
     });
     if (is_wide) continue;
     is_changed = true;
@@ -177,10 +155,10 @@ bool NearParts::merge_points() {
     double count = 0;
     for (const std::uint32_t q : members[p]) {
       if (any_placed && is_placed_[q] == 0) continue;
-      sum += at_[q] - at_[p];
+      sum += mesh_.at[q] - mesh_.at[p];
       ++count;
     }
-    at_[p] += sum / count;
+    mesh_.at[p] += sum / count;
     is_placed_[p] = any_placed ? 1 : 0;
   }
   if (is_changed) rename(name);
@@ -188,16 +166,17 @@ bool NearParts::merge_points() {
 }
 
 void NearParts::rename(const std::vector<std::uint32_t>& name) {
-  for (std::uint32_t& p : name_) p = name[p];
-  for (IndexTriangle& t : corners_) t = {name[t[0]], name[t[1]], name[t[2]]};
-  for (Edge& edge : edges_) {
+  for (std::uint32_t& p : mesh_.name) p = name[p];
+  for (IndexTriangle& t : mesh_.corners) t = {name[t[0]], name[t[1]], name[t[2]]};
+  for (NearMesh::Edge& edge : mesh_.edges) {
     edge.ends = ascending(name[edge.ends[0]], name[edge.ends[1]]);
     for (std::uint32_t& p : edge.inner) p = name[p];
   }
-  std::stable_sort(edges_.begin(), edges_.end(),
-                   [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-  std::vector<Edge> kept;
-  for (Edge& edge : edges_) {
+  std::stable_sort(
+      mesh_.edges.begin(), mesh_.edges.end(),
+      [](const NearMesh::Edge& a, const NearMesh::Edge& b) { return a.ends < b.ends; });
+  std::vector<NearMesh::Edge> kept;
+  for (NearMesh::Edge& edge : mesh_.edges) {
     if (edge.ends[0] == edge.ends[1]) continue;
     if (kept.empty() || kept.back().ends != edge.ends) {
       kept.push_back({edge.ends, {}});
@@ -207,8 +186,8 @@ void NearParts::rename(const std::vector<std::uint32_t>& name) {
       if (p != edge.ends[0] && p != edge.ends[1] && !has(inner, p)) inner.push_back(p);
     }
   }
-  edges_ = std::move(kept);
-  for (std::vector<std::uint32_t>& inner : inner_) {
+  mesh_.edges = std::move(kept);
+  for (std::vector<std::uint32_t>& inner : mesh_.inner) {
     for (std::uint32_t& p : inner) p = name[p];
     std::sort(inner.begin(), inner.end());
     inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
@@ -217,15 +196,15 @@ void NearParts::rename(const std::vector<std::uint32_t>& name) {
 
 bool NearParts::put_on_edges() {
   std::vector<Box> boxes;
-  for (const Edge& edge : edges_) {
+  for (const NearMesh::Edge& edge : mesh_.edges) {
     Box& box = boxes.emplace_back();
-    for (const std::uint32_t p : edge.ends) box.add(at_[p]);
+    for (const std::uint32_t p : edge.ends) box.add(mesh_.at[p]);
   }
   const BoxTree tree(boxes);
   bool is_changed = false;
   for (const std::uint32_t p : near_points()) {
     check_.tick();
-    const Box around = box_around(at_[p], radius_);
+    const Box around = box_around(mesh_.at[p], radius_);
     std::vector<std::uint32_t> near;
     tree.visit([&](const Box& box) { return box.meets(around); },
                [&](std::uint32_t e) {
@@ -233,12 +212,12 @@ bool NearParts::put_on_edges() {
                });
     std::sort(near.begin(), near.end());
     for (const std::uint32_t e : near) {
-      Edge& edge = edges_[e];
+      NearMesh::Edge& edge = mesh_.edges[e];
       if (p == edge.ends[0] || p == edge.ends[1] || has(edge.inner, p)) continue;
-      const Vec3d &a = at_[edge.ends[0]], &b = at_[edge.ends[1]];
-      const double share = share_along(at_[p], a, b);
+      const Vec3d &a = mesh_.at[edge.ends[0]], &b = mesh_.at[edge.ends[1]];
+      const double share = share_along(mesh_.at[p], a, b);
       const Vec3d place = a + share * (b - a);
-      if (!(share > 0 && share < 1) || (place - at_[p]).norm() > radius_) continue;
+      if (!(share > 0 && share < 1) || (place - mesh_.at[p]).norm() > radius_) continue;
       edge.inner.push_back(p);
       put(p, place);
       is_changed = true;
@@ -250,12 +229,12 @@ bool NearParts::put_on_edges() {
 // Those on its outline, ascending.
 std::vector<std::uint32_t> NearParts::points_of(std::uint32_t triangle) const {
   std::vector<std::uint32_t> points;
-  const IndexTriangle& t = corners_[triangle];
+  const IndexTriangle& t = mesh_.corners[triangle];
   for (std::size_t k = 0; k < 3; ++k) {
     points.push_back(t[k]);
-    const std::uint32_t e = edge_between(t[k], t[(k + 1) % 3]);
+    const std::uint32_t e = mesh_.edge_between(t[k], t[(k + 1) % 3]);
     if (e == kNone) continue;
-    points.insert(points.end(), edges_[e].inner.begin(), edges_[e].inner.end());
+    points.insert(points.end(), mesh_.edges[e].inner.begin(), mesh_.edges[e].inner.end());
   }
   std::sort(points.begin(), points.end());
   return points;
@@ -277,11 +256,11 @@ bool NearParts::put_on_faces() {
 }
 
 bool NearParts::put_on_face(std::uint32_t point, std::uint32_t triangle) {
-  std::vector<std::uint32_t>& inner = inner_[triangle];
+  std::vector<std::uint32_t>& inner = mesh_.inner[triangle];
   const auto before = std::lower_bound(inner.begin(), inner.end(), point);
   if (before != inner.end() && *before == point) return false;
-  const IndexTriangle& t = corners_[triangle];
-  const Vec3d &a = at_[t[0]], &b = at_[t[1]], &c = at_[t[2]], &p = at_[point];
+  const IndexTriangle& t = mesh_.corners[triangle];
+  const Vec3d &a = mesh_.at[t[0]], &b = mesh_.at[t[1]], &c = mesh_.at[t[2]], &p = mesh_.at[point];
   const Vec3d area = (b - a).cross(c - a);
   const double squared = area.squaredNorm();
   if (!(squared > 0)) return false;
@@ -299,13 +278,13 @@ bool NearParts::put_on_face(std::uint32_t point, std::uint32_t triangle) {
 
 bool NearParts::cross_edges() {
   std::vector<Box> boxes;
-  for (const Edge& edge : edges_) {
+  for (const NearMesh::Edge& edge : mesh_.edges) {
     Box& box = boxes.emplace_back();
-    for (const std::uint32_t p : edge.ends) box.add(at_[p]);
+    for (const std::uint32_t p : edge.ends) box.add(mesh_.at[p]);
   }
   const BoxTree tree(boxes);
   bool is_changed = false;
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+  for (std::uint32_t e = 0; e < mesh_.edges.size(); ++e) {
     check_.tick();
     Box around = boxes[e];
     around.widen(radius_);
@@ -316,8 +295,8 @@ bool NearParts::cross_edges() {
                });
     std::sort(near.begin(), near.end());
     for (const std::uint32_t f : near) {
-      Edge &x = edges_[e], &y = edges_[f];
-      const auto is_of = [](const Edge& edge, std::uint32_t p) {
+      NearMesh::Edge &x = mesh_.edges[e], &y = mesh_.edges[f];
+      const auto is_of = [](const NearMesh::Edge& edge, std::uint32_t p) {
         return p == edge.ends[0] || p == edge.ends[1] || has(edge.inner, p);
       };
       const auto meets_y = [&](std::uint32_t p) { return is_of(y, p); };
@@ -325,14 +304,14 @@ bool NearParts::cross_edges() {
           std::any_of(x.inner.begin(), x.inner.end(), meets_y)) {
         continue;
       }
-      const Vec3d &a = at_[x.ends[0]], &b = at_[x.ends[1]];
-      const Vec3d &c = at_[y.ends[0]], &d = at_[y.ends[1]];
+      const Vec3d &a = mesh_.at[x.ends[0]], &b = mesh_.at[x.ends[1]];
+      const Vec3d &c = mesh_.at[y.ends[0]], &d = mesh_.at[y.ends[1]];
       const auto [s, t] = nearest_shares(a, b, c, d);
       if (!(s > 0 && s < 1 && t > 0 && t < 1)) continue;
       const Vec3d on_x = a + s * (b - a), on_y = c + t * (d - c);
       if ((on_x - on_y).norm() > radius_) continue;
-      const auto fresh = static_cast<std::uint32_t>(at_.size());
-      at_.push_back(on_x + 0.5 * (on_y - on_x));
+      const auto fresh = static_cast<std::uint32_t>(mesh_.at.size());
+      mesh_.at.push_back(on_x + 0.5 * (on_y - on_x));
       is_placed_.push_back(1);
       x.inner.push_back(fresh);
       y.inner.push_back(fresh);
@@ -340,103 +319,6 @@ bool NearParts::cross_edges() {
     }
   }
   return is_changed;
-}
-
-// The points from one end of an edge to before the other.
-std::vector<std::uint32_t> NearParts::along(std::uint32_t from, std::uint32_t to) const {
-  std::vector<std::uint32_t> points = {from};
-  const std::uint32_t e = edge_between(from, to);
-  if (e == kNone) return points;
-  const Edge& edge = edges_[e];
-  std::vector<std::pair<double, std::uint32_t>> order;
-  for (const std::uint32_t p : edge.inner) {
-    order.emplace_back(share_along(at_[p], at_[edge.ends[0]], at_[edge.ends[1]]), p);
-  }
-  std::sort(order.begin(), order.end());
-  if (from != edge.ends[0]) std::reverse(order.begin(), order.end());
-  for (const auto& [share, p] : order) points.push_back(p);
-  return points;
-}
-
-// Of each triangle the pieces of edges between its points that are not on its outline.
-std::vector<std::vector<EdgeEnds>> NearParts::edges_inside(
-    const std::vector<std::vector<std::uint32_t>>& outlines) const {
-  std::vector<std::vector<std::uint32_t>> triangles_at(at_.size());
-  for (std::uint32_t t = 0; t < outlines.size(); ++t) {
-    if (outlines[t].size() == 3 && inner_[t].empty() &&
-        edge_between(corners_[t][0], corners_[t][1]) == kNone)
-      continue;
-    for (const std::vector<std::uint32_t>* list : {&outlines[t], &inner_[t]}) {
-      for (const std::uint32_t p : *list) {
-        if (triangles_at[p].empty() || triangles_at[p].back() != t) triangles_at[p].push_back(t);
-      }
-    }
-  }
-  const auto are_on_one_side = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::vector<std::uint32_t> side = along(corners_[t][k], corners_[t][(k + 1) % 3]);
-      side.push_back(corners_[t][(k + 1) % 3]);
-      if (has(side, a) && has(side, b)) return true;
-    }
-    return false;
-  };
-  std::vector<std::vector<EdgeEnds>> inside(outlines.size());
-  for (const Edge& edge : edges_) {
-    std::vector<std::uint32_t> points = along(edge.ends[0], edge.ends[1]);
-    points.push_back(edge.ends[1]);
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const std::uint32_t a = points[i - 1], b = points[i];
-      std::vector<std::uint32_t> both;
-      std::set_intersection(triangles_at[a].begin(), triangles_at[a].end(), triangles_at[b].begin(),
-                            triangles_at[b].end(), std::back_inserter(both));
-      for (const std::uint32_t t : both) {
-        if (!are_on_one_side(t, a, b)) inside[t].push_back(ascending(a, b));
-      }
-    }
-  }
-  for (std::vector<EdgeEnds>& list : inside) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-  return inside;
-}
-
-JoinedSoup NearParts::cut(JoinGapsReport& report) {
-  std::vector<std::vector<std::uint32_t>> outlines(corners_.size());
-  for (std::uint32_t t = 0; t < corners_.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::vector<std::uint32_t> side = along(corners_[t][k], corners_[t][(k + 1) % 3]);
-      outlines[t].insert(outlines[t].end(), side.begin(), side.end());
-    }
-  }
-  const std::vector<std::vector<EdgeEnds>> inside = edges_inside(outlines);
-  JoinedSoup joined;
-  joined.soup.points = at_;
-  FacePieces faces(joined.soup.points);
-  for (std::uint32_t t = 0; t < corners_.size(); ++t) {
-    check_.tick();
-    std::vector<IndexTriangle> pieces;
-    if (outlines[t].size() == 3 && inside[t].empty()) {
-      pieces = {corners_[t]};
-    } else {
-      const auto& c = soup_.triangles[t];
-      const Vec3d& a = soup_.points[c[0]];
-      const Vec3d normal = (soup_.points[c[1]] - a).cross(soup_.points[c[2]] - a);
-      (void)faces.cut(outlines[t], inside[t], normal, pieces);
-    }
-    for (const IndexTriangle& piece : pieces) {
-      joined.soup.triangles.push_back(piece);
-      joined.source.push_back(t);
-    }
-  }
-  for (std::size_t p = 0; p < soup_.points.size(); ++p) {
-    const double move = (at_[name_[p]] - soup_.points[p]).norm();
-    if (move > report.farthest_move) report.farthest_move = move;
-    const bool is_first = name_[p] == p || soup_.points[p] == soup_.points[name_[p]];
-    report.joined_points += is_first ? 0 : 1;
-  }
-  report.new_points = at_.size() - soup_.points.size();
-  return joined;
 }
 
 }  // namespace meshrepair::internal

@@ -1,8 +1,6 @@
 // Corners, edges and faces that are near each other come to have the same corners.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,9 +9,8 @@
 #include <check/near_faces.h>
 #include <mesh/edge_table.h>
 #include <mesh/soup.h>
-#include <repair/join_gaps.h>
 
-#include "face_pieces.h"
+#include "near_mesh.h"
 
 namespace meshrepair::internal {
 
@@ -26,21 +23,13 @@ class NearParts {
             CancelCheck& check);
 
   // Until nothing is near another without having its points.
-  void bring_together();
-
-  [[nodiscard]] JoinedSoup cut(JoinGapsReport& report);
+  [[nodiscard]] const NearMesh& bring_together();
 
  private:
-  // An edge of a triangle of a pair, as it was given, and the points that came to lie on it.
-  struct Edge {
-    EdgeEnds ends;
-    std::vector<std::uint32_t> inner;
-  };
   struct Merge;
 
   void list_edges();
   [[nodiscard]] std::vector<std::uint32_t> near_points() const;
-  [[nodiscard]] std::uint32_t edge_between(std::uint32_t a, std::uint32_t b) const;
   void rename(const std::vector<std::uint32_t>& name);
   [[nodiscard]] bool merge_points();
   [[nodiscard]] bool put_on_edges();
@@ -49,20 +38,12 @@ class NearParts {
   [[nodiscard]] bool cross_edges();
   void put(std::uint32_t point, const Vec3d& place);
   [[nodiscard]] std::vector<std::uint32_t> points_of(std::uint32_t triangle) const;
-  [[nodiscard]] std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const;
-  [[nodiscard]] std::vector<std::vector<EdgeEnds>> edges_inside(
-      const std::vector<std::vector<std::uint32_t>>& outlines) const;
 
-  const TriangleSoup& soup_;
   std::span<const NearFaces> pairs_;
   double radius_;
   CancelCheck& check_;
-  std::vector<Vec3d> at_;                          // of each point, also new ones
-  std::vector<char> is_placed_;                    // it came to lie on what it was near
-  std::vector<std::uint32_t> name_;                // of each point of the soup: the one it is now
-  std::vector<IndexTriangle> corners_;             // of each triangle
-  std::vector<Edge> edges_;                        // sorted by their ends
-  std::vector<std::vector<std::uint32_t>> inner_;  // of each triangle: points in it, ascending
+  NearMesh mesh_;
+  std::vector<char> is_placed_;  // of each point: it came to lie on what it was near
 };
 
 }  // namespace meshrepair::internal
