@@ -256,6 +256,19 @@ std::vector<T> of_sources(const std::vector<T>& values, const std::vector<std::u
   return of;
 }
 
+// Nothing where there is nothing to join.
+std::optional<JoinedSoup> joined_as_asked(const TriangleSoup& soup, const RepairOptions& options,
+                                          RepairReport& report) {
+  if (options.join_gaps.mode == JoinGapsMode::none) return std::nullopt;
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("join_gaps");
+  JoinGapsOptions joining = options.join_gaps;
+  joining.progress = options.progress;
+  std::optional<JoinedSoup> joined = join_gaps(soup, joining, report.join_gaps);
+  if (joined) drop_facing_copies(soup, *joined);
+  return joined;
+}
+
 // What comes out is told of the triangles that were given.
 Surface repair_joined(const TriangleSoup& soup, const JoinedSoup& joined,
                       const RepairOptions& options, RepairReport& report) {
@@ -299,20 +312,12 @@ void require_labels(const Tree& tree) {
 }  // namespace
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
-  if (options.join_gaps.mode == JoinGapsMode::none) return repair_whole(soup, options, report);
-  std::vector<StageReport> stages;
-  StageMeter meter(stages, options.progress);
-  meter.begin("join_gaps");
-  JoinGapsReport gaps;
-  JoinGapsOptions joining = options.join_gaps;
-  joining.progress = options.progress;
-  std::optional<JoinedSoup> joined = join_gaps(soup, joining, gaps);
-  if (joined) drop_facing_copies(soup, *joined);
-  meter.end();
+  RepairReport before;
+  const std::optional<JoinedSoup> joined = joined_as_asked(soup, options, before);
   Surface surface =
       joined ? repair_joined(soup, *joined, options, report) : repair_whole(soup, options, report);
-  report.join_gaps = gaps;
-  report.stages.insert(report.stages.begin(), stages.begin(), stages.end());
+  report.join_gaps = before.join_gaps;
+  report.stages.insert(report.stages.begin(), before.stages.begin(), before.stages.end());
   return surface;
 }
 
@@ -323,9 +328,15 @@ RepairResult repair(const TriangleSoup& soup, const RepairOptions& options) {
 }
 
 Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
+  const std::optional<JoinedSoup> joined = joined_as_asked(soup, options, report);
   StageMeter meter(report.stages, options.progress);
-  return internal::divide_space(internal::close_soup(soup, options, report, meter), options, report,
-                                meter);
+  CleanSoup clean = internal::close_soup(joined ? joined->soup : soup, options, report, meter);
+  for (Triangle& triangle : clean.triangles) {
+    if (joined && triangle.source != Triangle::kNoSource) {
+      triangle.source = joined->source[triangle.source];
+    }
+  }
+  return internal::divide_space(std::move(clean), options, report, meter);
 }
 
 void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) {
