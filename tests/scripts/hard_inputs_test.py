@@ -112,6 +112,11 @@ class Tables(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("| hollows | as needed | 4 | 0: 4 |", done.stdout)
 
+    def test_assemblies_are_one_part(self):
+        done = run("meant.py", "families", "--family", "assemblies", "--count", 20, "--programs", PROGRAMS)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("| assemblies | as needed | 20 | 0: 16, 2: 4 |", done.stdout)
+
     def test_a_program_that_leaves_everything_as_it_is_is_found_out(self):
         with tempfile.TemporaryDirectory() as name:
             fake = Path(name) / "meshrepair"

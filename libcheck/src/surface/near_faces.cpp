@@ -21,6 +21,10 @@ namespace {
 // that overlap are more nearly parallel.
 constexpr double kParallel = 0.9;
 
+// Of the largest coordinate: each one was rounded when it was made, and so are a normal, a
+// difference and three products on the way to a height. What is nearer is not apart.
+constexpr double kRounding = 0x1p-49;
+
 constexpr std::size_t kItemsPerTask = 4096;
 
 using Corners = std::array<Vec3d, 3>;
@@ -116,6 +120,13 @@ class NearFacesFinder {
     return {soup_.points[t[0]], soup_.points[t[1]], soup_.points[t[2]]};
   }
 
+  // The largest coordinate.
+  [[nodiscard]] double size_of(std::uint32_t i) const {
+    double size = 0;
+    for (const Vec3d& p : corners_of(i)) size = std::max(size, p.cwiseAbs().maxCoeff());
+    return size;
+  }
+
   [[nodiscard]] double reach_of(std::uint32_t i) const {
     return std::min(options_.reach, options_.share * facing_[i].longest);
   }
@@ -180,7 +191,8 @@ class NearFacesFinder {
     const double reach = std::min(reach_of(i), reach_of(k));
     const bool is_behind = cosine < 0 && std::abs(low) > high;
     const bool is_wall = is_behind && have_solid_between(facing_[i].body, facing_[k].body);
-    const double apart = is_wall ? least : most;
+    double apart = is_wall ? least : most;
+    if (apart <= kRounding * std::max(size_of(i), size_of(k))) apart = 0;
     if (apart > reach || 0.5 * area.norm() <= apart * extent) return;
     (is_wall ? found.walls : found.gaps)
         .push_back({std::min(sound_[i], sound_[k]), std::max(sound_[i], sound_[k]), apart});
