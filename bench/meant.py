@@ -233,6 +233,8 @@ class Tables:
             return "there" if "warning:" in outcome.said else "none"
         if row["what"] == "voids filled":
             return (outcome.report.get("inside") or {}).get("filled_voids", 0)
+        if row["what"] == "genus" and result.get("parts"):
+            return result["parts"] - (result["points"] - result["triangles"] // 2) // 2
         return result.get(row["what"], f"exit code {outcome.code}") if row["what"] in ("volume", "area", "parts") else None
 
     @staticmethod
