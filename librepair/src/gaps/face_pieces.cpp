@@ -59,7 +59,7 @@ class Regions {
       std::size_t outside = 0;
       for (std::uint32_t h = first; passed[h] == 0; h = next_[h]) {
         passed[h] = 1;
-        outside += is_outside_[h];
+        outside += is_outside_[h] != 0 ? 1 : 0;
         loop.push_back(from_[h]);
       }
       if (outside == loop.size()) continue;

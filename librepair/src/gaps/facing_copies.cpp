@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <tuple>
@@ -42,7 +43,8 @@ struct Copy {
 Copy copy_of(const TriangleSoup& soup, std::uint32_t t) {
   Copy copy{soup.triangles[t], false, t};
   auto& c = copy.corners;
-  for (const auto& [i, k] : {std::pair{0, 1}, {1, 2}, {0, 1}}) {
+  using Places = std::pair<std::size_t, std::size_t>;
+  for (const auto& [i, k] : {Places{0, 1}, Places{1, 2}, Places{0, 1}}) {
     if (c[i] <= c[k]) continue;
     std::swap(c[i], c[k]);
     copy.is_turned = !copy.is_turned;

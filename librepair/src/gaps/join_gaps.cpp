@@ -1,5 +1,17 @@
 // Gaps are joined in the soup, before anything else: what comes after finds copies of triangles,
 // which it handles exactly.
+//
+// - Near faces are found (near_faces.h). What is thin is compared with the distance.
+// - Corners that are near each other become one, and move into the planes that their faces have in
+//   common with others (level_faces.h).
+// - Round by round, corners come to lie on edges and faces near them, and edges that pass each
+//   other get a point there (near_parts.h). Edges are always those that were given, so this ends.
+// - Each triangle is cut along all edges between points that it has (cut_near_mesh.h). A region
+//   between edges gets the same triangles in all faces that it is in (face_pieces.h).
+//
+// A closed body stays closed whatever the coordinates are, as both triangles at an edge get the
+// points on it. Where features are as narrow as gaps, regions may differ: then a slit stays, which
+// the report counts.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -44,6 +44,7 @@ std::vector<std::uint32_t> by_area(const TriangleSoup& soup, std::span<const Ind
   }
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> triangles;
+  triangles.reserve(order.size());
   for (const auto& [area, t] : order) triangles.push_back(t);
   return triangles;
 }

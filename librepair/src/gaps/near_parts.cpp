@@ -110,6 +110,7 @@ struct NearParts::Merge {
 bool NearParts::merge_points() {
   const std::vector<std::uint32_t> points = near_points();
   std::vector<Box> boxes;
+  boxes.reserve(points.size());
   for (const std::uint32_t p : points) boxes.push_back(box_around(mesh_.at[p], 0));
   const BoxTree tree(boxes);
   std::vector<Merge> merges;
