@@ -140,10 +140,11 @@ void print_result(const BoolOptions& options, const RepairReport& repair,
                   const std::string& written, Run& run, const std::string& shown = {}) {
   const double seconds = run.progress.seconds();
   run.progress.finish();
-  print_summary(fmt::format(
-      "operands  {} of {}\n{}written   {}: {}, in {:.2f} s\n",
-      operation_name(options.command.operation), number_of(options.command.inputs.size(), "solid"),
-      predicates_summary(repair), options.command.step.output, written, seconds));
+  print_summary(fmt::format("operands  {} of {}\n{}{}written   {}: {}, in {:.2f} s\n",
+                            operation_name(options.command.operation),
+                            number_of(options.command.inputs.size(), "solid"), gaps_summary(repair),
+                            predicates_summary(repair), options.command.step.output, written,
+                            seconds));
   print_summary(shown);
 }
 

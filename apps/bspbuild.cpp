@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
                     "Tree to write (.bsp); it has the triangles alone, without textures, normals,\n"
                     "colours, materials and groups; - is standard output");
   add_sew_option(app, options.repair.sew);
+  add_join_gaps_option(app, options.repair.join_gaps);
   add_holes_option(app, options.repair.holes);
   add_max_hole_option(app, options.repair.holes);
   return run_steps(program, argc, argv, options, build);

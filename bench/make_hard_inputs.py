@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 sys.pycache_prefix = os.devnull
 
 from hard_inputs import walls  # noqa: E402
+from hard_inputs.assemblies import MAKERS as ASSEMBLIES, assembly_case  # noqa: E402
 from hard_inputs.cars import car_case  # noqa: E402
 from hard_inputs.command_line import add_seed, make_parser  # noqa: E402
 from hard_inputs.hollows import MAKERS as HOLLOWS, hollow_case  # noqa: E402
@@ -45,7 +46,7 @@ FAMILIES = {"walls": (walls.walls_case, ("shape", "holes", "size")), "soups": (s
             "layers": (layers_case, ("shape", "way")), "scenes": (scene_case, ("shape", "place")),
             "trays": (tray_case, ("heights",)), "hollows": (hollow_case, ("kind",)),
             "rims": (vessel_case, ("shape",)), "flanges": (flange_case, ("shape",)), "limbs": (limb_case, ("shape",)),
-            "hubs": (hub_case, ("shape",))}
+            "hubs": (hub_case, ("shape",)), "assemblies": (assembly_case, ("kind", "noise"))}
 
 
 def case_of(family, number, seed=0, **options):
@@ -111,6 +112,9 @@ def parser():
     scenes.add_argument("--place", choices=PLACES, help="where it is (default: in turn)")
     trays = add_family(commands, "trays", "open boxes with dividers")
     trays.add_argument("--heights", choices=("even", "lower"), help="of the dividers (default: in turn)")
+    assemblies = add_family(commands, "assemblies", "bodies that are to touch, but for noise")
+    assemblies.add_argument("--kind", choices=list(ASSEMBLIES), help="of assembly (default: in turn)")
+    assemblies.add_argument("--noise", type=float, help="in corners, as a share of the diagonal (default: by chance)")
     hollows = add_family(commands, "hollows", "hollow bodies: by mistake, or on purpose")
     hollows.add_argument("--kind", choices=list(HOLLOWS), help="of body (default: in turn)")
     rims = add_family(commands, "rims", "walls of vessels without the rim between them")

@@ -43,7 +43,8 @@ SHARES = (0.001, 0.005, 0.01, 0.05)
 TURNS = 20
 # How far the volume of a family may be off: what was meant is known only so well.
 LIMITS = {"walls": TOO_FAR, "soups": 0.01, "patches": 0.05, "cards": TOO_FAR_SHEET, "garments": TOO_FAR_SHEET,
-          "cars": 0.05, "layers": 0.001, "scenes": 0.001, "trays": 0.03, "hollows": 0.01, "rims": 0.03, "flanges": 0.03, "limbs": 0.03, "hubs": 0.03}
+          "cars": 0.05, "layers": 0.001, "scenes": 0.001, "trays": 0.03, "hollows": 0.01, "rims": 0.03,
+          "flanges": 0.03, "limbs": 0.03, "hubs": 0.03, "assemblies": 0.02}
 TOO_FAR_BOX = 0.01  # of the bounding box, as a share of its diagonal
 
 
@@ -233,6 +234,8 @@ class Tables:
             return "there" if "warning:" in outcome.said else "none"
         if row["what"] == "voids filled":
             return (outcome.report.get("inside") or {}).get("filled_voids", 0)
+        if row["what"] == "genus" and result.get("parts"):
+            return result["parts"] - (result["points"] - result["triangles"] // 2) // 2
         return result.get(row["what"], f"exit code {outcome.code}") if row["what"] in ("volume", "area", "parts") else None
 
     @staticmethod
@@ -257,6 +260,15 @@ class Tables:
             rows.append([family, "as needed", *self.family_cells([(name, told) for name, _, told in mine], family)])
         print_table(["family", "options", "files", "exit codes", "volume off: median", "worst", "beyond the limit"], rows)
 
+    @staticmethod
+    def is_other(case, outcome):
+        """Of assemblies all is known: whether the area, the parts or the genus are others."""
+        if case.truth["family"] != "assemblies":
+            return False
+        mesh, truth = outcome.mesh, case.truth
+        return (abs(mesh.area() / truth["area"] - 1) > LIMITS["assemblies"] or mesh.parts() != truth["parts"]
+                or mesh.genus() != truth["genus"])
+
     def family_cells(self, outcomes, family):
         """Failures are told where a family has the options that it needs."""
         codes, offs, beyond = {}, [], 0
@@ -268,7 +280,8 @@ class Tables:
             if off is not None:
                 offs.append(abs(off))
             box = box_off(outcome.mesh, case.solid) if off is not None and "box" in case.truth else 0.0
-            is_far = wanted == 0 and (off is None or abs(off) > LIMITS[name[0]] or box > TOO_FAR_BOX)
+            is_far = wanted == 0 and (off is None or abs(off) > LIMITS[name[0]] or box > TOO_FAR_BOX
+                                      or self.is_other(case, outcome))
             beyond += is_far
             if family and (is_far or outcome.code != wanted):
                 self.fail(case, "%s_%04d" % name, f"{case.truth['shape']}: exit code {outcome.code}, volume {percent(off)} "

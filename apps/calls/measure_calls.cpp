@@ -24,6 +24,7 @@ CheckOutcome check_call(const TriangleSoup& soup, const Keywords& keywords, cons
     outcome.check = check_surface(soup, request.check);
     Json section = check_section(outcome.check);
     (void)add_openings(soup, outcome.check, request, section);
+    (void)add_near_faces(soup, request, section);
     run.report.set_section("check", std::move(section));
     return outcome.check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
   });

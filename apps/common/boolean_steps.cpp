@@ -118,6 +118,7 @@ void add_boolean_command(CommandLine& app, BooleanCommand& command) {
   RepairOptions& repair = command.step.repair;
   add_inside_options(app, repair.inside);
   add_sew_option(app, repair.sew);
+  add_join_gaps_option(app, repair.join_gaps);
   add_holes_option(app, repair.holes);
   add_max_hole_option(app, repair.holes);
   add_touching_option(app, repair.extract.touching);
@@ -137,6 +138,7 @@ void JoinedMeshes::add(const TriangleSoup& other, Attributes carried) {
 RepairOptions operand_options(const BooleanCommand& command, Run& run) {
   RepairOptions options = command.step.repair;
   options.certify.precision = Precision::float64;
+  options.join_gaps = {};  // of all operands together
   options.progress = &run.progress;
   return options;
 }

@@ -60,12 +60,13 @@ Verdict check_one(const ReadResult& input, const CheckCommand& options, Run& run
   if (options.html.wanted()) kept = check;
   keep_places(check, options.request.check.most_places);
   Json section = check_section(check);
-  const std::string openings = add_openings(input.soup, check, options.request, section);
+  const std::string more = add_openings(input.soup, check, options.request, section) +
+                           add_near_faces(input.soup, options.request, section);
   run.report.set_section("check", std::move(section));
   return {check.valid_solid(), defect_colours(check),
           check_table(check, what_was_read(findings, input.soup),
                       attribute_words(input.soup, input.attributes), findings.unit) +
-              openings,
+              more,
           std::move(kept)};
 }
 
@@ -81,7 +82,8 @@ Verdict check_each(const ReadResult& input, const CheckCommand& options, Run& ru
     const std::string name = mesh_name(input.scene, m);
     solids += check.valid_solid() ? 1 : 0;
     Json section = check_section(check);
-    const std::string openings = add_openings(meshes[m], check, options.request, section);
+    const std::string more = add_openings(meshes[m], check, options.request, section) +
+                             add_near_faces(meshes[m], options.request, section);
     sections.push_back({{"name", name}, {"check", std::move(section)}});
     const std::vector<Colour> colours = defect_colours(check);
     all.colours.insert(all.colours.end(), colours.begin(), colours.end());
@@ -90,7 +92,7 @@ Verdict check_each(const ReadResult& input, const CheckCommand& options, Run& ru
                     number_of(meshes[m].points.size(), "point"));
     all.table += check.valid_solid() ? what + ", a valid solid\n"
                                      : check_table(check, what, {}, findings.unit);
-    all.table += openings;
+    all.table += more;
   }
   run.report.set_section("meshes", std::move(sections));
   all.is_valid = solids == meshes.size();

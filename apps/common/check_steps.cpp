@@ -4,6 +4,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <repair/join_gaps.h>
 #include <repair/seal_openings.h>
 
 #include "common/numbers.h"
@@ -45,6 +46,17 @@ std::string add_openings(const TriangleSoup& soup, const SurfaceCheck& check,
   return fmt::format("openings  {} if {} below {:.4g} {} closed: meshrepair --seal {:.4g}\n",
                      encloses, number_of(seal.openings, "opening"), seal.size,
                      seal.openings == 1 ? "is" : "are", seal.size);
+}
+
+std::string add_near_faces(const TriangleSoup& soup, const CheckRequest& request, Json& section) {
+  CancelOnly quiet(request.check.progress);
+  const GapProposal gaps = propose_gaps(soup, &quiet);
+  if (gaps.pairs == 0) return {};
+  section["near_faces"] = {
+      {"pairs", gaps.pairs}, {"apart", gaps.widest_gap}, {"distance", gaps.distance}};
+  return fmt::format("near      {} {} at most {:.3g} apart: meshrepair --join-gaps {:.2g}\n",
+                     number_of(gaps.pairs, "pair of faces", "pairs of faces"),
+                     gaps.pairs == 1 ? "is" : "are", gaps.widest_gap, gaps.distance);
 }
 
 }  // namespace meshrepair

@@ -24,4 +24,9 @@ void add_check_options(CommandLine& app, CheckRequest& request);
 [[nodiscard]] std::string add_openings(const TriangleSoup& soup, const SurfaceCheck& check,
                                        const CheckRequest& request, Json& section);
 
+// Which faces nearly touch, and what joins them: words for the table, and the same in the section
+// of the report; nothing where none do.
+[[nodiscard]] std::string add_near_faces(const TriangleSoup& soup, const CheckRequest& request,
+                                         Json& section);
+
 }  // namespace meshrepair

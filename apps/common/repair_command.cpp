@@ -32,6 +32,7 @@ Surface repair_or_advise(AnySoup& input, const PointOptions& points, const Repai
 // Those that are in the units of IN.
 void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base) {
   if (!options.sew.is_share) options.sew.distance *= factor;
+  if (!options.join_gaps.is_share) options.join_gaps.distance *= factor;
   if (!options.seal.is_share) options.seal.size *= factor;
   if (!options.thicken.is_share) options.thicken.thickness *= factor;
   if (!base.is_share) base.depth *= factor;
@@ -61,6 +62,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_purpose_option(app, options.purpose);
   add_inside_options(app, options.repair.inside);
   add_sew_option(app, options.repair.sew);
+  add_join_gaps_option(app, options.repair.join_gaps);
   add_seal_option(app, options.repair.seal);
   add_holes_option(app, options.repair.holes);
   const CommandOption& max_hole = add_max_hole_option(app, options.repair.holes);

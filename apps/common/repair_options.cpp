@@ -54,6 +54,9 @@ constexpr std::array<Choice<Touching>, 2> kTouchings = {
 constexpr std::array<Choice<SewMode>, 2> kSewModes = {
     {{"auto", SewMode::automatic}, {"none", SewMode::none}}};
 
+constexpr std::array<Choice<JoinGapsMode>, 2> kJoinGapsModes = {
+    {{"auto", JoinGapsMode::automatic}, {"none", JoinGapsMode::none}}};
+
 constexpr std::array<Choice<ThickenSide>, 3> kThickenSides = {{{"middle", ThickenSide::middle},
                                                                {"outside", ThickenSide::outside},
                                                                {"inside", ThickenSide::inside}}};
@@ -90,7 +93,7 @@ std::string why_not_kept(const std::string& word) {
                        : word + " is none of all, outer, largest, and a number from 1 on";
 }
 
-// For check(): an empty text where the word is a way to sew.
+// For check(): an empty text where the word is a way to sew, or to join gaps.
 std::string why_no_sewing(const std::string& word) {
   const bool is_one = word == "auto" || word == "none" || distance_in(word);
   return is_one
@@ -154,6 +157,28 @@ void add_sew_option(CommandLine& app, SewOptions& sew) {
       ->check(why_no_sewing)
       ->type_name("auto|none|X|X%")
       ->default_str("auto")
+      ->group("Repair");
+}
+
+void add_join_gaps_option(CommandLine& app, JoinGapsOptions& gaps) {
+  app.add_option_function(
+         "--join-gaps",
+         [&gaps](const std::string& word) {
+           const auto known = std::find_if(kJoinGapsModes.begin(), kJoinGapsModes.end(),
+                                           [&](const auto& mode) { return mode.first == word; });
+           gaps.mode = known == kJoinGapsModes.end() ? JoinGapsMode::distance : known->second;
+           std::tie(gaps.distance, gaps.is_share) =
+               distance_in(word).value_or(std::pair(0.0, false));
+         },
+         "Bring bodies together that touch but for small gaps, or overlap by as little:\n"
+         "  auto  where faces are far nearer to each other than anything is thin\n"
+         "  none  not at all\n"
+         "  a number: faces that are no farther apart than this, in the units of IN, or with %\n"
+         "            a share of its bounding box's diagonal, as 0.01%; less than half of what\n"
+         "            is thin")
+      ->check(why_no_sewing)
+      ->type_name("auto|none|X|X%")
+      ->default_str("none")
       ->group("Repair");
 }
 

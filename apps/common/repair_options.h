@@ -20,6 +20,8 @@ void add_inside_options(CommandLine& app, InsideOptions& inside);
 
 // --sew: how far open edges may be apart that belong together.
 void add_sew_option(CommandLine& app, SewOptions& sew);
+// --join-gaps: how far faces may be apart that are to touch.
+void add_join_gaps_option(CommandLine& app, JoinGapsOptions& gaps);
 // --seal: openings that a ball cannot pass.
 void add_seal_option(CommandLine& app, SealOptions& seal);
 // --holes: how gaps are closed.

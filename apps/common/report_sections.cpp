@@ -125,6 +125,16 @@ Json defects_of(const RepairReport& repair) {
           {"area", repair.input_area}};
 }
 
+Json section_of(const JoinGapsReport& gaps) {
+  return {{"distance", gaps.distance},
+          {"pairs", gaps.pairs},
+          {"widest_gap", gaps.widest_gap},
+          {"joined_points", gaps.joined_points},
+          {"new_points", gaps.new_points},
+          {"farthest_move", gaps.farthest_move},
+          {"left", gaps.left}};
+}
+
 Json section_of(const SewReport& sew) {
   return {{"distance", sew.distance},
           {"widest_gap", sew.widest_gap},
@@ -384,6 +394,9 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (has("clean")) {
     report.set_section("clean", section_of(repair.clean));
     report.set_section("defects", defects_of(repair));
+  }
+  if (was_begun(repair, "join_gaps")) {
+    report.set_section("join_gaps", section_of(repair.join_gaps));
   }
   if (was_begun(repair, "sew")) report.set_section("sew", section_of(repair.sew));
   if (has("tree") || was_begun(repair, "arrange"))

@@ -215,6 +215,23 @@ void describe_sewing(const SewReport& sew, Lines& lines) {
   lines.add("sewn", text);
 }
 
+void describe_gaps(const JoinGapsReport& gaps, Lines& lines) {
+  if (gaps.distance == 0) return;
+  if (gaps.pairs == 0) {
+    lines.add("joined", fmt::format("nothing: there are no gaps of up to {:.3g}", gaps.distance));
+    return;
+  }
+  std::string text =
+      fmt::format("{} across gaps of at most {:.3g}; {} joined, moved by at most {:.3g}",
+                  number_of(gaps.pairs, "pair of faces", "pairs of faces"), gaps.widest_gap,
+                  number_of(gaps.joined_points, "corner"), gaps.farthest_move);
+  if (gaps.left > 0) {
+    text += fmt::format("; {} still nearer than {:.3g}", number_of(gaps.left, "pair", "pairs"),
+                        gaps.distance);
+  }
+  lines.add("joined", text);
+}
+
 void describe_holes(const RepairReport& repair, Lines& lines) {
   const HoleReport& holes = repair.holes;
   std::vector<std::string> texts;
@@ -453,6 +470,12 @@ std::string purpose_summary(const Purpose& purpose) {
   return lines.text();
 }
 
+std::string gaps_summary(const RepairReport& repair) {
+  Lines lines;
+  describe_gaps(repair.join_gaps, lines);
+  return lines.text();
+}
+
 std::string walls_summary(const std::string& mesh, const RepairReport& repair) {
   Lines lines(mesh + ": ");
   if (repair.seal.openings + repair.seal.leaks + repair.seal.cannot_cut > 0)
@@ -475,6 +498,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   Lines lines;
   describe_input(findings, lines);
   describe_purpose(findings.purpose, lines);
+  describe_gaps(findings.repair.join_gaps, lines);
   describe_sewing(findings.repair.sew, lines);
   describe_holes(findings.repair, lines);
   describe_seals(findings.repair.seal, lines);

@@ -32,6 +32,9 @@ namespace meshrepair {
 // Of these the lines that say what floating predicates did; nothing of exact ones.
 [[nodiscard]] std::string predicates_summary(const RepairReport& repair);
 
+// Of these the line that says which gaps were joined; nothing where none were.
+[[nodiscard]] std::string gaps_summary(const RepairReport& repair);
+
 // Of these the lines that say what --for has set; nothing without it.
 [[nodiscard]] std::string purpose_summary(const Purpose& purpose);
 

@@ -31,9 +31,9 @@ constexpr const char* kGone = "the folder of this server is gone: start it anew"
 
 constexpr std::array<std::string_view, 6> kResults = {".stl", ".obj", ".off",
                                                       ".ply", ".glb", ".3mf"};
-constexpr std::array<std::string_view, 14> kOpenOptions = {
-    "for",      "inside",   "sew",      "seal",  "holes", "max-hole", "thicken",
-    "min-part", "touching", "simplify", "units", "drop",  "keep",     "cavities"};
+constexpr std::array<std::string_view, 15> kOpenOptions = {
+    "for",      "inside",   "sew",   "seal", "holes", "max-hole", "thicken",  "min-part",
+    "touching", "simplify", "units", "drop", "keep",  "cavities", "join-gaps"};
 constexpr std::array<std::string_view, 2> kOpenFlags = {"always", "strict"};
 
 template <class List>

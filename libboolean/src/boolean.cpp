@@ -7,6 +7,7 @@
 #include <boolean/boolean_chambers.h>
 #include <boolean/label_beside_triangles.h>
 
+#include "joined_operands.h"
 #include "operands.h"
 
 namespace meshrepair {
@@ -57,15 +58,19 @@ bool may_spare_trees(const BooleanOptions& options) {
          options.repair.predicates == Predicates::exact && !options.repair.check_cells;
 }
 
-bool has_solid(const Tree& tree) {
-  return std::any_of(tree.leaves.begin(), tree.leaves.end(),
-                     [](const Leaf& leaf) { return leaf.label == Label::solid; });
+void put_before(const RepairReport& before, RepairReport& report) {
+  report.join_gaps = before.join_gaps;
+  report.stages.insert(report.stages.begin(), before.stages.begin(), before.stages.end());
 }
 
-}  // namespace
+BooleanOptions without_gaps(const BooleanOptions& options) {
+  BooleanOptions changed = options;
+  changed.repair.join_gaps = {};
+  return changed;
+}
 
-Tree boolean_tree(std::span<const TriangleSoup> solids, SetOperation operation,
-                  const BooleanOptions& options, BooleanReport& report) {
+Tree merge_operands(std::span<const TriangleSoup> solids, SetOperation operation,
+                    const BooleanOptions& options, BooleanReport& report) {
   report = {};
   const Grid grid = internal::grid_of(solids, report);
   StageMeter meter(report.result.stages, options.repair.progress);
@@ -87,6 +92,27 @@ Tree boolean_tree(std::span<const TriangleSoup> solids, SetOperation operation,
   return result;
 }
 
+bool has_solid(const Tree& tree) {
+  return std::any_of(tree.leaves.begin(), tree.leaves.end(),
+                     [](const Leaf& leaf) { return leaf.label == Label::solid; });
+}
+
+}  // namespace
+
+Tree boolean_tree(std::span<const TriangleSoup> solids, SetOperation operation,
+                  const BooleanOptions& options, BooleanReport& report) {
+  RepairReport before;
+  const auto joined = internal::join_operands(solids, options, before);
+  Tree tree = merge_operands(joined ? joined->solids : solids, operation, options, report);
+  if (joined) {
+    for (Triangle& triangle : tree.input.triangles) {
+      triangle.source = internal::given_source(*joined, triangle.source);
+    }
+  }
+  put_before(before, report.result);
+  return tree;
+}
+
 Surface boolean_surface(const Tree& tree, const BooleanOptions& options, BooleanReport& report) {
   if (!has_solid(tree)) return {};
   return extract_mesh(tree, with_winding(options.repair), report.result);
@@ -94,11 +120,18 @@ Surface boolean_surface(const Tree& tree, const BooleanOptions& options, Boolean
 
 Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
                 const BooleanOptions& options, BooleanReport& report) {
+  RepairReport before;
+  if (const auto joined = internal::join_operands(solids, options, before)) {
+    Surface surface = boolean(joined->solids, operation, without_gaps(options), report);
+    for (std::uint32_t& t : surface.source) t = internal::given_source(*joined, t);
+    put_before(before, report.result);
+    return surface;
+  }
   if (may_spare_trees(options)) {
     auto surface = boolean_by_chambers(solids, operation, options, report);
     return surface ? std::move(*surface) : boolean_by_cells(solids, operation, options, report);
   }
-  return boolean_surface(boolean_tree(solids, operation, options, report), options, report);
+  return boolean_surface(merge_operands(solids, operation, options, report), options, report);
 }
 
 }  // namespace meshrepair

@@ -21,12 +21,14 @@
 // are parts of the surface, whose walls go last of all, and what stays is as it was given.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <base/error.h>
 #include <repair/explain_repair.h>
+#include <repair/join_gaps.h>
 #include <repair/keep_parts.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
@@ -234,6 +236,60 @@ void keep_wanted_parts(const TriangleSoup& soup, const RepairOptions& options, S
   if (keep.fill_voids) report.inside.filled_voids += report.keep.voids;
 }
 
+Surface repair_whole(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
+  Surface surface = repair_what_is_there(soup, options, report);
+  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
+  if (options.seal.wanted()) {
+    surface = internal::seal_solid(soup, std::move(surface), without_states(options), repair_solids,
+                                   report);
+  }
+  if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
+  keep_wanted_parts(soup, options, surface, report);
+  internal::compare_with_input(soup, surface, report);
+  return surface;
+}
+
+template <class T>
+std::vector<T> of_sources(const std::vector<T>& values, const std::vector<std::uint32_t>& source) {
+  std::vector<T> of;
+  of.reserve(source.size());
+  for (const std::uint32_t t : source) of.push_back(values[t]);
+  return of;
+}
+
+// Nothing where there is nothing to join.
+std::optional<JoinedSoup> joined_as_asked(const TriangleSoup& soup, const RepairOptions& options,
+                                          RepairReport& report) {
+  if (options.join_gaps.mode == JoinGapsMode::none) return std::nullopt;
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("join_gaps");
+  JoinGapsOptions joining = options.join_gaps;
+  joining.progress = options.progress;
+  std::optional<JoinedSoup> joined = join_gaps(soup, joining, report.join_gaps);
+  if (joined) drop_facing_copies(soup, *joined);
+  return joined;
+}
+
+// What comes out is told of the triangles that were given.
+Surface repair_joined(const TriangleSoup& soup, const JoinedSoup& joined,
+                      const RepairOptions& options, RepairReport& report) {
+  RepairOptions of_pieces = options;
+  of_pieces.explain = false;
+  if (!options.opacity.empty()) of_pieces.opacity = of_sources(options.opacity, joined.source);
+  if (!options.reach.empty()) of_pieces.reach = of_sources(options.reach, joined.source);
+  Surface surface = repair_whole(joined.soup, of_pieces, report);
+  for (std::uint32_t& source : surface.source) {
+    if (source != Surface::kNoSource) source = joined.source[source];
+  }
+  const CleanSoup given = clean_soup(soup, report.clean, options.progress);
+  report.input = examine_topology(index_triangles(given), given.points.size());
+  report.spared_cells |= std::exchange(report.kept_valid, false);
+  internal::note_moved_corners(soup, surface, report);
+  internal::compare_with_input(soup, surface, report);
+  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
+  return surface;
+}
+
 std::vector<char> solid_cells(const Tree& tree, const CellComplex& complex) {
   std::vector<char> solid;
   solid.reserve(complex.cells.size());
@@ -257,15 +313,12 @@ void require_labels(const Tree& tree) {
 }  // namespace
 
 Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
-  Surface surface = repair_what_is_there(soup, options, report);
-  if (options.explain) report.explanation = explain_repair(soup, surface, options, report);
-  if (options.seal.wanted()) {
-    surface = internal::seal_solid(soup, std::move(surface), without_states(options), repair_solids,
-                                   report);
-  }
-  if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
-  keep_wanted_parts(soup, options, surface, report);
-  internal::compare_with_input(soup, surface, report);
+  RepairReport before;
+  const std::optional<JoinedSoup> joined = joined_as_asked(soup, options, before);
+  Surface surface =
+      joined ? repair_joined(soup, *joined, options, report) : repair_whole(soup, options, report);
+  report.join_gaps = before.join_gaps;
+  report.stages.insert(report.stages.begin(), before.stages.begin(), before.stages.end());
   return surface;
 }
 
@@ -276,9 +329,15 @@ RepairResult repair(const TriangleSoup& soup, const RepairOptions& options) {
 }
 
 Tree make_tree(const TriangleSoup& soup, const RepairOptions& options, RepairReport& report) {
+  const std::optional<JoinedSoup> joined = joined_as_asked(soup, options, report);
   StageMeter meter(report.stages, options.progress);
-  return internal::divide_space(internal::close_soup(soup, options, report, meter), options, report,
-                                meter);
+  CleanSoup clean = internal::close_soup(joined ? joined->soup : soup, options, report, meter);
+  for (Triangle& triangle : clean.triangles) {
+    if (joined && triangle.source != Triangle::kNoSource) {
+      triangle.source = joined->source[triangle.source];
+    }
+  }
+  return internal::divide_space(std::move(clean), options, report, meter);
 }
 
 void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report) {

@@ -41,6 +41,10 @@ class Truths(unittest.TestCase):
                 if case.truth.get("code") == 5:
                     self.assertIsNone(case.solid)
                     continue
+                if family == "assemblies":
+                    self.assertTrue(case.broken.is_closed())
+                    self.assertAlmostEqual(case.broken.volume() / case.truth["volume"], 1, delta=0.02)
+                    continue
                 if case.solid is None:
                     walls_volume = case.truth["area"] * case.truth["thickness"]
                     self.assertGreater(walls_volume, 0)
@@ -117,6 +121,11 @@ class Tables(unittest.TestCase):
         done = run("meant.py", "families", *families, "--count", 24, "--programs", PROGRAMS)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("| hubs | as needed | 6 | 0: 6 |", done.stdout)
+
+    def test_assemblies_are_one_part(self):
+        done = run("meant.py", "families", "--family", "assemblies", "--count", 20, "--programs", PROGRAMS)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("| assemblies | as needed | 20 | 0: 16, 2: 4 |", done.stdout)
 
     def test_a_program_that_leaves_everything_as_it_is_is_found_out(self):
         with tempfile.TemporaryDirectory() as name:

@@ -53,6 +53,7 @@ export interface RepairOptions extends FileOptions {
   inside?: 'auto' | 'winding' | 'solidity' | 'parity';
   cavities?: 'keep' | 'fill';
   sew?: 'auto' | 'none' | number | string;
+  joinGaps?: 'auto' | 'none' | number | string;
   seal?: 'auto' | 'double-walls' | 'none' | number | string;
   thicken?: 'auto' | 'none' | number | string;
   holes?: 'patch' | 'curved' | 'flat' | 'extend' | 'none';

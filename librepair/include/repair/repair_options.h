@@ -13,6 +13,7 @@
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/join_gaps.h>
 #include <repair/keep_parts.h>
 #include <repair/seal_openings.h>
 #include <repair/sew_soup.h>
@@ -34,6 +35,7 @@ struct RepairOptions {
   // How sure it is that each triangle of the soup is part of the surface, above 0 and up to 1: for
   // the solidity, where it is asked for. Empty: all are.
   std::vector<float> opacity;
+  JoinGapsOptions join_gaps;
   SewOptions sew;
   HoleOptions holes;
   SealOptions seal;

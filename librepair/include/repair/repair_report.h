@@ -19,6 +19,7 @@
 #include <repair/explain_repair.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
+#include <repair/join_gaps.h>
 #include <repair/keep_parts.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
@@ -36,6 +37,7 @@ struct RepairReport {
   CleanReport clean;
   Topology input;         // of the clean soup
   double input_area = 0;  // of the clean soup, in the input's units, squared
+  JoinGapsReport join_gaps;
   SewReport sew;
   HoleReport holes;
   SealReport seal;

@@ -1,0 +1,39 @@
+// A mesh some of whose edges and faces have points of other ones on them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <mesh/edge_table.h>
+#include <mesh/soup.h>
+
+#include "face_pieces.h"
+
+namespace meshrepair::internal {
+
+// Of the way from a to b, where that is nearest to p: not limited to it.
+[[nodiscard]] double share_along(const Vec3d& p, const Vec3d& a, const Vec3d& b);
+
+struct NearMesh {
+  struct Edge {
+    EdgeEnds ends;
+    std::vector<std::uint32_t> inner;  // points on it
+  };
+
+  std::vector<Vec3d> at;               // of each point, also new ones
+  std::vector<std::uint32_t> name;     // of each point of the soup: the one it is now
+  std::vector<IndexTriangle> corners;  // of each triangle
+  std::vector<Edge> edges;             // of triangles that are near others, sorted by their ends
+  std::vector<std::vector<std::uint32_t>> inner;  // of each triangle: points in it, ascending
+
+  // Welded, without any edges.
+  explicit NearMesh(const TriangleSoup& soup);
+
+  // A position in `edges`; kNone if it is none of them.
+  [[nodiscard]] std::uint32_t edge_between(std::uint32_t a, std::uint32_t b) const;
+  // The points from one end of an edge to before the other.
+  [[nodiscard]] std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const;
+};
+
+}  // namespace meshrepair::internal
