@@ -244,7 +244,9 @@ void add_thicken_options(CommandLine& app, const CommandOption& max_hole, Thicke
              "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
              "auto: a thickness that fits, where nothing encloses anything, or more than half\n"
              "of the area is of parts that do not.\n"
-             "Only holes up to SHARE 0.25 are closed then, and no ends of tubes, unless --max-hole is given")
+             "Only holes up to SHARE 0.25 are closed then, and no rims of tubes and folded "
+             "sheets,\n"
+             "unless --max-hole is given")
           ->check(why_no_size_or_word)
           ->type_name("auto|none|X|X%")
           ->default_str("none")

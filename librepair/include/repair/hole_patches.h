@@ -27,9 +27,9 @@ struct HoleOptions {
   double largest_share = 0.75;
   // The same for patches that lie in a plane: hills and dishes have them.
   double largest_flat_share = 0.95;
-  // Rims of sheets stay open. Such are loops at which the surface arrives steeply, where a sheet has
-  // two or more: the ends of a tube, unless the patch has less than 0.2 % of the sheet's area. And
-  // loops that are as long as the rim of a flat disk of the sheet's area.
+  // Rims of sheets stay open. Such are loops at which the surface arrives steeply, where a sheet
+  // has two or more: the ends of a tube, unless the patch has less than 0.2 % of the sheet's area.
+  // And loops that are as long as the rim of a flat disk of the sheet's area.
   bool sheets_stay_open = false;
   bool rings = true;  // may join two loops that face each other
   // Loops of more edges than this are cut along short chords before they are triangulated.
