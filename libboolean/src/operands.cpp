@@ -22,7 +22,7 @@ double volume_on_grid(const TriangleSoup& solid, const Grid& grid) {
 
 // Of the solid's diagonal that a step of the grid may be: corners move by up to that. And of its
 // volume, from the rounding of points.
-constexpr double kLongestStep = 0.01;
+constexpr double kLongestStep = 0.02;
 constexpr double kMostChange = 0.01;
 
 double diagonal_of(const TriangleSoup& solid) {

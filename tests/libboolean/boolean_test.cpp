@@ -94,7 +94,7 @@ TEST(Boolean, LayersNearerThanTheGridAreOne) {
 TEST(Boolean, WhatTheCommonGridChangesIsRefused) {
   BooleanReport report;
   for (const auto& [small, large] :
-       {std::pair(box({0, 0, 0}, {1, 1, 1e-7}), cube()), std::pair(cube(), scaled(cube(), 1e6))}) {
+       {std::pair(box({0, 0, 0}, {1, 1, 1e-7}), cube()), std::pair(cube(), scaled(cube(), 1e7))}) {
     const std::vector<TriangleSoup> solids = {small, moved(large, {3, 3, 3})};
     EXPECT_THROW((void)boolean(solids, SetOperation::unite, {}, report), InputError);
   }

@@ -14,10 +14,6 @@
 namespace meshrepair::internal {
 namespace {
 
-bool has(const std::vector<std::uint32_t>& list, std::uint32_t value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 // Of each triangle the pieces of edges between its points that are not on its outline.
 std::vector<std::vector<EdgeEnds>> edges_inside(
     const NearMesh& mesh, const std::vector<std::vector<std::uint32_t>>& outlines) {

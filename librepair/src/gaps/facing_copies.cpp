@@ -43,8 +43,8 @@ struct Copy {
 Copy copy_of(const TriangleSoup& soup, std::uint32_t t) {
   Copy copy{soup.triangles[t], false, t};
   auto& c = copy.corners;
-  using Places = std::pair<std::size_t, std::size_t>;
-  for (const auto& [i, k] : {Places{0, 1}, Places{1, 2}, Places{0, 1}}) {
+  using TwoCorners = std::pair<std::size_t, std::size_t>;
+  for (const auto& [i, k] : {TwoCorners{0, 1}, TwoCorners{1, 2}, TwoCorners{0, 1}}) {
     if (c[i] <= c[k]) continue;
     std::swap(c[i], c[k]);
     copy.is_turned = !copy.is_turned;

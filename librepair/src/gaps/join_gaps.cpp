@@ -41,7 +41,7 @@ constexpr double kMargin = 2;
 constexpr double kFar = 10;
 constexpr double kWidest = 1e-2, kBesideEdges = 0.1;
 
-double diagonal_of(const TriangleSoup& soup) {
+double diagonal_of_used(const TriangleSoup& soup) {
   Box box;
   for (const auto& t : soup.triangles) {
     for (const std::uint32_t p : t) {
@@ -91,7 +91,7 @@ double distance_for(const TriangleSoup& soup, const JoinGapsOptions& options) {
   if (options.mode == JoinGapsMode::automatic) {
     return propose_gaps(soup, options.progress).distance;
   }
-  return options.is_share ? options.distance * diagonal_of(soup) : options.distance;
+  return options.is_share ? options.distance * diagonal_of_used(soup) : options.distance;
 }
 
 // Below it, with two digits.
@@ -116,7 +116,7 @@ void require_less_than(const Thinnest& thinnest, double distance) {
 
 GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress) {
   NearFacesOptions looking;
-  looking.reach = kWidest * diagonal_of(soup);
+  looking.reach = kWidest * diagonal_of_used(soup);
   looking.share = kBesideEdges;
   looking.progress = progress;
   NearFacesFound near = find_near_faces(soup, looking);

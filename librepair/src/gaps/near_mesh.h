@@ -1,6 +1,7 @@
 // A mesh some of whose edges and faces have points of other ones on them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -35,5 +36,9 @@ struct NearMesh {
   // The points from one end of an edge to before the other.
   [[nodiscard]] std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const;
 };
+
+inline bool has(const std::vector<std::uint32_t>& list, std::uint32_t value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
 
 }  // namespace meshrepair::internal

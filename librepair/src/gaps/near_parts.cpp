@@ -23,10 +23,6 @@ const double kRadius = std::sqrt(3.0);
 // three.
 constexpr int kMostRounds = 16;
 
-bool has(const std::vector<std::uint32_t>& list, std::uint32_t value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 // Where the lines a b and c d are nearest to each other, as shares of the ways; not inside both
 // where they are parallel.
 std::array<double, 2> nearest_shares(const Vec3d& a, const Vec3d& b, const Vec3d& c,

@@ -27,7 +27,7 @@ constexpr double kSteepAtPlane = 0.3;
 constexpr double kPlanar = 1e-3;  // of the rim's extent
 
 // The same for a ragged cut: the mean angle to the plane of a rim that lies in it but for so much.
-constexpr double kSteepAtCut = 0.7;
+constexpr double kSteepAtCut = 1.0;
 constexpr double kNearlyPlanar = 0.05;
 
 // Solutions with the weights of the shape at hand: the rounds of least bending, and at most those

@@ -39,7 +39,9 @@ class FlangeFinder {
       if (!find_flange(l, normal)) continue;
       found.is_outer_rim.resize(loops_.loops(), 0);
       found.is_outer_rim[l] = 1;
+      const std::size_t first = border.size();
       for (const std::uint32_t t : flange_) add_beginning(t, border);
+      add_open_edges(l, first, border);
     }
     found.openings = large_of(walk_border(soup_, triangles_, table_, std::move(border), progress_));
     return found;
@@ -136,6 +138,30 @@ class FlangeFinder {
       const std::uint32_t a = side_start(triangles_, other);
       const std::uint32_t b = side_start(triangles_, next_side(other));
       border.push_back({std::min(a, b), std::max(a, b), other, true});
+    }
+  }
+
+  // Where holes in the flange reach what it belongs to, their edges there close the loops.
+  void add_open_edges(std::size_t l, std::size_t first, std::vector<BorderEdge>& border) const {
+    std::vector<std::uint32_t> ends;
+    for (std::size_t e = first; e < border.size(); ++e) {
+      ends.insert(ends.end(), {border[e].low, border[e].high});
+    }
+    std::sort(ends.begin(), ends.end());
+    const auto is_loose = [&](std::uint32_t p) {
+      const auto [from, to] = std::equal_range(ends.begin(), ends.end(), p);
+      return (to - from) % 2 != 0;
+    };
+    if (std::none_of(ends.begin(), ends.end(), is_loose)) return;
+    for (std::size_t other = 0; other < loops_.loops(); ++other) {
+      const auto points = loops_.points_of(other);
+      if (other == l || std::none_of(points.begin(), points.end(), is_loose)) continue;
+      for (const std::uint32_t e : loops_.edges_of(other)) {
+        const BorderEdge& edge = loops_.edges[e];
+        if (edge.open && seen_by_[edge.side / 3] != static_cast<std::uint32_t>(l)) {
+          border.push_back(edge);
+        }
+      }
     }
   }
 

@@ -47,13 +47,17 @@ using internal::StripTriangulation;
 // one.
 constexpr std::size_t kLargestRing = 4'000'000;
 
-// Missing triangles that happen to face each other are no gap between two pieces: the patch of one
-// rim at least has to have this share of the area that it is joined to.
+// Missing triangles that happen to face each other are no gap: the patch of one rim at least has to
+// have this share of the area that it is joined to.
+constexpr double kMouth = 0.01;
+
+// From this share on the gap is between two pieces. It is between the walls of a vessel if one of
+// two pieces lies within the other, ...
 constexpr double kLargeOpening = 0.1;
 
-// The same where one of the pieces lies within the other: they are the walls of a vessel, and the
-// gap was the rim of its mouth.
-constexpr double kMouth = 0.01;
+// ... or if both are one piece and the ring has less than this share of the area of the patches: a
+// wall is thin beside its mouth.
+constexpr double kNarrow = 0.33;
 
 // A ring has to have less than this share of the area of two patches: those over holes that touch
 // in a point are a ring, too.
@@ -301,13 +305,14 @@ class HolePatcher {
       if (progress_ != nullptr && progress_->cancelled()) throw Cancelled();
       if (flanges_.is_outer_rim[a] != 0 || flanges_.is_outer_rim[b] != 0) continue;
       if (rims_[a].size() * rims_[b].size() > kLargestRing) continue;
-      if (!may_be_gap(a, b)) continue;
+      if (std::max(share_of_sheets(a), share_of_sheets(b)) <= kMouth) continue;
       const std::array<FilledNotches, 2> filled = {internal::fill_notches(rims_[a]),
                                                    internal::fill_notches(rims_[b])};
       const StripTriangulation ring = internal::triangulate_strip(filled[0].rim, filled[1].rim);
       const double area = ring.area + filled[0].area + filled[1].area;
       if (ring.folded || area > options_.largest_share * sheet_area(a, b)) continue;
       if (area >= most_of_ring(a, b)) continue;
+      if (!is_clear_gap(a, b) && area >= kNarrow * (patches_[a].area + patches_[b].area)) continue;
       closed_[a] = closed_[b] = 1;
       parts_.join(a_triangle_at(a), a_triangle_at(b));
       rings_.push_back({a, area});
@@ -333,9 +338,9 @@ class HolePatcher {
     return kLargerThanPatch * patches_[a].area + sheet_area(b, b);
   }
 
-  bool may_be_gap(std::size_t a, std::size_t b) {
-    const double share = std::max(share_of_sheets(a), share_of_sheets(b));
-    return share > kLargeOpening || (share > kMouth && are_two_walls(a, b));
+  // Between two pieces of a surface, or the two walls of a vessel.
+  bool is_clear_gap(std::size_t a, std::size_t b) {
+    return std::max(share_of_sheets(a), share_of_sheets(b)) > kLargeOpening || are_two_walls(a, b);
   }
 
   // That the patch has, in area.

@@ -68,7 +68,7 @@ std::vector<Vec3d> ray_directions() {
   return directions;
 }
 
-double diagonal_of(const Box& box) {
+double longest_way(const Box& box) {
   return Vec3d(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]).norm();
 }
 
@@ -86,7 +86,7 @@ class BodyWalls {
     const std::size_t triangles = body.triangles.size();
     Box box;
     for (const Vec3d& p : body.points) box.add(p);
-    diagonal_ = diagonal_of(box);
+    diagonal_ = longest_way(box);
     area_.resize(triangles);
     double total = 0;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -323,7 +323,7 @@ MeshParts thin_parts(const TriangleSoup& mesh, const UnitScale& scale) {
   std::uint32_t groups = 0;
   for (std::uint32_t part = 0; part < parts.count; ++part) {
     const double thickness = 2 * sizes[part].volume / sizes[part].area;
-    const bool is_thin = thickness <= kThickestOnAverage * diagonal_of(boxes[part]);
+    const bool is_thin = thickness <= kThickestOnAverage * longest_way(boxes[part]);
     if (counts[part] >= kFewestTriangles && sizes[part].volume > 0 && is_thin) {
       group[part] = groups++;
     }

@@ -39,6 +39,18 @@ TEST(FacingRims, OfTwoWallsAreJoinedHoweverSmallTheMouthIs) {
   }
 }
 
+// The walls are one piece, as the rim of the other mouth is there.
+TEST(FacingRims, OfOneOfTwoMouthsAreJoined) {
+  constexpr double kEnd = std::numbers::pi - 0.4;
+  Profile profile = arc(1, 0.4, kEnd, 20);
+  const Profile back = arc(0.9, kEnd, 0.4, 20);
+  profile.insert(profile.end(), back.begin(), back.end());
+  const TriangleSoup broken = revolved(profile, kAroundMouth);
+  profile.push_back(profile.front());
+  TriangleSoup meant = revolved(profile, kAroundMouth);
+  expect_open(broken, meant, 1e-9);
+}
+
 TEST(FacingRims, StrayTrianglesHaveNoSay) {
   TriangleSoup ball = ball_without_rim(0.5);
   Random random(3);

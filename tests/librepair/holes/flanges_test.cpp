@@ -54,6 +54,15 @@ TEST(Flanges, AreNoGround) {
   EXPECT_TRUE(flanges_of(revolved({{1, 0}, {1, -1}, {0, -1}}, kAround)).is_outer_rim.empty());
 }
 
+// A hole in the flange that reaches the cup.
+TEST(Flanges, MayHaveHoles) {
+  TriangleSoup soup = cup_with_flange(0);
+  const auto first = soup.triangles.begin() + 2 * (kAround + 5);
+  soup.triangles.erase(first, first + 2);
+  EXPECT_EQ(flanges_of(soup).openings.points_of(0).size(), kAround);
+  EXPECT_NEAR(repair(soup).report.output_volume, area_of_cup(), 1e-6);
+}
+
 TEST(Flanges, TheCupIsClosedAsIfTheyWereNotThere) {
   for (const double waves : {0.0, 0.1, -0.15}) {
     SCOPED_TRACE(waves);
