@@ -217,6 +217,7 @@ void keep_point_report(const RepairPointsReport& report, Findings& findings) {
   findings.tries = report.tries;
   findings.dropped_solids = report.dropped_solids;
   findings.points_in_result = report.points_in_result;
+  findings.joined_columns = report.joined_columns;
 }
 
 }  // namespace

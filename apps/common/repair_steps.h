@@ -54,6 +54,7 @@ struct Findings {
   std::optional<PointReadReport> points_read;
   std::optional<PointSoupReport> point_soup;
   std::size_t points_in_result = 0;  // of those left in point_soup
+  std::size_t joined_columns = 0;    // points left out before that, as RepairPointsReport says
   std::optional<ScanBaseReport> scan_base;
   std::vector<PointTry> tries;     // of repair_points()
   std::size_t dropped_solids = 0;  // too small for the points to tell

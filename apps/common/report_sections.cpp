@@ -383,6 +383,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     Json points = section_of(*findings.point_soup);
     if (!findings.tries.empty()) points["tries"] = section_of(findings.tries);
     if (was_begun(repair, "check")) points["points_in_result"] = findings.points_in_result;
+    if (findings.joined_columns > 0) points["joined_columns"] = findings.joined_columns;
     report.set_section("points", std::move(points));
   }
   const auto has = [&](std::string_view stage) {

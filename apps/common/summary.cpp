@@ -93,6 +93,7 @@ std::string dropped_points(const Findings& findings) {
   add_count(texts, soup.not_finite, "point", "with NaN or infinity");
   if (soup.duplicates > 0) texts.push_back(number_of(soup.duplicates, "duplicate"));
   if (soup.outliers > 0) texts.push_back(number_of(soup.outliers, "outlier"));
+  add_count(texts, findings.joined_columns, "point", "that single precision puts above others");
   return joined(texts);
 }
 
@@ -240,6 +241,8 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
                                 number_of(holes.closed, "hole"),
                                 number_of(holes.triangles, "triangle"), holes.area,
                                 100 * holes.area / (repair.input_area + holes.area)));
+    add_count(texts, holes.rings, "pair",
+              "of these joined with each other: a gap, a mouth or a tunnel");
   }
   if (holes.too_large > 0) {
     texts.push_back(fmt::format("not {}: larger than --max-hole allows, or rims of open sheets",
@@ -349,7 +352,7 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   add(fates.enclosing_nothing, "no wall of the solid");
   add(fates.inside_solid, "inside the solid");
   if (fates.closed_inside > 0 && repair.inside.used == InsideRule::winding) {
-    texts.push_back(fmt::format("with --inside parity {} of these would be the wall of a void",
+    texts.push_back(fmt::format("{} of these would be the wall of a void with --inside parity",
                                 grouped(fates.closed_inside)));
   }
   add_count(texts, repair.open_regions, "region", "that open sheets hardly enclose");

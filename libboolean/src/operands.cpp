@@ -4,10 +4,9 @@
 #include <sstream>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <base/error.h>
 #include <bsp/common_grid.h>
+#include <check/mesh_distance.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -24,12 +23,6 @@ double volume_on_grid(const TriangleSoup& solid, const Grid& grid) {
 // volume, from the rounding of points.
 constexpr double kLongestStep = 0.02;
 constexpr double kMostChange = 0.01;
-
-double diagonal_of(const TriangleSoup& solid) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3d& p : solid.points) box.extend(p);
-  return box.diagonal().norm();
-}
 
 }  // namespace
 
@@ -61,7 +54,7 @@ CleanSoup clean_operand(const TriangleSoup& solid, std::size_t number, const Gri
   if (clean.triangles.empty()) throw_too_small(number, grid);
   const double change = volume_on_grid(solid, grid) - operand.volume;
   if (std::abs(change) > kMostChange * operand.volume ||
-      grid.unit > kLongestStep * diagonal_of(solid)) {
+      grid.unit > kLongestStep * bounding_diagonal(solid)) {
     throw_too_small(number, grid);
   }
   return clean;

@@ -80,9 +80,7 @@ class PointRepair {
         options_(options),
         report_(report),
         repair_(repair),
-        stages_before_(repair.stages.size()) {
-    report_ = {};
-  }
+        stages_before_(repair.stages.size()) {}
 
   PointSolid run() {
     PointSoup soup = triangulate(options_.soup);
@@ -233,9 +231,13 @@ class PointRepair {
 
 PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& options,
                          RepairPointsReport& report, RepairReport& repair) {
+  report = {};
   if (options.base && options.repair.certify.precision == Precision::float32) {
     const auto apart = internal::without_joined_columns(cloud, options.scan_base.axis);
-    if (apart) return PointRepair(*apart, options, report, repair).run();
+    if (apart) {
+      report.joined_columns = cloud.points.size() - apart->points.size();
+      return PointRepair(*apart, options, report, repair).run();
+    }
   }
   return PointRepair(cloud, options, report, repair).run();
 }

@@ -41,6 +41,10 @@ struct Box {
     for (double& x : low) x -= by;
     for (double& x : high) x += by;
   }
+  // Its length; no number where the box is empty.
+  [[nodiscard]] double diagonal() const {
+    return Vec3d(high[0] - low[0], high[1] - low[1], high[2] - low[2]).norm();
+  }
   // Have the two a point in common?
   [[nodiscard]] bool meets(const Box& other) const {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&

@@ -2,36 +2,24 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include <base/disjoint_sets.h>
-#include <mesh/edge_table.h>
+#include <mesh/topology.h>
 #include <mesh/weld_points.h>
 #include <repair/join_gaps.h>
 
 namespace meshrepair {
 namespace {
 
-// Of each triangle, whether all edges of what it is connected with have two triangles.
-std::vector<char> find_closed(const TriangleSoup& soup) {
+// Of each triangle, whether the body that it is of has an open edge.
+std::vector<char> find_open(const TriangleSoup& soup) {
   const std::vector<std::uint32_t> place = first_in_place(soup.points);
   std::vector<IndexTriangle> triangles;
+  triangles.reserve(soup.triangles.size());
   for (const auto& t : soup.triangles) triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-  DisjointSets sets(triangles.size());
-  std::vector<char> is_closed(triangles.size(), 1);
-  const EdgeTable edges(triangles);
-  edges.for_each_edge([&](std::span<const std::uint32_t> sides) {
-    if (sides.size() == 2) sets.join(sides[0] / 3, sides[1] / 3);
-  });
-  edges.for_each_edge([&](std::span<const std::uint32_t> sides) {
-    if (sides.size() % 2 == 0) return;
-    for (const std::uint32_t side : sides) is_closed[sets.root(side / 3)] = 0;
-  });
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) is_closed[t] = is_closed[sets.root(t)];
-  return is_closed;
+  return triangles_of_open_parts(triangles, soup.points.size());
 }
 
 struct Copy {
@@ -55,10 +43,10 @@ Copy copy_of(const TriangleSoup& soup, std::uint32_t t) {
 }  // namespace
 
 void drop_facing_copies(const TriangleSoup& given, JoinedSoup& joined) {
-  const std::vector<char> is_closed = find_closed(given);
+  const std::vector<char> is_open = find_open(given);
   std::vector<Copy> copies;
   for (std::uint32_t t = 0; t < joined.source.size(); ++t) {
-    if (is_closed[joined.source[t]] != 0) copies.push_back(copy_of(joined.soup, t));
+    if (is_open[joined.source[t]] == 0) copies.push_back(copy_of(joined.soup, t));
   }
   std::sort(copies.begin(), copies.end(), [](const Copy& a, const Copy& b) {
     return std::tie(a.corners, a.triangle) < std::tie(b.corners, b.triangle);

@@ -41,15 +41,15 @@ constexpr double kMargin = 2;
 constexpr double kFar = 10;
 constexpr double kWidest = 1e-2, kBesideEdges = 0.1;
 
-double diagonal_of_used(const TriangleSoup& soup) {
+// 0 where nothing is finite.
+double finite_diagonal(const TriangleSoup& soup) {
   Box box;
   for (const auto& t : soup.triangles) {
     for (const std::uint32_t p : t) {
       if (soup.points[p].allFinite()) box.add(soup.points[p]);
     }
   }
-  const Vec3d low(box.low[0], box.low[1], box.low[2]), high(box.high[0], box.high[1], box.high[2]);
-  return low.x() <= high.x() ? (high - low).norm() : 0;
+  return box.low[0] <= box.high[0] ? box.diagonal() : 0;
 }
 
 // What is as thin as that, or short.
@@ -91,7 +91,7 @@ double distance_for(const TriangleSoup& soup, const JoinGapsOptions& options) {
   if (options.mode == JoinGapsMode::automatic) {
     return propose_gaps(soup, options.progress).distance;
   }
-  return options.is_share ? options.distance * diagonal_of_used(soup) : options.distance;
+  return options.is_share ? options.distance * finite_diagonal(soup) : options.distance;
 }
 
 // Below it, with two digits.
@@ -116,7 +116,7 @@ void require_less_than(const Thinnest& thinnest, double distance) {
 
 GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress) {
   NearFacesOptions looking;
-  looking.reach = kWidest * diagonal_of_used(soup);
+  looking.reach = kWidest * finite_diagonal(soup);
   looking.share = kBesideEdges;
   looking.progress = progress;
   NearFacesFound near = find_near_faces(soup, looking);

@@ -41,6 +41,16 @@ Box box_around(const Vec3d& p, double radius) {
   return box;
 }
 
+std::vector<Box> boxes_of_edges(const NearMesh& mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.edges.size());
+  for (const NearMesh::Edge& edge : mesh.edges) {
+    Box& box = boxes.emplace_back();
+    for (const std::uint32_t p : edge.ends) box.add(mesh.at[p]);
+  }
+  return boxes;
+}
+
 }  // namespace
 
 NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double gap,
@@ -192,11 +202,7 @@ void NearParts::rename(const std::vector<std::uint32_t>& name) {
 }
 
 bool NearParts::put_on_edges() {
-  std::vector<Box> boxes;
-  for (const NearMesh::Edge& edge : mesh_.edges) {
-    Box& box = boxes.emplace_back();
-    for (const std::uint32_t p : edge.ends) box.add(mesh_.at[p]);
-  }
+  const std::vector<Box> boxes = boxes_of_edges(mesh_);
   const BoxTree tree(boxes);
   bool is_changed = false;
   for (const std::uint32_t p : near_points()) {
@@ -274,11 +280,7 @@ bool NearParts::put_on_face(std::uint32_t point, std::uint32_t triangle) {
 }
 
 bool NearParts::cross_edges() {
-  std::vector<Box> boxes;
-  for (const NearMesh::Edge& edge : mesh_.edges) {
-    Box& box = boxes.emplace_back();
-    for (const std::uint32_t p : edge.ends) box.add(mesh_.at[p]);
-  }
+  const std::vector<Box> boxes = boxes_of_edges(mesh_);
   const BoxTree tree(boxes);
   bool is_changed = false;
   for (std::uint32_t e = 0; e < mesh_.edges.size(); ++e) {

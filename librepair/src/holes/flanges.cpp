@@ -9,6 +9,8 @@
 #include <base/disjoint_sets.h>
 #include <base/ids.h>
 
+#include "rim.h"
+
 namespace meshrepair::internal {
 namespace {
 
@@ -58,13 +60,11 @@ class FlangeFinder {
     return (position(triangles_[t][1]) - a).cross(position(triangles_[t][2]) - a);
   }
 
+  // Twice the vector area.
   [[nodiscard]] Vec3d area_of_loop(std::span<const std::uint32_t> points) const {
-    const Vec3d start = position(points[0]);
-    Vec3d sum = Vec3d::Zero();
-    for (std::size_t i = 2; i < points.size(); ++i) {
-      sum += (position(points[i - 1]) - start).cross(position(points[i]) - start);
-    }
-    return sum;
+    std::vector<Vec3d> loop;
+    for (const std::uint32_t p : points) loop.push_back(position(p));
+    return twice_vector_area(loop);
   }
 
   // Whether the surface does so from nearly all of the loop, nearly in its plane.

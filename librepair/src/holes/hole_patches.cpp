@@ -2,7 +2,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,7 +28,7 @@
 #include "new_points.h"
 #include "notches.h"
 #include "rim.h"
-#include "rim_plane.h"
+#include "sheet_rims.h"
 #include "strip_triangulation.h"
 
 namespace meshrepair {
@@ -73,12 +72,6 @@ constexpr double kFlat = 0.999;
 // A patch of more than this share of its part is rather the floor of a hill than a hole in
 // something round.
 constexpr double kLargestCurved = 0.45;
-
-// With HoleOptions::sheets_stay_open: the angle in radians to the plane of the rim, the share of
-// the rim that has it, and that of the sheet below which a patch closes the end of a bore.
-constexpr double kSteepEnd = 0.7;
-constexpr double kMostOfEnd = 0.75;
-constexpr double kSmallEnd = 0.002;
 
 // Of the bounding box, by a curved patch, as a share of its rim's width.
 constexpr double kMostGrowth = 0.01;
@@ -200,29 +193,12 @@ class HolePatcher {
   }
 
   void open_sheets(const std::vector<double>& area) {
-    std::vector<std::uint32_t> ends(triangles_.size(), 0);
-    std::vector<char> is_end(rims_.size(), 0);
+    std::vector<internal::RimOfSheet> ends;
     for (std::size_t l = 0; l < rims_.size(); ++l) {
-      is_end[l] = is_end_of_sheet(l, area[l]) ? 1 : 0;
-      ends[sheets_.sets.root(a_triangle_at(l))] += is_end[l] != 0 ? 1 : 0;
+      ends.push_back({sheets_.sets.root(a_triangle_at(l)), area[l], patches_[l].area});
     }
-    for (std::size_t l = 0; l < rims_.size(); ++l) {
-      const bool is_of_tube = is_end[l] != 0 && ends[sheets_.sets.root(a_triangle_at(l))] > 1;
-      if (is_of_tube || is_rim_of_disk(l, area[l])) folded_[l] = 1;
-    }
-  }
-
-  // Whether it is at least as long as that of a flat disk of the sheet's area: what is folded or
-  // rolled has such a rim, what is hollow has not.
-  [[nodiscard]] bool is_rim_of_disk(std::size_t loop, double area) const {
-    const double length = internal::length_of(rims_[loop]);
-    return length * length >= 4 * std::numbers::pi * area;
-  }
-
-  [[nodiscard]] bool is_end_of_sheet(std::size_t loop, double area) const {
-    if (patches_[loop].area <= kSmallEnd * area) return false;
-    const Rim& rim = rims_[loop];
-    return internal::share_steeper(rim, internal::plane_of(rim), kSteepEnd) > kMostOfEnd;
+    const std::vector<char> stays_open = internal::find_sheet_rims(rims_, ends);
+    for (std::size_t l = 0; l < rims_.size(); ++l) folded_[l] |= stays_open[l];
   }
 
   void judge_openings() {

@@ -150,12 +150,6 @@ LoopTriangulation triangulate_loop(const Rim& rim, const LoopTriangulationOption
   return result;
 }
 
-double least_area(const Rim& rim) {
-  Vec3d sum = Vec3d::Zero();
-  for (std::size_t i = 1; i + 1 < rim.size(); ++i) {
-    sum += (rim.points[i] - rim.points[0]).cross(rim.points[i + 1] - rim.points[0]);
-  }
-  return 0.5 * sum.norm();
-}
+double least_area(const Rim& rim) { return 0.5 * twice_vector_area(rim.points).norm(); }
 
 }  // namespace meshrepair::internal

@@ -1,7 +1,11 @@
 // The rim of a hole, as the triangulations over it see it.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include <mesh/triangle_measures.h>
 
@@ -14,6 +18,15 @@ struct Rim {
 
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };
+
+// The vector area of a loop, twice: any surface over the loop has it, and at least as much area.
+inline Vec3d twice_vector_area(std::span<const Vec3d> loop) {
+  Vec3d sum = Vec3d::Zero();
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    sum += (loop[i] - loop[0]).cross(loop[i + 1] - loop[0]);
+  }
+  return sum;
+}
 
 inline double length_of(const Rim& rim) {
   double sum = 0;

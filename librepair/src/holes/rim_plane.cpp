@@ -25,13 +25,9 @@ double angle_at(const Rim& rim, std::size_t i, const RimPlane& plane) {
 RimPlane plane_of(const Rim& rim) {
   RimPlane plane;
   Vec3d middle = Vec3d::Zero();
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    plane.normal +=
-        (rim.points[i] - rim.points[0]).cross(rim.points[(i + 1) % rim.size()] - rim.points[0]);
-    middle += rim.points[i];
-  }
+  for (const Vec3d& p : rim.points) middle += p;
   middle /= static_cast<double>(rim.size());
-  plane.normal.normalize();
+  plane.normal = twice_vector_area(rim.points).normalized();
   for (const Vec3d& p : rim.points) {
     const double distance = std::abs(plane.normal.dot(p - middle));
     plane.farthest = std::max(plane.farthest, distance);

@@ -68,10 +68,6 @@ std::vector<Vec3d> ray_directions() {
   return directions;
 }
 
-double longest_way(const Box& box) {
-  return Vec3d(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]).norm();
-}
-
 // What one opening of a wall ends at.
 struct Rim {
   std::size_t edges = 0;
@@ -86,7 +82,7 @@ class BodyWalls {
     const std::size_t triangles = body.triangles.size();
     Box box;
     for (const Vec3d& p : body.points) box.add(p);
-    diagonal_ = longest_way(box);
+    diagonal_ = box.diagonal();
     area_.resize(triangles);
     double total = 0;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -323,7 +319,7 @@ MeshParts thin_parts(const TriangleSoup& mesh, const UnitScale& scale) {
   std::uint32_t groups = 0;
   for (std::uint32_t part = 0; part < parts.count; ++part) {
     const double thickness = 2 * sizes[part].volume / sizes[part].area;
-    const bool is_thin = thickness <= kThickestOnAverage * longest_way(boxes[part]);
+    const bool is_thin = thickness <= kThickestOnAverage * boxes[part].diagonal();
     if (counts[part] >= kFewestTriangles && sizes[part].volume > 0 && is_thin) {
       group[part] = groups++;
     }

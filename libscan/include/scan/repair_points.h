@@ -53,6 +53,7 @@ struct RepairPointsReport {
   std::vector<PointTry> tries;              // the first one is what the options say
   std::size_t dropped_solids = 0;           // too small for the points to tell
   std::size_t points_in_result = 0;         // of those left in `soup`
+  std::size_t joined_columns = 0;           // points left out: above others in single precision
 };
 
 struct PointSolid {

@@ -107,20 +107,25 @@ TEST(CurvedPatches, OfNoisySpheresDoNotBulge) {
   }
 }
 
-TEST(CurvedPatches, OfACylinderStayOnIt) {
-  TriangleSoup whole;
-  constexpr std::uint32_t kAround = 120, kAlong = 60;
-  for (std::uint32_t z = 0; z <= kAlong; ++z) {
-    for (std::uint32_t i = 0; i < kAround; ++i) {
-      const double a = 2 * std::numbers::pi * i / kAround;
-      whole.points.emplace_back(std::cos(a), std::sin(a), 0.05 * z);
+// Open at both ends, of radius 1, from z = 0 on in rows of this height.
+TriangleSoup cylinder(std::uint32_t around, std::uint32_t along, double row) {
+  TriangleSoup soup;
+  for (std::uint32_t z = 0; z <= along; ++z) {
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const double a = 2 * std::numbers::pi * i / around;
+      soup.points.emplace_back(std::cos(a), std::sin(a), row * z);
     }
   }
-  for (std::uint32_t p = 0; p < kAlong * kAround; ++p) {
-    const std::uint32_t next = p % kAround + 1 == kAround ? p + 1 - kAround : p + 1;
-    whole.triangles.push_back({p, next, next + kAround});
-    whole.triangles.push_back({p, next + kAround, p + kAround});
+  for (std::uint32_t p = 0; p < along * around; ++p) {
+    const std::uint32_t next = p % around + 1 == around ? p + 1 - around : p + 1;
+    soup.triangles.push_back({p, next, next + around});
+    soup.triangles.push_back({p, next + around, p + around});
   }
+  return soup;
+}
+
+TEST(CurvedPatches, OfACylinderStayOnIt) {
+  const TriangleSoup whole = cylinder(120, 60, 0.05);
   const TriangleSoup open = pierced(whole, ball({1, 0, 1.5}, 0.7));
   const RepairResult result = closed_by(open, HoleMode::patch);
   EXPECT_EQ(result.report.holes.curved, 1u);
@@ -163,21 +168,12 @@ TEST(CurvedPatches, StayWithinTheBoundingBox) {
 
 // As where an arm is cut off between triangles.
 TEST(CurvedPatches, ARaggedCutIsFlat) {
-  TriangleSoup arm;
-  constexpr std::uint32_t kAround = 30, kAlong = 40;
-  for (std::uint32_t z = 0; z <= kAlong; ++z) {
-    for (std::uint32_t i = 0; i < kAround; ++i) {
-      const double a = 2 * std::numbers::pi * i / kAround;
-      arm.points.emplace_back(std::cos(a), std::sin(a), 0.1 * z);
-    }
-  }
+  constexpr std::uint32_t kAround = 30;
+  TriangleSoup arm = cylinder(kAround, 40, 0.1);
   const auto floor = static_cast<std::uint32_t>(arm.points.size());
   arm.points.emplace_back(0, 0, 0);
-  for (std::uint32_t p = 0; p < kAlong * kAround; ++p) {
-    const std::uint32_t next = p % kAround + 1 == kAround ? p + 1 - kAround : p + 1;
-    if (p < kAround) arm.triangles.push_back({floor, next, p});
-    arm.triangles.push_back({p, next, next + kAround});
-    arm.triangles.push_back({p, next + kAround, p + kAround});
+  for (std::uint32_t p = 0; p < kAround; ++p) {
+    arm.triangles.push_back({floor, (p + 1) % kAround, p});
   }
   const TriangleSoup open = pierced(
       arm, [](const Vec3d& p) { return p.z() > 3 + 0.3 * p.x() + 0.05 * std::sin(20 * p.y()); });
