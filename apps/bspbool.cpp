@@ -8,17 +8,23 @@
 #include <base/error.h>
 #include <boolean/boolean.h>
 
-#include "common/boolean_steps.h"
-#include "common/command_line.h"
-#include "common/file_kinds.h"
-#include "common/logging.h"
-#include "common/picture_steps.h"
-#include "common/repair_options.h"
-#include "common/repair_steps.h"
-#include "common/report_sections.h"
-#include "common/side_file.h"
-#include "common/summary.h"
+#include "options/command_line.h"
+#include "options/file_kinds.h"
+#include "options/repair_options.h"
+#include "options/show_requests.h"
 #include "page/boolean_page.h"
+#include "pictures/picture_steps.h"
+#include "program/command_files.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "report/report_sections.h"
+#include "report/words.h"
+#include "steps/boolean_steps.h"
+#include "steps/guarantees.h"
+#include "steps/mesh_steps.h"
+#include "steps/run_steps.h"
+#include "summary/summary.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

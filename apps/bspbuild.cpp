@@ -1,7 +1,13 @@
+
+#include "options/file_kinds.h"
+#include "options/repair_options.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "steps/mesh_steps.h"
+#include "steps/run_steps.h"
+#include "steps/step_options.h"
+
 // bspbuild IN -o TREE: the first step of the repair, from mesh to tree.
-#include "common/file_kinds.h"
-#include "common/repair_options.h"
-#include "common/repair_steps.h"
 
 namespace meshrepair {
 namespace {

@@ -1,6 +1,6 @@
 // meshcheck IN: what is wrong with a mesh, and whether it is the boundary of a solid.
-#include "common/check_command.h"
-#include "common/file_kinds.h"
+#include "options/file_kinds.h"
+#include "steps/check_command.h"
 
 int main(int argc, char** argv) {
   using namespace meshrepair;

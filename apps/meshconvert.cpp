@@ -3,13 +3,17 @@
 
 #include <spdlog/logger.h>
 
-#include "common/attribute_report.h"
-#include "common/file_kinds.h"
-#include "common/logging.h"
-#include "common/picture_steps.h"
-#include "common/repair_options.h"
-#include "common/repair_steps.h"
-#include "common/scene_steps.h"
+#include "options/file_kinds.h"
+#include "options/repair_options.h"
+#include "pictures/picture_steps.h"
+#include "program/program.h"
+#include "report/attribute_report.h"
+#include "report/findings.h"
+#include "steps/mesh_steps.h"
+#include "steps/run_steps.h"
+#include "steps/scene_steps.h"
+#include "steps/step_options.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

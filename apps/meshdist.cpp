@@ -9,13 +9,16 @@
 #include <base/error.h>
 #include <check/mesh_distance.h>
 
-#include "common/distance_report.h"
-#include "common/file_kinds.h"
-#include "common/picture_steps.h"
-#include "common/repair_steps.h"
-#include "common/report_sections.h"
-#include "common/summary.h"
+#include "options/file_kinds.h"
 #include "page/distance_page.h"
+#include "pictures/picture_steps.h"
+#include "program/command_files.h"
+#include "report/distance_report.h"
+#include "report/report_sections.h"
+#include "report/words.h"
+#include "steps/mesh_steps.h"
+#include "steps/run_steps.h"
+#include "summary/summary.h"
 
 namespace meshrepair {
 namespace {

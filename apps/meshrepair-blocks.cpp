@@ -5,8 +5,8 @@
 #include <base/error.h>
 
 #include "blocks/verbs.h"
-#include "common/choice_option.h"
-#include "common/program.h"
+#include "options/choice_option.h"
+#include "program/program.h"
 
 namespace meshrepair {
 namespace {

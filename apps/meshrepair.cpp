@@ -4,10 +4,11 @@
 
 #include <base/error.h>
 
-#include "common/file_kinds.h"
-#include "common/repair_command.h"
+#include "options/file_kinds.h"
 #include "resume/resumable.h"
 #include "serve/serve.h"
+#include "steps/repair_command.h"
+#include "steps/run_steps.h"
 
 int main(int argc, char** argv) {
   using namespace meshrepair;

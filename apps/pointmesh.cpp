@@ -1,8 +1,11 @@
 // pointmesh POINTS -o SOUP: the local triangulation of a point cloud, for a repair to make a solid
 // of.
-#include "common/file_kinds.h"
-#include "common/point_steps.h"
-#include "common/repair_options.h"
+#include "options/file_kinds.h"
+#include "options/repair_options.h"
+#include "steps/mesh_steps.h"
+#include "steps/point_steps.h"
+#include "steps/run_steps.h"
+#include "steps/step_options.h"
 
 namespace meshrepair {
 namespace {

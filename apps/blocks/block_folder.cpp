@@ -12,9 +12,9 @@
 #include <base/atomic_file.h>
 #include <base/error.h>
 
-#include "common/file_checksum.h"
-#include "common/json_report.h"
-#include "common/program.h"
+#include "process/file_checksum.h"
+#include "program/program.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 namespace {

@@ -18,11 +18,16 @@
 
 #include "blocks/block_folder.h"
 #include "blocks/verbs.h"
-#include "common/file_kinds.h"
-#include "common/logging.h"
-#include "common/repair_options.h"
-#include "common/repair_steps.h"
-#include "common/summary.h"
+#include "options/file_kinds.h"
+#include "options/repair_options.h"
+#include "program/command_files.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "report/words.h"
+#include "steps/mesh_steps.h"
+#include "steps/run_steps.h"
+#include "steps/step_options.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

@@ -12,14 +12,18 @@
 
 #include "blocks/block_folder.h"
 #include "blocks/verbs.h"
-#include "common/attribute_report.h"
-#include "common/file_checksum.h"
-#include "common/file_kinds.h"
-#include "common/logging.h"
-#include "common/numbers.h"
-#include "common/repair_steps.h"
-#include "common/report_sections.h"
-#include "common/summary.h"
+#include "options/file_kinds.h"
+#include "options/numbers.h"
+#include "process/file_checksum.h"
+#include "program/command_files.h"
+#include "program/program.h"
+#include "report/attribute_report.h"
+#include "report/findings.h"
+#include "report/report_sections.h"
+#include "report/words.h"
+#include "steps/mesh_steps.h"
+#include "steps/run_steps.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

@@ -12,11 +12,12 @@
 
 #include "blocks/block_folder.h"
 #include "blocks/verbs.h"
-#include "common/file_checksum.h"
-#include "common/logging.h"
-#include "common/numbers.h"
-#include "common/repair_command.h"
+#include "options/numbers.h"
+#include "process/file_checksum.h"
 #include "resume/resumable.h"
+#include "steps/repair_command.h"
+#include "steps/run_steps.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

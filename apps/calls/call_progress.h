@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/progress_bar.h"
+#include "process/progress_bar.h"
 
 namespace meshrepair {
 

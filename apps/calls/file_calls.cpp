@@ -9,9 +9,13 @@
 #include <mesh/lost_attributes.h>
 #include <mesh/soup_io.h>
 
-#include "common/logging.h"
-#include "common/repair_options.h"
-#include "common/repair_steps.h"
+#include "options/repair_options.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "steps/mesh_steps.h"
+#include "steps/run_steps.h"
+#include "steps/step_options.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

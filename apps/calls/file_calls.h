@@ -10,7 +10,7 @@
 #include <mesh/soup.h>
 
 #include "calls/session.h"
-#include "common/point_steps.h"
+#include "steps/point_steps.h"
 
 namespace meshrepair {
 

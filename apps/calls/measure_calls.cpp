@@ -5,10 +5,10 @@
 #include <base/error.h>
 #include <check/mesh_distance.h>
 
-#include "common/check_command.h"
-#include "common/check_report.h"
-#include "common/check_steps.h"
-#include "common/distance_report.h"
+#include "report/check_report.h"
+#include "report/distance_report.h"
+#include "steps/check_command.h"
+#include "steps/check_steps.h"
 
 namespace meshrepair {
 

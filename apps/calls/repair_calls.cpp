@@ -6,7 +6,9 @@
 
 #include <base/error.h>
 
-#include "common/boolean_steps.h"
+#include "steps/boolean_steps.h"
+#include "steps/run_steps.h"
+#include "summary/warnings.h"
 
 namespace meshrepair {
 namespace {

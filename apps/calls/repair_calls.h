@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calls/session.h"
-#include "common/repair_command.h"
+#include "steps/repair_command.h"
 
 namespace meshrepair {
 

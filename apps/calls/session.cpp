@@ -13,10 +13,10 @@
 #include <base/parallel.h>
 
 #include "calls/plain_locale.h"
-#include "common/command_line.h"
-#include "common/logging.h"
-#include "common/memory_limit.h"
-#include "common/removed_options.h"
+#include "options/command_line.h"
+#include "options/removed_options.h"
+#include "process/memory_limit.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

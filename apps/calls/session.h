@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "calls/call_progress.h"
-#include "common/command_line.h"
-#include "common/common_options.h"
-#include "common/exit_code.h"
-#include "common/program.h"
+#include "options/command_line.h"
+#include "process/exit_code.h"
+#include "program/common_options.h"
+#include "program/program.h"
 
 namespace meshrepair {
 

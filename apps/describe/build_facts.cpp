@@ -21,9 +21,9 @@
 #include <mesh/point_io.h>
 #include <mesh/soup_format.h>
 
-#include "common/common_options.h"
-#include "common/file_kinds.h"
-#include "common/json_report.h"
+#include "options/file_kinds.h"
+#include "options/numbers.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 namespace {

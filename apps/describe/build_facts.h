@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/json_report.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
+#include "options/command_line.h"
 
 namespace meshrepair {
 

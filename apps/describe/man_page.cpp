@@ -7,8 +7,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "common/common_options.h"
-#include "common/exit_code.h"
+#include "process/exit_code.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 namespace {

@@ -8,8 +8,11 @@
 
 #include <base/stage_meter.h>
 
-#include "common/report_sections.h"
+#include "options/show_requests.h"
 #include "page/joined_check.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "report/report_sections.h"
 
 namespace meshrepair {
 namespace {

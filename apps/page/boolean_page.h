@@ -9,7 +9,10 @@
 #include <extract/surface.h>
 #include <mesh/length_unit.h>
 
+#include "options/show_requests.h"
 #include "page/html_report.h"
+#include "program/program.h"
+#include "report/findings.h"
 
 namespace meshrepair {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/json_report.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 

@@ -9,15 +9,18 @@
 #include <base/error.h>
 #include <check/check_surface.h>
 
-#include "common/check_report.h"
-#include "common/file_kinds.h"
-#include "common/numbers.h"
-#include "common/report_sections.h"
-#include "common/side_file.h"
-#include "common/summary.h"
+#include "options/file_kinds.h"
+#include "options/numbers.h"
+#include "options/show_requests.h"
 #include "page/html_page.h"
 #include "page/pack_looks.h"
 #include "page/page_pictures.h"
+#include "program/command_files.h"
+#include "program/program.h"
+#include "report/check_report.h"
+#include "report/findings.h"
+#include "report/report_sections.h"
+#include "report/words.h"
 
 namespace meshrepair {
 namespace {

@@ -9,12 +9,13 @@
 
 #include <picture/view.h>
 
-#include "common/command_line.h"
-#include "common/json_report.h"
-#include "common/picture_steps.h"
-#include "common/repair_steps.h"
-#include "page/html_request.h"
+#include "options/command_line.h"
+#include "options/show_requests.h"
 #include "page/mesh_facts.h"
+#include "pictures/picture_steps.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 

@@ -6,7 +6,7 @@
 
 #include <base/assert.h>
 
-#include "common/check_report.h"
+#include "report/check_report.h"
 
 namespace meshrepair {
 namespace {

@@ -11,9 +11,9 @@
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
 
-#include "common/explanation_file.h"
-#include "common/json_report.h"
 #include "page/pack_mesh.h"
+#include "pictures/explanation_file.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 

@@ -17,9 +17,9 @@
 #include <base/progress.h>
 #include <mesh/attributes.h>
 
-#include "common/json_report.h"
 #include "page/drawn_mesh.h"
 #include "page/page_pictures.h"
+#include "report/json_report.h"
 
 namespace meshrepair {
 

@@ -6,8 +6,11 @@
 
 #include <base/stage_meter.h>
 
-#include "common/scene_steps.h"
+#include "options/show_requests.h"
 #include "page/joined_check.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "report/words.h"
 
 namespace meshrepair {
 namespace {

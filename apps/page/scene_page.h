@@ -8,7 +8,10 @@
 #include <mesh/scene.h>
 #include <mesh/soup.h>
 
+#include "options/show_requests.h"
 #include "page/html_report.h"
+#include "program/program.h"
+#include "report/findings.h"
 
 namespace meshrepair {
 

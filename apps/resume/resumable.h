@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
-#include "common/program.h"
+#include "options/command_line.h"
+#include "program/program.h"
 
 namespace meshrepair {
 

@@ -17,9 +17,9 @@
 #include <base/error.h>
 #include <base/hash_index.h>
 
-#include "common/file_checksum.h"
-#include "common/logging.h"
+#include "process/file_checksum.h"
 #include "resume/state_file.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

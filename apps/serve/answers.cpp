@@ -10,7 +10,7 @@
 
 #include <base/error.h>
 
-#include "common/json_report.h"
+#include "report/json_report.h"
 #include "serve/serve_page.h"
 
 namespace meshrepair {

@@ -11,8 +11,8 @@
 
 #include <spdlog/logger.h>
 
-#include "common/logging.h"
 #include "serve/own_folder.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

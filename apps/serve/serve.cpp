@@ -18,14 +18,14 @@
 
 #include <base/error.h>
 
-#include "common/command_line.h"
-#include "common/common_options.h"
-#include "common/exit_code.h"
-#include "common/logging.h"
-#include "common/memory_limit.h"
-#include "common/numbers.h"
-#include "common/signals.h"
+#include "options/command_line.h"
+#include "options/numbers.h"
+#include "process/exit_code.h"
+#include "process/memory_limit.h"
+#include "process/signals.h"
+#include "program/common_options.h"
 #include "serve/http_server.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

@@ -12,8 +12,8 @@
 #include <base/error.h>
 #include <mesh/soup_format.h>
 
-#include "common/exit_code.h"
-#include "common/side_file.h"
+#include "process/exit_code.h"
+#include "program/command_files.h"
 #include "serve/child_process.h"
 #include "serve/guard.h"
 

@@ -8,7 +8,7 @@
 
 #include <base/parallel.h>
 
-#include "common/memory_limit.h"
+#include "process/memory_limit.h"
 
 namespace meshrepair {
 namespace {

@@ -15,7 +15,7 @@
 
 #include <base/error.h>
 
-#include "common/memory_limit.h"
+#include "process/memory_limit.h"
 
 namespace meshrepair {
 namespace {

@@ -12,7 +12,7 @@
 #include <base/block_source.h>
 #include <base/error.h>
 
-#include "common/logging.h"
+#include "terminal/logging.h"
 
 namespace meshrepair {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "common/memory_limit.h"
+#include "process/memory_limit.h"
 #include "spill/resident_limit.h"
 #include "spill/spill_file.h"
 

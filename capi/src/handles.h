@@ -10,7 +10,7 @@
 #include <meshrepair.h>
 
 #include "calls/session.h"
-#include "common/point_steps.h"
+#include "steps/point_steps.h"
 
 // The names of attributes as C has them: made anew whenever attributes change.
 struct meshrepair_mesh {

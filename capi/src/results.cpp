@@ -3,8 +3,8 @@
 
 #include <check/check_surface.h>
 
-#include "common/common_options.h"
 #include "handles.h"
+#include "report/json_report.h"
 
 using namespace meshrepair;
 

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/choice_option.h"
-#include "common/file_kinds.h"
 #include "describe/man_page.h"
+#include "options/choice_option.h"
+#include "options/file_kinds.h"
 
 namespace meshrepair {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/common_options.h"
+#include "program/common_options.h"
 
 #include <vector>
 

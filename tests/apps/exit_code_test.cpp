@@ -1,4 +1,4 @@
-#include "common/exit_code.h"
+#include "process/exit_code.h"
 
 #include <exception>
 #include <new>

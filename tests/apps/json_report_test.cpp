@@ -1,4 +1,4 @@
-#include "common/json_report.h"
+#include "report/json_report.h"
 
 #include <gmock/gmock.h>
 #include <limits>

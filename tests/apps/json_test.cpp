@@ -1,4 +1,4 @@
-#include "common/json.h"
+#include "report/json.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "common/numbers.h"
+#include "options/numbers.h"
 
 #include <cmath>
 

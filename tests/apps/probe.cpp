@@ -13,7 +13,7 @@
 #include <base/error.h>
 #include <base/parallel.h>
 
-#include "common/program.h"
+#include "program/program.h"
 
 namespace meshrepair {
 namespace {

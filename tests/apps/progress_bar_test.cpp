@@ -1,4 +1,4 @@
-#include "common/progress_bar.h"
+#include "process/progress_bar.h"
 
 #include <gmock/gmock.h>
 #include <limits>

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/common_options.h"
-#include "common/repair_command.h"
+#include "program/common_options.h"
+#include "steps/repair_command.h"
 
 namespace meshrepair {
 namespace {

@@ -14,7 +14,7 @@
 
 #include <base/error.h>
 
-#include "common/memory_limit.h"
+#include "process/memory_limit.h"
 #include "spill/resident_limit.h"
 
 namespace meshrepair {

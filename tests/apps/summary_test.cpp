@@ -1,9 +1,13 @@
-#include "common/summary.h"
+
+#include "summary/summary.h"
 
 #include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "report/findings.h"
+#include "report/words.h"
 
 namespace meshrepair {
 namespace {

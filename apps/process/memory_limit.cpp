@@ -1,0 +1,222 @@
+// The limit is the system's own on private memory (RLIMIT_DATA). It counts what is reserved, not
+// what is used, so what is reserved but unused at the start (stacks, and the shadow memory of
+// sanitizers) is added, and what the limit does not see (the program's code) is taken off.
+#include "process/memory_limit.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string_view>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <base/decimal.h>
+#include <base/error.h>
+
+namespace meshrepair {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kStackBytes = std::uint64_t{4} << 20;  // of a thread
+constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;       // beyond what the program has taken
+
+// Nothing: it is none.
+std::optional<double> factor_of(std::string_view unit) {
+  constexpr std::string_view kUnits = "KMGT";
+  std::string upper;
+  for (const char c : unit) upper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  if (upper.empty() || upper == "B") return 1;
+  const std::size_t power = kUnits.find(upper[0]);
+  const std::string rest = upper.substr(1);
+  const bool is_one =
+      power != std::string_view::npos && (rest.empty() || rest == "B" || rest == "IB");
+  if (!is_one) return std::nullopt;
+  return std::pow(1024.0, static_cast<double>(power) + 1);
+}
+
+// The number, and what is behind it; -1 where there is none.
+std::pair<double, std::string_view> amount_in(std::string_view text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = read_decimal(text.data(), end, number);
+  if (error != std::errc() || !(number >= 0)) return {-1, {}};
+  return {number, std::string_view(at, static_cast<std::size_t>(end - at))};
+}
+
+// Nothing: it is no size.
+std::optional<std::uint64_t> bytes_in(double number, std::string_view unit) {
+  const auto factor = factor_of(unit);
+  if (number < 0 || !factor) return std::nullopt;
+  const double bytes = number * *factor;
+  if (!(bytes < 9e18) || (bytes > 0 && bytes < 1)) return std::nullopt;
+  return static_cast<std::uint64_t>(bytes);
+}
+
+[[noreturn]] void fail(const std::string& option, const std::string& text, const char* what) {
+  throw UsageError(option + ": " + (text.empty() ? "''" : text) + " is no " + what);
+}
+
+// Nothing free is no reason for no limit.
+std::uint64_t share_of_free(double percent) {
+  const auto free = free_memory();
+  if (!free) return 0;
+  return static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(*free) * percent / 100));
+}
+
+// The number after "KEY" of a file of the system, one "KEY number" a line; empty if there is none.
+std::optional<std::uint64_t> number_of_key(const fs::path& file, std::string_view key) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t at = line.find_first_of("0123456789", key.size());
+    if (at == std::string::npos) return std::nullopt;
+    return std::strtoull(line.c_str() + at, nullptr, 10);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint64_t> kilobytes_of_key(const fs::path& file, std::string_view key) {
+  const auto number = number_of_key(file, key);
+  return number ? std::optional(*number * 1024) : std::nullopt;
+}
+
+// What a control group leaves: its limit less what it uses, but for the files that it could forget.
+std::optional<std::uint64_t> free_in_group(const fs::path& group, std::string_view limit_file,
+                                           std::string_view usage_file) {
+  const auto limit = number_of_key(group / limit_file, "");
+  const auto used = number_of_key(group / usage_file, "");
+  if (!limit || !used) return std::nullopt;
+  const std::uint64_t files = number_of_key(group / "memory.stat", "inactive_file ").value_or(0) +
+                              number_of_key(group / "memory.stat", "active_file ").value_or(0);
+  const std::uint64_t taken = *used - std::min(*used, files);
+  return *limit - std::min(*limit, taken);
+}
+
+// In the group and in all above it, of both versions of control groups.
+std::uint64_t free_in_groups() {
+  std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+  std::ifstream in("/proc/self/cgroup");
+  for (std::string line; std::getline(in, line);) {  // "0::/path" or "4:memory:/path"
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controller = line.substr(first + 1, second - first - 1);
+    const bool unified = controller.empty();
+    if (!unified && controller != "memory") continue;
+    const fs::path root = unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+    for (fs::path path = line.substr(second + 1);; path = path.parent_path()) {
+      const fs::path group = root / path.relative_path();
+      const auto free =
+          unified ? free_in_group(group, "memory.max", "memory.current")
+                  : free_in_group(group, "memory.limit_in_bytes", "memory.usage_in_bytes");
+      least = std::min(least, free.value_or(least));
+      if (!path.has_relative_path()) break;
+    }
+  }
+  return least;
+}
+
+std::uint64_t of_self(std::string_view key) {
+  return kilobytes_of_key("/proc/self/status", key).value_or(0);
+}
+
+struct Pages {
+  unsigned long resident = 0;
+  unsigned long shared = 0;  // of files; resident
+  unsigned long data = 0;    // private, resident or not
+};
+
+// Asked often, by several threads, and by a handler of signals, so with no more than the system's
+// own calls. The file is opened each time: in a process that was forked, one that stays open tells
+// of its parent.
+Pages pages_now() {
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return {};
+  std::array<char, 128> text = {};
+  const ssize_t size = ::read(file, text.data(), text.size());
+  ::close(file);
+  std::array<unsigned long, 6> numbers = {};  // all, resident, shared, code, libraries, data
+  const char* at = text.data();
+  const char* const end = at + std::max<ssize_t>(size, 0);
+  for (unsigned long& number : numbers) {
+    const auto [after, error] = std::from_chars(at, end, number);
+    if (error != std::errc()) return {};
+    at = std::min(after + 1, end);
+  }
+  return {numbers[1], numbers[2], numbers[5]};
+}
+
+std::uint64_t page_bytes() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
+
+}  // namespace
+
+MemoryLimit parse_memory_limit(const std::string& text) {
+  const auto [number, unit] = amount_in(text);
+  if (unit == "%" && number > 0 && number <= 100) return {share_of_free(number), true};
+  const auto bytes = bytes_in(number, unit);
+  if (!bytes) fail("--max-memory", text, "size of memory such as 200M, 1.5G or 80%");
+  return {*bytes, false};
+}
+
+std::uint64_t parse_size(const std::string& text, const std::string& option) {
+  const auto [number, unit] = amount_in(text);
+  const auto bytes = bytes_in(number, unit);
+  if (!bytes) fail(option, text, "size such as 200M or 1.5G");
+  return *bytes;
+}
+
+std::optional<std::uint64_t> free_memory() {
+  const auto machine = kilobytes_of_key("/proc/meminfo", "MemAvailable:");
+  if (!machine) return std::nullopt;
+  return std::min(*machine, free_in_groups());
+}
+
+std::uint64_t resident_memory() { return pages_now().resident * page_bytes(); }
+
+std::uint64_t private_memory() {
+  const Pages now = pages_now();
+  return (now.resident - std::min(now.resident, now.shared)) * page_bytes();
+}
+
+std::uint64_t reserved_memory() { return pages_now().data * page_bytes(); }
+
+void limit_memory(const MemoryLimit& limit_wanted, std::size_t threads) {
+  const std::uint64_t bytes = limit_wanted.bytes;
+  if (bytes == 0) return;
+  const std::uint64_t used = of_self("RssAnon:");
+  const std::uint64_t resident = of_self("VmRSS:");
+  const std::uint64_t code = resident - std::min(resident, used);
+  if (bytes < used + code + kLeast) {
+    const std::string what = memory_text(bytes) + " is less than the program needs, " +
+                             memory_text(used + code + kLeast);
+    if (limit_wanted.is_share) throw LimitError("too little memory is free: " + what);
+    throw UsageError("--max-memory: " + what);
+  }
+  const std::uint64_t reserved = of_self("VmData:") + of_self("VmStk:");
+  const std::uint64_t unused = reserved - std::min(reserved, used);
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const rlim_t wanted = bytes - code + unused + threads * kStackBytes;
+  limit.rlim_cur = std::min(limit.rlim_cur, wanted);
+  setrlimit(RLIMIT_DATA, &limit);
+}
+
+std::string memory_text(std::uint64_t bytes) {
+  constexpr std::array<std::string_view, 5> kUnits = {"bytes", "KB", "MB", "GB", "TB"};
+  auto value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < kUnits.size(); ++unit) value /= 1024;
+  return fmt::format("{:.4g} {}", value, kUnits[unit]);
+}
+
+}  // namespace meshrepair

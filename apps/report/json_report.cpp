@@ -1,0 +1,75 @@
+#include "report/json_report.h"
+
+#include <algorithm>
+#include <sys/resource.h>
+#include <utility>
+
+#include <base/assert.h>
+
+namespace meshrepair {
+namespace {
+
+constexpr const char* kTailKeys[] = {"stages", "seconds", "peak_memory_bytes", "exit_code",
+                                     "error"};
+
+// A program that measures the peak of each stage sets the system's count back in between.
+std::size_t peak_memory_bytes(const Json& stages) {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  std::size_t peak = static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+  for (const Json& stage : stages.values()) {
+    const Json* const bytes = stage.find("peak_bytes");
+    if (bytes != nullptr) peak = std::max<std::size_t>(peak, bytes->as_count().value_or(0));
+  }
+  return peak;
+}
+
+Json stages_of(const ProgressBar& progress) {
+  Json stages = Json::array();
+  for (const StageTime& time : progress.stages()) {
+    stages.push_back({{"name", time.name}, {"seconds", time.seconds}});
+  }
+  return stages;
+}
+
+}  // namespace
+
+std::string program_version() { return MESHREPAIR_VERSION; }
+
+JsonReport::JsonReport(const std::string& program, const std::vector<std::string>& command)
+    : head_(Json::object()), sections_(Json::object()) {
+  head_["program"] = program;
+  head_["version"] = program_version();
+  head_["report_version"] = kReportVersion;
+  head_["command"] = command;
+  head_["input"] = nullptr;
+  head_["output"] = nullptr;
+}
+
+void JsonReport::set_input(Json input) { head_["input"] = std::move(input); }
+
+void JsonReport::set_output(Json output) { head_["output"] = std::move(output); }
+
+void JsonReport::set_stages(Json stages) { stages_ = std::move(stages); }
+
+void JsonReport::set_section(const std::string& key, Json section) {
+  MESHREPAIR_ASSERT(!head_.contains(key));
+  for (const char* reserved : kTailKeys) MESHREPAIR_ASSERT(key != reserved);
+  sections_[key] = std::move(section);
+}
+
+Json JsonReport::take_sections() { return std::exchange(sections_, Json::object()); }
+
+std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failure,
+                             const ProgressBar& progress) const {
+  Json report = head_;
+  report.update(sections_);
+  report["stages"] = stages_.is_null() ? stages_of(progress) : stages_;
+  report["seconds"] = progress.seconds();
+  report["peak_memory_bytes"] = peak_memory_bytes(report["stages"]);
+  report["exit_code"] = static_cast<int>(code);
+  report["error"] = failure ? Json(failure->message) : error_ ? Json(*error_) : Json();
+  return report.dump(2) + '\n';
+}
+
+}  // namespace meshrepair

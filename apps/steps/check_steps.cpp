@@ -1,0 +1,62 @@
+#include "steps/check_steps.h"
+
+#include <cmath>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <repair/join_gaps.h>
+#include <repair/seal_openings.h>
+
+#include "options/numbers.h"
+#include "report/words.h"
+#include "steps/scene_steps.h"
+
+namespace meshrepair {
+
+void add_check_options(CommandLine& app, CheckRequest& request) {
+  app.add_flag("--weld", request.check.weld,
+               "Treat points with equal coordinates as one, as always in STL")
+      ->group("Check");
+  app.add_option("--places", request.check.most_places, "List this many places of each defect")
+      ->type_name("N")
+      ->check(count_between(0, 1'000'000))
+      ->capture_default_str()
+      ->group("Check");
+  app.add_flag("--openings", request.openings,
+               "Look for narrow openings that lead into a far wider space, and say what a solid\n"
+               "encloses once they are closed: meshrepair --seal does that")
+      ->group("Check");
+}
+
+std::string add_openings(const TriangleSoup& soup, const SurfaceCheck& check,
+                         const CheckRequest& request, Json& section) {
+  if (!request.openings) return {};
+  section["openings"] = nullptr;
+  if (!check.valid_solid()) return "openings  are looked for in valid solids\n";
+  const SealReport seal =
+      propose_seal(as_given(soup), SealOptions().most_cubes, request.check.progress);
+  const double volume = check.volume + seal.filled_volume;
+  section["openings"] = {{"count", seal.openings},
+                         {"size", seal.size},
+                         {"filled_volume", seal.filled_volume},
+                         {"volume", volume}};
+  if (seal.openings == 0) return "openings  none is narrow and leads into a far wider space\n";
+  const std::string encloses =
+      std::isfinite(volume) ? fmt::format("encloses {:.6g}", volume) : "encloses more";
+  return fmt::format("openings  {} if {} below {:.4g} {} closed: meshrepair --seal {:.4g}\n",
+                     encloses, number_of(seal.openings, "opening"), seal.size,
+                     seal.openings == 1 ? "is" : "are", seal.size);
+}
+
+std::string add_near_faces(const TriangleSoup& soup, const CheckRequest& request, Json& section) {
+  CancelOnly quiet(request.check.progress);
+  const GapProposal gaps = propose_gaps(soup, &quiet);
+  if (gaps.pairs == 0) return {};
+  section["near_faces"] = {
+      {"pairs", gaps.pairs}, {"apart", gaps.widest_gap}, {"distance", gaps.distance}};
+  return fmt::format("near      {} {} at most {:.3g} apart: meshrepair --join-gaps {:.2g}\n",
+                     number_of(gaps.pairs, "pair of faces", "pairs of faces"),
+                     gaps.pairs == 1 ? "is" : "are", gaps.widest_gap, gaps.distance);
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,52 @@
+#include "steps/guarantees.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/logger.h>
+
+#include "report/words.h"
+#include "terminal/logging.h"
+
+namespace meshrepair {
+
+void look_at_file(const Surface& surface, SoupFormat format, Findings& findings) {
+  findings.output_points = surface.mesh.points.size();
+  if (!welds_points(format)) return;
+  const TriangleSoup back = as_read_back(surface.mesh, format);
+  findings.output_points = back.points.size();
+  findings.repair.output = examine_topology(back.triangles, back.points.size());
+}
+
+std::string missing_guarantees(const Findings& findings, SoupFormat format) {
+  const Topology& surface = findings.repair.output;
+  std::string missing;
+  if (!surface.closed()) missing += ", not closed";
+  if (!surface.manifold()) missing += ", not manifold";
+  if (!surface.oriented()) missing += ", not consistently oriented";
+  if (!missing.empty() && welds_points(format)) {
+    missing += " once " + std::string(format_name(format)) +
+               " has rounded and joined its corners (OBJ, OFF and PLY keep them)";
+  }
+  const CertifyReport& certified = findings.repair.certify;
+  if (certified.pairs > 0) {
+    missing += ", with " + number_of(certified.pairs, "pair") + " of triangles that intersect";
+  }
+  if (certified.degenerate > 0) {
+    missing += ", with " + number_of(certified.degenerate, "triangle") + " without area";
+  }
+  if (certified.inside_out_parts > 0) {
+    missing += ", with " + number_of(certified.inside_out_parts, "part") + " inside out";
+  }
+  return missing.empty() ? missing : missing.substr(2);
+}
+
+ExitCode verdict(Run& run, const Findings& findings) {
+  if (findings.missing_guarantees.empty()) return ExitCode::done;
+  const std::string message = fmt::format(
+      "{}: {} {}", findings.output_name(),
+      findings.withheld ? "not written, it would be" : "written, but", findings.missing_guarantees);
+  run.report.set_error("error: " + message);
+  logger().error("{}", message);
+  return ExitCode::not_certified;
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,156 @@
+#include "steps/repair_command.h"
+
+#include <array>
+#include <utility>
+
+#include <spdlog/logger.h>
+
+#include <base/error.h>
+
+#include "options/purposes.h"
+#include "options/repair_options.h"
+#include "page/html_report.h"
+#include "pictures/explanation_file.h"
+#include "pictures/picture_steps.h"
+#include "program/program.h"
+#include "report/findings.h"
+#include "steps/guarantees.h"
+#include "steps/mesh_steps.h"
+#include "steps/scene_steps.h"
+#include "steps/step_options.h"
+#include "terminal/logging.h"
+
+namespace meshrepair {
+namespace {
+
+// Who meant sheets can have walls.
+Surface repair_or_advise(AnySoup& input, const PointOptions& points, const RepairOptions& options,
+                         Run& run, Findings& findings) {
+  try {
+    return repair_any(input, points, options, run, findings);
+  } catch (const NoSolidError& error) {
+    if (input.cloud) throw;
+    throw NoSolidError(error.what() + advice_to_thicken(findings.repair));
+  }
+}
+
+// Those that are in the units of IN.
+void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base) {
+  if (!options.sew.is_share) options.sew.distance *= factor;
+  if (!options.join_gaps.is_share) options.join_gaps.distance *= factor;
+  if (!options.seal.is_share) options.seal.size *= factor;
+  if (!options.thicken.is_share) options.thicken.thickness *= factor;
+  if (!base.is_share) base.depth *= factor;
+  if (base.floor) *base.floor *= factor;
+}
+
+// Of points, and of sheets that get walls, several soups are tried.
+void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
+  if (options.states == nullptr || !(input.cloud || options.thicken.wanted())) return;
+  logger().warn("--resume: keeps nothing where {}",
+                input.cloud ? "points become a mesh" : "sheets get walls");
+  options.states = nullptr;
+}
+
+void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
+  keep_attributes(input.soup, input.attributes, options);
+  options.all_cells = command.always;
+  const StepOptions& steps = command.steps;
+  drop_states_of_many_soups(input, options);
+  options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
+}
+
+}  // namespace
+
+void add_repair_command(CommandLine& app, RepairCommand& command) {
+  StepOptions& options = command.steps;
+  add_purpose_option(app, options.purpose);
+  add_inside_options(app, options.repair.inside);
+  add_sew_option(app, options.repair.sew);
+  add_join_gaps_option(app, options.repair.join_gaps);
+  add_seal_option(app, options.repair.seal);
+  add_holes_option(app, options.repair.holes);
+  const CommandOption& max_hole = add_max_hole_option(app, options.repair.holes);
+  add_thicken_options(app, max_hole, options.repair.thicken);
+  add_keep_options(app, options.repair.keep);
+  add_touching_option(app, options.repair.extract.touching);
+  add_simplify_option(app, options.repair.simplify);
+  add_scene_option(app, options.assets);
+  const CommandOption* always =
+      app.add_flag("--always", command.always,
+                   "Do the whole work, also for a mesh that is the boundary of a solid already,\n"
+                   "or that needs only its holes closed and its triangles turned")
+          ->group("Repair");
+  add_predicates_options(app, options.repair, always);
+  add_format_option(app, options.format);
+  add_sources_option(app, options.sources);
+  add_staging_option(app, options.staging);
+  add_root_option(app, options.assets);
+  add_drop_option(app, options.assets);
+  add_units_option(app, options.assets);
+  add_certify_options(app, options.repair.certify, options.strict);
+  add_explain_option(app, options.explained);
+  add_picture_options(app, options.picture, "IN and OUT side by side");
+  add_colours_option(app, options.picture, "fates", "as --explain has them");
+  add_show_options(app, options.picture, "IN and OUT", "; elsewhere show by a bar what changed");
+  add_html_options(app, options.html, "IN and OUT, with all that is wrong");
+  add_point_repair_options(app, command.points);
+}
+
+void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
+  const StepOptions& options = command.steps;
+  WriteOptions format = mesh_format(options);
+  ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
+  // Pictures and pages show also what the output cannot hold.
+  const bool is_shown = options.picture.wanted() || options.html.wanted();
+  if (is_shown) reading.attributes = !options.assets.drops_all();
+  AnySoup input = read_any_stage(command.points, reading, run, findings);
+  check_picture(options.picture, input.attributes);
+  const Attributes given = is_shown ? input.attributes : Attributes();
+  input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
+  RepairOptions repair_options = certified_for(*format.format, options.repair);
+  PointOptions points = command.points;
+  scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options,
+                points.repair.scan_base);
+  findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
+  format.extras.unit = findings.unit;
+  fit_to_input(input, command, repair_options);
+  if (!input.scene.meshes.empty()) {
+    if (points.repair.base) throw UsageError("--base: is not for objects one by one");
+    return repair_scene(input, given, repair_options, format, options, run, findings);
+  }
+  const Surface surface = repair_or_advise(input, points, repair_options, run, findings);
+  measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
+  const Attributes attributes =
+      transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
+  write_mesh_stage(surface, attributes, format, options, run, findings);
+  write_explanation_stage(options.explained, {input.soup, {}}, {surface.mesh, {}}, run, findings);
+  const std::array<Attributes, 2> fates = painted_fates(options.picture, findings);
+  draw_picture_stage(options.picture, up_of(findings), {options.input},
+                     {{input.soup, options.picture.painted ? fates[0] : given},
+                      {surface.mesh, options.picture.painted ? fates[1] : attributes}},
+                     run, findings);
+  write_html_stage(options.html, up_of(findings), {input.soup, given}, {surface.mesh, attributes},
+                   run, findings);
+}
+
+RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run& run,
+                              Findings& findings) {
+  const StepOptions& options = command.steps;
+  // OBJ keeps indices and all digits, as memory does.
+  const SoupFormat format = options.format.value_or(SoupFormat::obj);
+  input.attributes = chosen_for(options.format, options.assets, std::move(input.attributes));
+  RepairOptions repair_options = certified_for(format, options.repair);
+  fit_to_input(input, command, repair_options);
+  RepairedMesh result;
+  result.surface = repair_or_advise(input, command.points, repair_options, run, findings);
+  measure_distance_stage(input.soup, result.surface, repair_options.certify.precision, run,
+                         findings);
+  result.attributes =
+      transfer_attributes_stage(input.soup, input.attributes, result.surface, run, findings);
+  look_at_file(result.surface, format, findings);
+  findings.missing_guarantees = missing_guarantees(findings, format);
+  return result;
+}
+
+}  // namespace meshrepair
