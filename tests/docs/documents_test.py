@@ -241,7 +241,7 @@ class Snippets(unittest.TestCase):
                     compile("\n".join(block.lines), f"{name_of(document)}:{block.line}", "exec")
 
     def test_lines_beside_those_of_others_are_counted_right(self) -> None:
-        document = ROOT / "docs/beside.md"
+        document = ROOT / "docs/from.md"
         theirs, ours = ([len([line for line in block.lines if starts(line)]) for block in documents.blocks(document)
                          if block.language == language]
                         for language, starts in (("py", str.strip), ("python", lambda line: line.startswith((">>>", "...")))))
