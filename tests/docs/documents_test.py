@@ -156,7 +156,7 @@ class Figures(unittest.TestCase):
         rows = rows_of((ROOT / "bench/RESULTS.md").read_text(encoding="utf-8"), "Exact and floating predicates")
         by_gmp, by_exact, flooding = (statistics.median(values) for values in zip(
             *((float(row[5]), float(row[7]), 100 * float(row[11]) / float(row[4])) for row in rows)))
-        said = rows_of((ROOT / "docs/algorithm.md").read_text(encoding="utf-8"), "Numbers beside the paper's")
+        said = rows_of((ROOT / "docs/algorithm.md").read_text(encoding="utf-8"), "Comparison with the paper")
         self.assertEqual([row[1] for row in said], [f"{by_gmp:.2f} times", f"{by_exact:.2f} times", f"{flooding:.1f} %"])
 
 
