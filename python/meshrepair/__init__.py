@@ -4,8 +4,8 @@
 >>> result = meshrepair.repair(vertices, faces)          # doctest: +SKIP
 >>> result.vertices, result.faces, result.certified      # doctest: +SKIP
 
-The options of all functions are those of the programs, with _ for -. So are the results, to the byte, and the report. The
-work runs without Python's lock, and Ctrl-C ends it.
+Options, results (to the byte) and reports are those of the programs; options have _ for -. The work runs without Python's
+global lock, and Ctrl-C stops it.
 """
 
 from ._core import version as __version__

@@ -27,19 +27,19 @@ class NotCertifiedError(Error):
 
 
 class UsageError(Error, ValueError):
-    """An argument or an option makes no sense: nothing was done."""
+    """An argument or option is invalid: nothing was done."""
 
     exit_code = 2
 
 
 class InputError(Error):
-    """A file or a mesh cannot be read as what it claims to be."""
+    """A file or mesh cannot be read."""
 
     exit_code = 3
 
 
 class LimitError(Error):
-    """A limit on time, memory or size was hit."""
+    """A limit on time, memory or size was reached."""
 
     exit_code = 4
 

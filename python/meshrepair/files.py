@@ -17,16 +17,16 @@ from .results import Mesh, Points
 
 
 def read(path: Any, *, attributes: bool = True, progress: Progress | bool | None = None, **options: Any) -> Mesh | Points:
-    """Reads a file of a mesh (STL, OBJ, OFF, PLY, glTF, 3MF) or of points (XYZ, PTS, PWN, PCD, ...), maybe packed.
+    """Reads a file of a mesh (STL, OBJ, OFF, PLY, glTF, 3MF) or of points (XYZ, PTS, PWN, PCD, ...), optionally compressed.
 
     Args:
         path: str, bytes or path.
-        attributes: False: what faces carry is not read.
+        attributes: False: do not read attributes.
         progress: as in :func:`repair`.
         **options: ``max_triangles``, ``time_limit``, ``max_memory``, ``threads``.
 
     Returns:
-        A mesh, or points where the file has no faces and promises none.
+        A mesh, or points if the file has no faces and declares none.
 
     ``attributes`` of a mesh is a dict of arrays:
 
@@ -45,7 +45,7 @@ def read(path: Any, *, attributes: bool = True, progress: Progress | bool | None
 
 def write(path: Any, mesh: Any, faces: Any = None, *, attributes: Any = None, unit: str | None = None,
           sources: bool | npt.NDArray[Any] = False, progress: Progress | bool | None = None, **options: Any) -> list[str]:
-    """Writes a mesh to a file; it is there in full or not at all.
+    """Writes a mesh to a file, completely or not at all.
 
     Args:
         path: its extension is the format, unless ``format`` is given: "stl", "stl-ascii", "obj", "off", "ply",

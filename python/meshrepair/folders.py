@@ -37,22 +37,22 @@ def _summary_of(target: bytes, shard: str | None) -> bytes:
 def repair_folder(source: Any, target: Any, *, format: str | None = None, jobs: int | None = None, timeout: float = 600,
                   grace: float = 5, max_memory: str | int | None = None, restart: bool = False,
                   html: bool = False, shard: str | None = None, merge: bool = False, quiet: bool = True, **options: Any) -> dict[str, Any]:
-    """Repairs all meshes in a folder and its sub-folders, several at a time, each in a process of its own.
+    """Repairs all meshes in a folder and its subfolders, several at a time, each in a separate process.
 
     Args:
         source: the folder to read.
-        target: the folder to write to; it is made. The same call again goes on where the last one stopped.
-        format: of all outputs; by the input's name unless given.
-        jobs: number of processes; as many as there are cores unless given.
-        timeout: seconds for a file, 0: any.
-        grace: seconds that a file has then to end by itself.
-        max_memory: for a file, such as "2G".
-        restart: do all files anew.
+        target: the folder to write to, which is created. Repeat the call to continue an interrupted one.
+        format: format of all outputs; by default that of the input.
+        jobs: number of processes; by default the number of cores.
+        timeout: seconds for a file; 0: no limit.
+        grace: seconds to end after the timeout before a kill.
+        max_memory: memory for a file, such as "2G".
+        restart: repair all files again.
         shard: "3/8" is the third of eight shares of the files; calls with different shards may be at work on one target at
             the same time.
-        merge: repair nothing, sum up what such calls have done.
+        merge: repair nothing; write the summary of such calls.
         html: also write ``index.html`` into the target, a gallery for browsers.
-        quiet: print nothing but the errors.
+        quiet: print only errors.
         **options: of the program ``meshrepair``, with _ for -, for each file.
 
     Returns:

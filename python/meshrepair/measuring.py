@@ -13,7 +13,7 @@ from .results import Check, Distance
 
 
 def check(mesh: Any, faces: Any = None, *, progress: Progress | bool | None = None, **options: Any) -> Check:
-    """Says what is wrong with a mesh as the boundary of a solid. Vertices need not be finite.
+    """Lists the defects of a mesh. Vertices may be NaN or infinite.
 
     Args:
         mesh, faces, progress: as in :func:`repair`. Polygons are triangulated first, and the report is about triangles;
@@ -21,7 +21,7 @@ def check(mesh: Any, faces: Any = None, *, progress: Progress | bool | None = No
         **options: of the program ``meshcheck``: ``weld=True``, ``places=20``, ``openings=True``, and those of limits.
 
     Returns:
-        A check, which is true where the mesh is the boundary of a solid.
+        A check, which is true if the mesh is the boundary of a solid.
 
     >>> import meshrepair
     >>> triangle = meshrepair.check([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
@@ -39,7 +39,7 @@ def check(mesh: Any, faces: Any = None, *, progress: Progress | bool | None = No
 
 
 def distance(first: Any, second: Any, *, progress: Progress | bool | None = None, **options: Any) -> Distance:
-    """Measures how far two meshes are apart, each way.
+    """Measures the distance between two meshes in both directions.
 
     Args:
         first, second: pairs (vertices, faces), or objects that :func:`repair` takes.

@@ -35,35 +35,35 @@ def repair(mesh: Any, faces: Any = None, *, attributes: Any = None, progress: Pr
     """Turns any triangle mesh into the boundary of a solid.
 
     Args:
-        mesh: (n, 3) array of vertices, in any unit; float32, float64 or integers. Or one object that has faces as well: a
-            result of this package, a pair (vertices, faces), a mesh of trimesh, open3d, pyvista or meshio.
-        faces: (m, 3) array of integers of any type, rows of vertices, from 0; or (m, k), or lists of any lengths from 3 on:
-            polygons.
-        attributes: dict of arrays that the faces carry; see :func:`read`.
+        mesh: (n, 3) array of vertices, in any unit; float32, float64 or integers. Or one object with
+            vertices and faces: a result of this package, a pair (vertices, faces), a mesh of trimesh, open3d, pyvista or
+            meshio.
+        faces: (m, 3) array of integers of any type, row indices of vertices, from 0; or (m, k), or lists of length 3 or
+            more: polygons.
+        attributes: dict of attribute arrays; see :func:`read`.
         progress: ``progress(stage, share)``, called a few times a second with a str and a float from 0 to 1; True draws a
             bar.
-        distance: also measure how far the result is from the mesh, for the report.
-        nan: "raise", or "drop": faces at a vertex that is not finite are left out, as the program does.
-        **options: those of the program ``meshrepair``, with _ for -, and _ behind ``for_``: ``inside="solidity"``,
+        distance: also measure the distance of the result from the mesh, for the report.
+        nan: "raise", or "drop": drop faces at vertices with NaN or infinity, as the program does.
+        **options: those of the program ``meshrepair``, with _ for -, and ``for_`` for "for": ``inside="solidity"``,
             ``sew="none"``, ``seal="1%"``, ``max_hole=0.5``, ``strict=True``, ``threads=1``, ``time_limit=10``, ... With
-            ``format="stl"`` and the like the result is certified as such a file will have it. ``precision`` is that of
-            the vertices unless it is given: float32 comes back as float32. ``max_memory`` counts what the whole process
-            holds.
+            ``format="stl"`` and others, the result is certified for a file of this format. ``precision`` defaults to that
+            of the vertices: float32 gives float32. ``max_memory`` limits the memory of the whole process.
 
     Returns:
         A result with ``vertices``, ``faces``, ``source``, ``attributes``, ``report``, ``certified``.
 
-    Vertices and faces are copied once on their way in, whatever their layout. Those of the result are not copied, but for
-    float32 vertices.
+    Input vertices and faces are copied once, whatever their layout. Those of the result are not copied, except float32
+    vertices.
 
     Raises:
-        UsageError: also a ValueError; an argument makes no sense. The message names the row.
+        UsageError: also a ValueError; an argument is invalid. The message names the row.
         NoSolidError: the mesh encloses nothing.
-        NotCertifiedError: with ``strict=True``, where not every guarantee could be shown.
-        LimitError: a limit was hit, or memory ran out.
+        NotCertifiedError: with ``strict=True``, if a guarantee does not hold.
+        LimitError: a limit was reached, or memory ran out.
         KeyboardInterrupt: Ctrl-C.
 
-    A cube that lacks a triangle:
+    A cube without one triangle:
 
     >>> import meshrepair
     >>> vertices = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
@@ -91,17 +91,17 @@ def repair(mesh: Any, faces: Any = None, *, attributes: Any = None, progress: Pr
 
 def repair_points(points: Any, /, normals: Any = None, *, progress: Progress | bool | None = None, distance: bool = False,
                   nan: str = "raise", **options: Any) -> Result:
-    """Makes the boundary of a solid of a point cloud.
+    """Makes the boundary of a solid from a point cloud.
 
     Args:
-        points: (n, 3) array in any unit; float32, float64 or integers. Or one object with ``points`` and maybe
+        points: (n, 3) array in any unit; float32, float64 or integers. Or one object with ``points`` and optional
             ``normals``.
-        normals: (n, 3) array of any lengths, or None. One of length 0, or not finite, says nothing.
+        normals: (n, 3) array of normals of any length, or None. Normals of length 0, NaN or infinity are ignored.
         progress, distance, nan: as in :func:`repair`.
         **options: those of the program ``meshrepair``, with _ for -: ``base=True``, ``up="y"``, ``project=3``, ...
 
     Returns:
-        A result as that of :func:`repair`; ``source`` counts triangles between the points.
+        A result like that of :func:`repair`; ``source`` refers to triangles between the points.
 
     >>> import math, meshrepair
     >>> turns = [(math.acos(1 - (2 * i + 1) / 800), math.pi * (1 + math.sqrt(5)) * i) for i in range(800)]
@@ -121,17 +121,17 @@ def repair_points(points: Any, /, normals: Any = None, *, progress: Progress | b
 
 def repair_file(source: Any, target: Any, *, progress: Progress | bool | None = None, distance: bool = False,
                 **options: Any) -> dict[str, Any]:
-    """Repairs a file into a file: what the program ``meshrepair`` does, in this process; the same bytes.
+    """Repairs a file and writes the result, with the same bytes as the program ``meshrepair``.
 
     Args:
-        source: path of a mesh or of points: STL, OBJ, OFF, PLY, glTF, 3MF, XYZ, PTS, PWN, PCD; maybe packed.
-        target: path of the mesh to write; its extension is the format, unless ``format`` is given.
+        source: path of a mesh or of points: STL, OBJ, OFF, PLY, glTF, 3MF, XYZ, PTS, PWN, PCD; optionally compressed.
+        target: path of the mesh to write; its extension sets the format, unless ``format`` is given.
         progress, distance: as in :func:`repair`.
         **options: all those of the program, with _ for -.
 
     Returns:
-        The report: a dict. ``exit_code`` is 0 where the file holds every guarantee, else 1, and ``error`` says which
-        it lacks. ``warnings`` is a list of lines.
+        The report as a dict. ``exit_code`` is 0 if every guarantee holds, else 1, and ``error`` names the missing one.
+        ``warnings`` is a list of lines.
 
     Raises:
         The exceptions of :func:`repair`, InputError, and OutputError.
@@ -146,17 +146,17 @@ def repair_file(source: Any, target: Any, *, progress: Progress | bool | None = 
 
 def boolean(meshes: Any, op: str, *, progress: Progress | bool | None = None, nan: str = "raise",
             **options: Any) -> Result:
-    """Unites, intersects or subtracts solids; those that are none are repaired first.
+    """Unites, intersects or subtracts solids; invalid ones are repaired first.
 
     Args:
         meshes: two or more pairs (vertices, faces), or objects that :func:`repair` takes.
-        op: "union", "intersection", "difference" (the first without all others) or "xor".
+        op: "union", "intersection", "difference" (the first minus all others) or "xor".
         progress, nan: as in :func:`repair`.
         **options: those of the program ``bspbool``, with _ for -.
 
     Returns:
-        A result as that of :func:`repair`, maybe without faces. ``source`` counts the faces of all meshes, one after the
-        other.
+        A result like that of :func:`repair`, possibly without faces. ``source`` counts the faces of all meshes
+        consecutively.
 
     >>> import meshrepair
     >>> def box(low, high):

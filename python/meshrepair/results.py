@@ -63,9 +63,9 @@ class Mesh(_WithReport):
 
 
 class Result(Mesh):
-    """What a repair or a Boolean operation made.
+    """The result of a repair or a Boolean operation.
 
-    Attributes, beside those of a mesh:
+    Attributes, in addition to those of a mesh:
         source: (m,) int32, of each face the row of the input's faces that it lies in; -1 where a gap was closed. Of a
             Boolean operation, rows count through all operands.
         certified: whether every guarantee was shown, by an exact test of these vertices and faces.
@@ -102,7 +102,7 @@ class Points(_WithReport):
 
 
 class Check(_WithReport):
-    """What is wrong with a mesh. It is true where the mesh is the boundary of a solid.
+    """The defects of a mesh. It is true if the mesh is the boundary of a solid.
 
     Attributes:
         valid_solid, closed, manifold, oriented, outward: bool.
@@ -150,7 +150,7 @@ class Check(_WithReport):
 
 
 class Distance(_WithReport):
-    """How far two meshes are apart.
+    """The distance between two meshes.
 
     Attributes:
         hausdorff: float, from below: the largest distance found, either way; in the unit of the input.

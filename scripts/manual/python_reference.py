@@ -13,8 +13,8 @@ PACKAGE = ROOT / "python/meshrepair"
 SECTIONS = {"Args:": ("argument", "is"), "Attributes:": ("attribute", "is")}
 HEAD = """# Python reference
 
-What the package `meshrepair` has, as its docstrings say. `scripts/make_docs.py` makes this page. [python.md](python.md) shows how it
-is used.
+All functions, classes and exceptions of the package `meshrepair`. `scripts/make_docs.py` makes this page from the docstrings.
+[python.md](python.md) has examples.
 """
 Table = Callable[[tuple[str, ...], list[tuple[str, ...]]], list[str]]
 

@@ -1,4 +1,4 @@
-// Draws the pictures of docs/html.md: pages of --html in a browser.
+// Draws the pictures of docs/showing.md#pages-for-browsers: pages of --html in a browser.
 //
 // Usage: node picture_pages.mjs PROGRAMS MESHES FOLDER
 //

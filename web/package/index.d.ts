@@ -1,6 +1,6 @@
 // meshrepair: turns any triangle mesh into the boundary of a solid.
 
-/** Bytes of a file: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip). */
+/** Bytes of a file: STL, OBJ, OFF, PLY, glTF or 3MF, optionally compressed (.gz, .zst, .zip). */
 export type FileBytes = Uint8Array | ArrayBuffer | ArrayBufferView | Blob;
 
 /** What corners carry: of corner k of face f the number of its value is `corners[3 * f + k]`, 4294967295 for none. */
