@@ -8,12 +8,12 @@
 
 #include <base/error.h>
 #include <base/first_equal.h>
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <base/parallel.h>
 #include <bsp/clean_soup.h>
 #include <bsp/common_grid.h>
-#include <bsp/corners.h>
-#include <exact/grid_hash.h>
+#include <bsp/internal/corners.h>
+#include <exact/internal/grid_hash.h>
 #include <mesh/mesh_limits.h>
 
 #include "count_layers.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <mesh/weld_points.h>
 
 #include "point_blocks.h"

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-#include <boolean/collapse_tree.h>
 #include <boolean/merge_trees.h>
 #include <bsp/common_grid.h>
 #include <extract/build_cells.h>
 #include <repair/repair.h>
 
+#include "collapse_tree.h"
 #include "shapes.h"
 
 namespace meshrepair {

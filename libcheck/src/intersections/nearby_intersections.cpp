@@ -3,9 +3,9 @@
 #include <utility>
 
 #include <base/ids.h>
-#include <check/nearby_intersections.h>
+#include <check/internal/nearby_intersections.h>
+#include <check/internal/triangles_near.h>
 #include <check/self_intersections.h>
-#include <check/triangles_near.h>
 
 namespace meshrepair::internal {
 namespace {

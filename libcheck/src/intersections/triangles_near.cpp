@@ -1,8 +1,8 @@
 #include <cstddef>
 
 #include <base/parallel.h>
-#include <check/triangle_list.h>
-#include <check/triangles_near.h>
+#include <check/internal/triangle_list.h>
+#include <check/internal/triangles_near.h>
 
 namespace meshrepair::internal {
 namespace {

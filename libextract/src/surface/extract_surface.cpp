@@ -8,13 +8,13 @@
 #include <extract/boundary.h>
 #include <extract/cut_nonmanifold.h>
 #include <extract/extract_surface.h>
-#include <extract/merge_facets.h>
-#include <extract/triangulate.h>
 #include <mesh/topology.h>
 
-#include "facets/loose_regions.h"
+#include "facets/merge_facets.h"
 #include "input_points.h"
+#include "loose_regions.h"
 #include "region_triangulator.h"
+#include "triangulate_convex.h"
 
 namespace meshrepair {
 namespace {
@@ -26,7 +26,7 @@ using internal::RegionTriangle;
 struct MergedBoundary {
   Boundary boundary;
   ManifoldCorners corners;
-  MergedFacets merged;
+  internal::MergedFacets merged;
   MiddleVertices middles;
   std::vector<char> alone;  // of each polygon: not to be merged with others; empty: none
   bool merges_triangles = true;
@@ -131,7 +131,7 @@ class SurfaceExtractor {
     }
     pieces_.clear();
     if (has_middle) {
-      triangulate_convex(corner_list_, pieces_);
+      internal::triangulate_convex(corner_list_, pieces_);
     } else {
       pieces_.push_back({0, 1, 2});
     }
@@ -233,7 +233,7 @@ class SurfaceExtractor {
   const std::vector<char>& solid_;
   const Boundary& boundary_;
   const ManifoldCorners& corners_;
-  const MergedFacets& merged_;
+  const internal::MergedFacets& merged_;
   const MiddleVertices& middles_;
   const std::vector<char>& alone_;
   const InputPoints& input_points_;
@@ -241,7 +241,7 @@ class SurfaceExtractor {
   std::vector<std::uint32_t> output_vertex_, output_middle_;
   std::vector<std::uint32_t> failed_, region_of_triangle_;
   IdVector<PointId, VertexId> taken_by_;  // of the points of the input, in a loose complex
-  std::vector<PolygonCorner> corner_list_;
+  std::vector<internal::PolygonCorner> corner_list_;
   std::vector<std::uint32_t> vertex_list_;
   std::vector<std::array<std::uint32_t, 3>> pieces_;
 };
@@ -290,8 +290,8 @@ class LooseExtractor {
   void merge() {
     for (std::size_t round = 0;; ++round) {
       if (round == kMostRounds) set_all_apart();
-      parts_.merged = merge_facets(complex_, cover_, solid_, parts_.boundary, parts_.corners,
-                                   parts_.alone, parts_.merges_triangles);
+      parts_.merged = internal::merge_facets(complex_, cover_, solid_, parts_.boundary,
+                                             parts_.corners, parts_.alone, parts_.merges_triangles);
       if (!internal::set_apart_odd_regions(parts_.boundary, parts_.corners, parts_.merged,
                                            parts_.alone)) {
         break;
@@ -340,8 +340,8 @@ Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cove
   if (complex.loose) {
     return LooseExtractor(complex, cover, solid, std::move(parts)).run(report, options.progress);
   }
-  parts.merged = merge_facets(complex, cover, solid, parts.boundary, parts.corners, {},
-                              options.merges_triangles);
+  parts.merged = internal::merge_facets(complex, cover, solid, parts.boundary, parts.corners, {},
+                                        options.merges_triangles);
   parts.middles = separate_common_edges(complex, parts.boundary, parts.corners);
   const InputPoints input_points(complex.soup());
   return SurfaceExtractor(complex, cover, solid, parts, input_points).run(report, options.progress);

@@ -8,7 +8,7 @@
 #include <base/assert.h>
 #include <exact/predicates.h>
 
-#include "facets/loose_regions.h"
+#include "loose_regions.h"
 
 namespace meshrepair::internal {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <base/disjoint_sets.h>
-#include <extract/merge_facets.h>
-#include <extract/triangulate.h>
 
+#include "facets/merge_facets.h"
 #include "triangulate/planar_mesh.h"
+#include "triangulate_convex.h"
 
 namespace meshrepair::internal {
 

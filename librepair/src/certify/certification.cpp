@@ -24,11 +24,10 @@
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <repair/certify.h>
-#include <repair/join_ends.h>
-#include <repair/mend_faults.h>
 
+#include "common/drop_thin_parts.h"
 #include "faulty_groups.h"
-#include "mend/drop_thin_parts.h"
+#include "mend/mend_faults.h"
 #include "nudge_points.h"
 #include "separate_copies.h"
 #include "settle_points.h"

@@ -1,6 +1,6 @@
 #include "faulty_groups.h"
 
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/weld_points.h>
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <exact/double_predicates.h>
 #include <mesh/precision.h>
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include <check/known_intersections.h>
+#include <check/internal/known_intersections.h>
 #include <exact/grid.h>
 #include <extract/surface.h>
 

@@ -17,7 +17,7 @@ namespace meshrepair::internal {
 namespace {
 
 // A corner of a body that is as far as the distance from three faces at once is so far from theirs.
-const double kRadius = std::sqrt(3.0);
+const double kCornerDistance = std::sqrt(3.0);
 
 // Each round adds what edges and faces have in common, of which there is only so much; most need
 // three.
@@ -56,7 +56,7 @@ std::vector<Box> boxes_of_edges(const NearMesh& mesh) {
 NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double gap,
                      double distance, CancelCheck& check)
     : pairs_(pairs),
-      radius_(kRadius * distance),
+      radius_(kCornerDistance * distance),
       check_(check),
       mesh_(soup),
       is_placed_(soup.points.size(), 0) {

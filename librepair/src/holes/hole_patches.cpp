@@ -13,7 +13,7 @@
 #include <base/error.h>
 #include <base/parallel.h>
 #include <base/shared_progress.h>
-#include <bsp/corners.h>
+#include <bsp/internal/corners.h>
 #include <mesh/edge_table.h>
 #include <repair/hole_patches.h>
 #include <repair/orient_parts.h>

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <utility>
 
-#include <repair/flood.h>
 #include <repair/inside_rule.h>
 #include <repair/walk.h>
 
+#include "flood.h"
 #include "outer_pockets.h"
 #include "turn_parts.h"
 #include "voids.h"
@@ -84,7 +84,7 @@ class InsideDecider {
     CellLabels labels = by_parity();
     std::vector<char> empty(labels.solid.size());
     for (std::size_t i = 0; i < empty.size(); ++i) empty[i] = labels.solid[i] == 0;
-    labels.solid = flood_from_infinity(graph_, empty, options_.solve.progress);
+    labels.solid = internal::flood_from_infinity(graph_, empty, options_.solve.progress);
     const internal::Voids voids = internal::find_voids(
         graph_, labels.solid, empty, orientation_.part_of, options_.solve.progress);
     if (cavities == Cavities::fill) {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 #include <exact/double_predicates.h>
 
 namespace meshrepair::internal {

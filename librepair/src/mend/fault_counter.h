@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <check/box_tree.h>
-#include <check/triangle_pair.h>
-#include <mesh/editable_mesh.h>
+#include <check/internal/triangle_pair.h>
+#include <mesh/internal/editable_mesh.h>
 #include <mesh/soup.h>
 
 #include "boxes_around.h"

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include <mesh/triangle_measures.h>
+#include <mesh/internal/triangle_measures.h>
 
 #include "turn_sets.h"
 

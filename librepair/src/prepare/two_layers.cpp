@@ -10,12 +10,12 @@
 #include <vector>
 
 #include <base/disjoint_sets.h>
-#include <base/hash_index.h>
 #include <base/ids.h>
+#include <base/internal/hash_index.h>
 #include <bsp/common_grid.h>
 #include <mesh/edge_table.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <repair/orient_parts.h>
 
 #include "open/open_sheets.h"

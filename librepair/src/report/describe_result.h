@@ -18,4 +18,8 @@ void describe_output(const Surface& surface, RepairReport& report);
 // RepairReport::same_triangles and triangles.rounded, once the surface does not change any more.
 void compare_with_input(const TriangleSoup& soup, const Surface& surface, RepairReport& report);
 
+// Of a surface that was made of corners that sewing moved: takes back that these are points of the
+// input, and that their triangles came out as they were.
+void note_moved_corners(const TriangleSoup& given, Surface& surface, RepairReport& report);
+
 }  // namespace meshrepair::internal

@@ -9,9 +9,9 @@
 
 #include <base/ids.h>
 #include <base/progress.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <repair/fidelity.h>
 
 namespace meshrepair {

@@ -13,8 +13,8 @@
 #include <base/error.h>
 #include <base/parallel.h>
 #include <mesh/edge_table.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/mesh_parts.h>
-#include <mesh/triangle_measures.h>
 
 #include "common/minimum_cut.h"
 #include "triangle_rays.h"

@@ -7,10 +7,10 @@
 
 #include <base/error.h>
 #include <repair/cell_graph.h>
-#include <repair/flood.h>
 #include <repair/inside_rule.h>
 
 #include "closed_and_open.h"
+#include "inside/flood.h"
 #include "open/open_sheets.h"
 
 namespace meshrepair::internal {

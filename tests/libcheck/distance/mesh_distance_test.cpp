@@ -6,8 +6,8 @@
 
 #include <base/error.h>
 #include <base/parallel.h>
+#include <check/internal/nearest_triangle.h>
 #include <check/mesh_distance.h>
-#include <check/nearest_triangle.h>
 
 #include "shapes.h"
 

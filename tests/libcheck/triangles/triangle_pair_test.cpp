@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <check/triangle_pair.h>
+#include <check/internal/triangle_pair.h>
 #include <exact/double_predicates.h>
 
 #include "random_geometry.h"

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <extract/check_complex.h>
 #include <extract/clip_cell.h>
 
+#include "cells/check_complex.h"
 #include "complexes.h"
 
 namespace meshrepair {
@@ -28,7 +28,7 @@ class ClipCube : public ::testing::Test {
 
   CellId clip(PlaneId by, CellId cell = CellId(0u)) {
     const CellId below = clipper_.clip(cell, by);
-    EXPECT_NO_THROW(check_complex(complex_));
+    EXPECT_NO_THROW(internal::check_complex(complex_));
     return below;
   }
 
@@ -144,7 +144,7 @@ TEST_F(ClipCube, ManyPlanesThroughOneVertexAndOneEdge) {
       if (above > 0 && below > 0) (void)clipper_.clip(CellId(c), p);
     }
   }
-  check_complex(complex_);
+  internal::check_complex(complex_);
   expect_convex_cells(complex_);
   for (CellId c(0u); c < complex_.cells.end_id(); ++c.value) volume += cell_volume(complex_, c);
   EXPECT_NEAR(volume, 64, 1e-9);

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <repair/repair.h>
 #include <repair/seal_openings.h>
 

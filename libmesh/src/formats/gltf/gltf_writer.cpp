@@ -8,9 +8,9 @@
 #include <utility>
 
 #include <mesh/named_files.h>
-#include <mesh/srgb.h>
 
 #include "formats/common/uri.h"
+#include "formats/gltf/common/srgb.h"
 #include "gltf_builder.h"
 #include "gltf_io.h"
 #include "gltf_keepsake.h"

@@ -6,7 +6,7 @@
 #include <base/progress.h>
 #include <repair/cell_graph.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 // 1 for the cells that cannot be reached from outside the box through cells with `empty` set,
 // without passing an opaque link: the inside. `progress` is asked whether to go on.
@@ -14,4 +14,4 @@ namespace meshrepair {
                                                     const std::vector<char>& empty,
                                                     ProgressObserver* progress = nullptr);
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -1,4 +1,4 @@
-// Taking away what rounding made intersect, place by place.
+// Taking away what rounding made intersect or lose its area, place by place.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <check/self_intersections.h>
 #include <extract/surface.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 struct MendOptions {
   double step = 0;   // of the numbers that can be written
@@ -26,4 +26,10 @@ struct MendOptions {
 std::size_t mend_faults(Surface& surface, const SelfIntersections& found,
                         const MendOptions& options);
 
-}  // namespace meshrepair
+// Makes the two ends of an edge one where rounding has brought them to one place, and takes away
+// the two triangles at the edge, which have no area. Leaves the edges where the surface would not
+// stay a closed manifold of the same genus. Returns how many points went. `surface` is closed and
+// manifold; linear in its size.
+std::size_t join_ends(Surface& surface);
+
+}  // namespace meshrepair::internal

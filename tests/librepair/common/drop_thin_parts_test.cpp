@@ -1,4 +1,4 @@
-#include "mend/drop_thin_parts.h"
+#include "common/drop_thin_parts.h"
 
 #include <vector>
 

@@ -6,7 +6,7 @@
 
 #include <boolean/boolean.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 // The surface that boolean() gives: all solids are joined as one soup, whose triangles know which
 // of them have them, and the operation is a function of the winding numbers of each chamber.
@@ -22,4 +22,4 @@ namespace meshrepair {
 [[nodiscard]] Surface boolean_by_cells(std::span<const TriangleSoup> solids, SetOperation operation,
                                        const BooleanOptions& options, BooleanReport& report);
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -1,6 +1,6 @@
-#include <cmath>
+#include "srgb.h"
 
-#include <mesh/srgb.h>
+#include <cmath>
 
 namespace meshrepair {
 namespace {

@@ -2,10 +2,11 @@
 // side carries vertices, that side is one chain and everything else the other: a vertex inside the
 // side is in line with no other side, so no triangle with a corner there and one elsewhere is
 // degenerate.
-#include <base/assert.h>
-#include <extract/triangulate.h>
+#include "triangulate_convex.h"
 
-namespace meshrepair {
+#include <base/assert.h>
+
+namespace meshrepair::internal {
 namespace {
 
 using Polygon = std::span<const PolygonCorner>;
@@ -94,4 +95,4 @@ void triangulate_convex(Polygon polygon, Triangles& triangles) {
   }
 }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

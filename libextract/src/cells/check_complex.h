@@ -3,7 +3,7 @@
 
 #include <extract/cell_complex.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 // Every loop is closed, simple and linked both ways; every edge of the cell lies between exactly
 // two of its facets, which pass it in opposite directions seen from outside; V - E + F = 2; at
@@ -14,4 +14,4 @@ void check_cell(const CellComplex& complex, CellId cell);
 // outside are on the box, cells' lists and facets' sides agree.
 void check_complex(const CellComplex& complex);
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -40,18 +40,6 @@ struct Passage {
 
 }  // namespace
 
-bool lies_between(const Point& point, const Point& a, const Point& b) {
-  const auto vector = [](const Point& p) {
-    return Vec3d(p.position[0], p.position[1], p.position[2]);
-  };
-  const Vec3d along = vector(b) - vector(a);
-  const Vec3d from_a = vector(point) - vector(a);
-  const double length = along.norm();
-  const double reach = from_a.dot(along);
-  return reach > 0 && reach < length * length &&
-         from_a.cross(along).norm() <= static_cast<double>(point.error) * length;
-}
-
 bool set_apart_odd_regions(const Boundary& boundary, const ManifoldCorners& corners,
                            const MergedFacets& merged, std::vector<char>& alone) {
   std::vector<char> sound = sound_regions(boundary, corners, merged);

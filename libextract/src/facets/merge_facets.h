@@ -10,7 +10,7 @@
 #include <extract/cover_facets.h>
 #include <extract/cut_nonmanifold.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 // A region is a connected set of boundary facets that are covered by the same triangle of the
 // input, or by several of one plane that are all cut, or that are not covered and lie in one plane.
@@ -51,4 +51,8 @@ struct MergedFacets {
                                         std::span<const char> alone = {},
                                         bool merges_triangles = true);
 
-}  // namespace meshrepair
+// Whether a loose point is within its tolerance of the line between two others, and between them.
+// Planes say less: two may be so nearly parallel that being near both is not being near their line.
+[[nodiscard]] bool lies_between(const Point& point, const Point& a, const Point& b);
+
+}  // namespace meshrepair::internal

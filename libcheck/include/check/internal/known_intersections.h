@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <check/internal/triangle_list.h>
 #include <check/self_intersections.h>
-#include <check/triangle_list.h>
 #include <mesh/edge_table.h>
 #include <mesh/soup.h>
 

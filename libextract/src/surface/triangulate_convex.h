@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 struct PolygonCorner {
   std::array<double, 3> position{};  // only for choosing the shorter diagonal
@@ -18,4 +18,4 @@ struct PolygonCorner {
 void triangulate_convex(std::span<const PolygonCorner> polygon,
                         std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

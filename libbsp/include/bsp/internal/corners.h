@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include <base/hash_index.h>
 #include <base/ids.h>
+#include <base/internal/hash_index.h>
 
 namespace meshrepair::internal {
 

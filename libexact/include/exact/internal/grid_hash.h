@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <exact/grid.h>
 
 namespace meshrepair::internal {

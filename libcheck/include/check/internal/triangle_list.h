@@ -10,7 +10,7 @@
 #include <base/raw_vector.h>
 #include <base/release.h>
 #include <check/box_tree.h>
-#include <check/triangle_pair.h>
+#include <check/internal/triangle_pair.h>
 #include <mesh/soup.h>
 
 namespace meshrepair::internal {

@@ -1,4 +1,6 @@
 // Colours of screens and of light.
+#include "formats/gltf/common/srgb.h"
+
 #include <cmath>
 #include <memory>
 #include <string>
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <mesh/soup_io.h>
-#include <mesh/srgb.h>
 
 #include "soup_fixtures.h"
 

@@ -4,7 +4,7 @@
 #include <base/progress.h>
 #include <bsp/tree.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 // Whether the triangles on the grid are the boundary of a solid: closed, manifold, outward, and
 // nowhere crossing. Throws Cancelled.
@@ -16,4 +16,4 @@ namespace meshrepair {
 // the labels being undefined, where neither tells.
 [[nodiscard]] bool label_beside_triangles(Tree& tree);
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -6,7 +6,7 @@
 
 #include <bsp/clean_soup.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 // Where the second soup's elements are in the joined one; those of the first keep their ids, but
 // for triangles.
@@ -20,4 +20,4 @@ struct JoinMap {
 [[nodiscard]] CleanSoup join_soups(const CleanSoup& first, const CleanSoup& second,
                                    std::uint32_t second_source, JoinMap& map);
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -1,3 +1,5 @@
+#include "surface/triangulate_convex.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-#include <extract/triangulate.h>
 #include <mesh/topology.h>
 
 #include "each_seed.h"
@@ -68,7 +69,7 @@ std::vector<IntegerPoint> with_straight_vertices(const std::vector<IntegerPoint>
 
 void expect_triangulation(const std::vector<IntegerPoint>& polygon) {
   const std::size_t n = polygon.size();
-  std::vector<PolygonCorner> corners;
+  std::vector<internal::PolygonCorner> corners;
   std::int64_t whole = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const IntegerPoint& before = polygon[(i + n - 1) % n];
@@ -78,7 +79,7 @@ void expect_triangulation(const std::vector<IntegerPoint>& polygon) {
     whole += twice_area(polygon[0], polygon[i], after);
   }
   Triangles triangles = {{7, 7, 7}};  // what is there stays
-  triangulate_convex(corners, triangles);
+  internal::triangulate_convex(corners, triangles);
   ASSERT_EQ(triangles.size(), n - 1);
   EXPECT_EQ(triangles.front(), (std::array<std::uint32_t, 3>{7, 7, 7}));
   triangles.erase(triangles.begin());
@@ -134,15 +135,15 @@ TEST(TriangulateConvex, ATriangleWithAllItsSidesFull) {
 TEST(TriangulateConvex, ATriangleIsItself) {
   expect_triangulation({{0, 0}, {5, 1}, {2, 4}});
   Triangles triangles;
-  const std::vector<PolygonCorner> corners(3);
-  triangulate_convex(corners, triangles);
+  const std::vector<internal::PolygonCorner> corners(3);
+  internal::triangulate_convex(corners, triangles);
   EXPECT_EQ(triangles, (Triangles{{0, 1, 2}}));
 }
 
 TEST(TriangulateConvex, FewerThanThreeCornersAreOurBug) {
   Triangles triangles;
-  const std::vector<PolygonCorner> corners(2);
-  EXPECT_THROW(triangulate_convex(corners, triangles), InternalError);
+  const std::vector<internal::PolygonCorner> corners(2);
+  EXPECT_THROW(internal::triangulate_convex(corners, triangles), InternalError);
 }
 
 }  // namespace

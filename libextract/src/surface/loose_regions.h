@@ -1,5 +1,5 @@
-// What merging facets needs besides where predicates may have been wrong: regions that are no
-// polygons are found here, before and after they are triangulated.
+// Regions that are no polygons, as there are where predicates were wrong: found before and after
+// they are triangulated.
 #pragma once
 
 #include <array>
@@ -7,13 +7,9 @@
 #include <span>
 #include <vector>
 
-#include <extract/merge_facets.h>
+#include "facets/merge_facets.h"
 
 namespace meshrepair::internal {
-
-// Whether a loose point is within its tolerance of the line between two others, and between them.
-// Planes say less: two may be so nearly parallel that being near both is not being near their line.
-[[nodiscard]] bool lies_between(const Point& point, const Point& a, const Point& b);
 
 // Marks the polygons of regions that have no outline, or one with fewer than three corners, or a
 // polygon of two sides, unless they are alone already. False when there were none.
