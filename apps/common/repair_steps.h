@@ -14,8 +14,8 @@
 #include <mesh/soup_io.h>
 #include <repair/fidelity.h>
 #include <repair/repair.h>
+#include <repair/repair_points.h>
 #include <repair/transfer_attributes.h>
-#include <scan/repair_points.h>
 
 #include "common/asset_options.h"
 #include "common/picture_request.h"

@@ -12,7 +12,7 @@
 #include <repair/chamber_graph.h>
 #include <repair/inside_rule.h>
 
-#include "sheets/fill_slits.h"
+#include "slits/fill_slits.h"
 
 namespace meshrepair::internal {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-#include <scan/repair_points.h>
+#include <repair/repair_points.h>
 
 #include "point_clouds.h"
 #include "shapes.h"

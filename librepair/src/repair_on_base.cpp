@@ -7,7 +7,7 @@
 
 #include <mesh/weld_points.h>
 #include <repair/explain_repair.h>
-#include <scan/repair_on_base.h>
+#include <repair/repair_on_base.h>
 
 namespace meshrepair {
 namespace {

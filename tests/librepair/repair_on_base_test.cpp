@@ -6,7 +6,7 @@
 
 #include <base/error.h>
 #include <repair/explain_repair.h>
-#include <scan/repair_on_base.h>
+#include <repair/repair_on_base.h>
 
 #include "open_surfaces.h"
 #include "shapes.h"

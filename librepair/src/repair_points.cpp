@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <base/error.h>
 #include <base/stage_meter.h>
+#include <mesh/precision.h>
 #include <points/terrain.h>
 #include <repair/drop_small_parts.h>
-#include <scan/repair_on_base.h>
-#include <scan/repair_points.h>
-
-#include "columns.h"
+#include <repair/repair_on_base.h>
+#include <repair/repair_points.h>
 
 namespace meshrepair {
 namespace {
@@ -227,13 +230,55 @@ class PointRepair {
   std::string why_;        // the last try that was repaired is no solid
 };
 
+// Far from the origin the steps of single precision are wider than a terrain's points are apart.
+// Rounded after they were triangulated, points beside each other would come to lie above each
+// other, and triangles between them would cross all over.
+using Column = std::array<double, 2>;
+
+Column column_of(const Vec3d& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+
+template <class T>
+void keep_points(const std::vector<std::uint32_t>& kept, std::vector<T>& of_points) {
+  if (of_points.empty()) return;
+  for (std::size_t i = 0; i < kept.size(); ++i) of_points[i] = of_points[kept[i]];
+  of_points.resize(kept.size());
+}
+
+// The cloud as it can be written in single precision, if that brings points that are beside each
+// other into one column along `axis`; of these it has the first alone. Nothing if it brings none.
+std::optional<PointCloud> without_joined_columns(const PointCloud& cloud, int axis) {
+  PointCloud rounded = cloud;
+  std::vector<std::uint32_t> finite, kept;
+  for (std::uint32_t i = 0; i < cloud.points.size(); ++i) {
+    Vec3d& p = rounded.points[i];
+    p = internal::rounded_to(p, Precision::float32);
+    (p.allFinite() ? finite : kept).push_back(i);
+  }
+  const auto column = [&](std::uint32_t i) { return column_of(rounded.points[i], axis); };
+  std::stable_sort(finite.begin(), finite.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return column(a) < column(b); });
+  std::uint32_t first = 0;  // of its column
+  for (std::size_t i = 0; i < finite.size(); ++i) {
+    if (i == 0 || column(finite[i]) != column(first)) first = finite[i];
+    const bool is_beside =
+        column_of(cloud.points[finite[i]], axis) != column_of(cloud.points[first], axis);
+    if (!is_beside) kept.push_back(finite[i]);
+  }
+  if (kept.size() == cloud.points.size()) return std::nullopt;
+  std::sort(kept.begin(), kept.end());
+  keep_points(kept, rounded.points);
+  keep_points(kept, rounded.normals);
+  keep_points(kept, rounded.colours);
+  return rounded;
+}
+
 }  // namespace
 
 PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& options,
                          RepairPointsReport& report, RepairReport& repair) {
   report = {};
   if (options.base && options.repair.certify.precision == Precision::float32) {
-    const auto apart = internal::without_joined_columns(cloud, options.scan_base.axis);
+    const auto apart = without_joined_columns(cloud, options.scan_base.axis);
     if (apart) {
       report.joined_columns = cloud.points.size() - apart->points.size();
       return PointRepair(*apart, options, report, repair).run();
