@@ -6,7 +6,6 @@
 #include <boolean/boolean.h>
 
 #include "boolean_chambers.h"
-#include "joined_operands.h"
 #include "label_beside_triangles.h"
 #include "operands.h"
 

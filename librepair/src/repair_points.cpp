@@ -16,7 +16,7 @@
 #include <base/stage_meter.h>
 #include <mesh/precision.h>
 #include <points/terrain.h>
-#include <repair/drop_small_parts.h>
+#include <repair/keep_parts.h>
 #include <repair/repair_on_base.h>
 #include <repair/repair_points.h>
 

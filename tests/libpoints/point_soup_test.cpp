@@ -8,7 +8,7 @@
 #include <check/mesh_distance.h>
 #include <mesh/topology.h>
 #include <points/point_soup.h>
-#include <repair/drop_small_parts.h>
+#include <repair/keep_parts.h>
 #include <repair/repair.h>
 
 #include "point_clouds.h"

@@ -1,5 +1,3 @@
-#include "tangent_star.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,8 @@
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "point_stars.h"
 
 namespace meshrepair {
 namespace {

@@ -6,7 +6,7 @@
 #include <base/parallel.h>
 #include <base/shared_sets.h>
 #include <check/soup_rays.h>
-#include <exact/turn.h>
+#include <exact/predicates.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -212,10 +212,10 @@ std::vector<std::uint32_t> turning_triangles(const Candidate& candidate, double 
   const BoxTree tree(boxes);
   std::vector<std::uint32_t> blamed;
   for (const std::uint32_t t : candidate.changed) {
-    Box reach;
-    for (const std::uint32_t p : mesh.triangles[t]) reach.add(mesh.points[p]);
-    reach.widen(within);
-    if (meets_any(tree, boxes, reach)) blamed.push_back(t);
+    Box around;
+    for (const std::uint32_t p : mesh.triangles[t]) around.add(mesh.points[p]);
+    around.widen(within);
+    if (meets_any(tree, boxes, around)) blamed.push_back(t);
   }
   return blamed;
 }

@@ -14,7 +14,6 @@
 #include "input_points.h"
 #include "loose_regions.h"
 #include "region_triangulator.h"
-#include "triangulate_convex.h"
 
 namespace meshrepair {
 namespace {

@@ -43,7 +43,7 @@ void label_tree(Tree& tree, const RepairOptions& options, RepairReport& report);
                                    RepairReport& report);
 
 // The same from the chambers of an arrangement of `soup`, those with a flag in `solid`: extracted,
-// simplified and certified. Nothing where cells are needed for that: where sheets nearly coincide,
+// simplified and certified. Nothing where cells are needed for that: where faces nearly coincide,
 // in rare cases in which solids touch, or where the result is to be certified and is not.
 [[nodiscard]] std::optional<Surface> extract_mesh(const CleanSoup& soup,
                                                   const Arrangement& arrangement,

@@ -28,7 +28,6 @@
 #include "common/drop_thin_parts.h"
 #include "faulty_groups.h"
 #include "mend/mend_faults.h"
-#include "nudge_points.h"
 #include "separate_copies.h"
 #include "settle_points.h"
 
@@ -355,7 +354,7 @@ bool Certification::mend_places(Attempt& attempt) {
   if (attempt.found.count + attempt.found.degenerate == 0) return false;
   MendOptions options;
   options.step = spacing_;
-  options.reach = std::max(step_, kMendSteps * spacing_);
+  options.within = std::max(step_, kMendSteps * spacing_);
   options.rounded = [&](const Vec3d& p) { return rounded_to(p, options_.precision); };
   options.progress = &progress_;
   Attempt mended = attempt;

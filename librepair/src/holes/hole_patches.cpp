@@ -23,13 +23,11 @@
 #include "curve_patch.h"
 #include "facing_rims.h"
 #include "flanges.h"
-#include "large_openings.h"
 #include "loop_triangulation.h"
 #include "new_points.h"
 #include "notches.h"
 #include "rim.h"
 #include "sheet_rims.h"
-#include "strip_triangulation.h"
 
 namespace meshrepair {
 namespace {

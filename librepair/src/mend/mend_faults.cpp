@@ -200,8 +200,8 @@ class FaultMender {
     edit.input_points = surface_.input_point[point] != 0 ? 1 : 0;
     for (std::size_t to = 0; to < link.size(); ++to) {
       const double length = (link_[to] - points_[point]).stableNorm();
-      edit.distance = std::min(star_distance_.bound(to, options_.reach), length);
-      if (!(edit.distance <= options_.reach)) continue;
+      edit.distance = std::min(star_distance_.bound(to, options_.within), length);
+      if (!(edit.distance <= options_.within)) continue;
       if (!mesh_.find_collapse(point, link[to], edit.mesh)) continue;
       edit.gain = before - faults_.count(edit.mesh.now);
       take_if_better(edit);
@@ -216,7 +216,7 @@ class FaultMender {
     const TriangleCorners& one = edit.mesh.now[0];
     const TriangleCorners& old = mesh_.triangles()[triangle];
     edit.distance = distance_of_lines(one[0], one[1], old[k], old[(k + 1) % 3]);
-    if (!(edit.distance <= options_.reach)) return;
+    if (!(edit.distance <= options_.within)) return;
     const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles);
     if (before == 0) return;
     edit.gain = before - faults_.count(edit.mesh.now);

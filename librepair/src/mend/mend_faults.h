@@ -11,8 +11,8 @@
 namespace meshrepair::internal {
 
 struct MendOptions {
-  double step = 0;   // of the numbers that can be written
-  double reach = 0;  // how far the surface may be where an edge was collapsed or turned
+  double step = 0;    // of the numbers that can be written
+  double within = 0;  // how far the surface may be where an edge was collapsed or turned
   std::function<Vec3d(const Vec3d&)> rounded;  // to the nearest point that can be written
   ProgressObserver* progress = nullptr;        // not owned; no stage is begun
 };

@@ -6,11 +6,9 @@
 #include <vector>
 
 #include <base/parallel.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <mesh/weld_points.h>
-
-#include "whole_triangle.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -118,6 +116,18 @@ void note_moved_corners(const TriangleSoup& given, Surface& surface, RepairRepor
   const std::size_t all = fates.untouched + fates.cut;
   fates.untouched = std::min(whole, fates.untouched);
   fates.cut = all - fates.untouched;
+}
+
+bool has_corners_of_source(const TriangleSoup& soup, const Surface& surface, std::size_t t) {
+  const auto& from = soup.triangles[surface.source[t]];
+  const auto& to = surface.mesh.triangles[t];
+  return std::all_of(from.begin(), from.end(), [&](std::uint32_t p) {
+    const Vec3d &given = soup.points[p], single = rounded_to_float32(given);
+    return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
+      const Vec3d& point = surface.mesh.points[q];
+      return point == given || point == single;
+    });
+  });
 }
 
 }  // namespace meshrepair::internal

@@ -27,4 +27,9 @@ std::size_t close_slits(CleanSoup& soup, ProgressObserver* progress = nullptr);
 // triangles have a source. Linear in the triangles, n log n in edges left open. Throws Cancelled.
 bool zip_edges(CleanSoup& soup, ProgressObserver* progress = nullptr);
 
+// Drops triangles as many copies of which are turned one way as the other, and points that no other
+// one has: where all triangles are turned rightly, such are walls without inside, as rounding makes
+// them of thin ones. What was closed stays so. Returns how many triangles went. Linear.
+std::size_t drop_cancelled(CleanSoup& soup);
+
 }  // namespace meshrepair::internal

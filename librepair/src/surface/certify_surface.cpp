@@ -146,7 +146,7 @@ void repair_groups(Certification& whole, const Grid& grid, const CertifyOptions&
   for (Surface& group : groups) {
     const double to =
         from + static_cast<double>(group.mesh.triangles.size()) / static_cast<double>(triangles);
-    PartOfStage part(whole.groups_progress(), from, to);
+    ShareOfStage part(whole.groups_progress(), from, to);
     from = to;
     CertifyReport report;
     Certification one(std::move(group), grid, certify, &part, report);

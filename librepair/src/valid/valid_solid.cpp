@@ -17,7 +17,7 @@
 #include <mesh/weld_points.h>
 #include <repair/valid_solid.h>
 
-#include "orient/surface_patches.h"
+#include "orient/surface_pieces.h"
 
 namespace meshrepair {
 namespace {

@@ -1,5 +1,3 @@
-#include "surface/triangulate_convex.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 
 #include "each_seed.h"
 #include "random_geometry.h"
+#include "surface/region_triangulator.h"
 
 namespace meshrepair {
 namespace {

@@ -10,7 +10,7 @@
 #include <base/error.h>
 #include <check/check_surface.h>
 #include <check/self_intersections.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <mesh/soup_io.h>
 #include <repair/repair.h>
 

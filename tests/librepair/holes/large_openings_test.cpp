@@ -1,8 +1,8 @@
-#include "holes/large_openings.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "holes/sheet_rims.h"
 
 namespace meshrepair::internal {
 namespace {

@@ -32,7 +32,7 @@ constexpr double kStep = 1e-7;
 internal::MendOptions mending(double step = kStep) {
   internal::MendOptions options;
   options.step = step;
-  options.reach = 16 * step;
+  options.within = 16 * step;
   options.rounded = [](const Vec3d& p) { return p; };
   return options;
 }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <repair/drop_small_parts.h>
+#include <repair/keep_parts.h>
 #include <repair/repair.h>
 
 #include "shapes.h"

@@ -1,5 +1,3 @@
-#include "sew/drop_cancelled.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 #include <repair/repair_report.h>
 
 #include "prepare/prepare.h"
+#include "sew/close_slits.h"
 #include "shapes.h"
 
 namespace meshrepair {

@@ -15,7 +15,6 @@
 #include "each_seed.h"
 #include "prepare/prepare.h"
 #include "sew/close_slits.h"
-#include "sew/drop_cancelled.h"
 #include "shapes.h"
 #include "share_of_cases.h"
 

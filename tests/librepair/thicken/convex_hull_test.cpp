@@ -1,5 +1,3 @@
-#include "thicken/convex_hull.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 
 #include "complexes.h"
 #include "random_geometry.h"
+#include "thicken/hull_walls.h"
 
 namespace meshrepair::internal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <base/error.h>
 #include <check/check_surface.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
 

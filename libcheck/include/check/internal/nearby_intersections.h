@@ -1,4 +1,5 @@
-// Which triangles of a mesh intersect while some of its points move by little.
+// Which triangles of a mesh are near a few places, and which of them intersect while some of its
+// points move by little.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace meshrepair::internal {
 
-// Knows which triangles may meet those that move, as long as no point is farther than `reach` from
+// Knows which triangles may meet those that move, as long as no point is farther than `margin` from
 // where it was at first. Asking again costs what is near, not the mesh.
 class NearbyIntersections {
  public:
@@ -21,15 +22,15 @@ class NearbyIntersections {
 
   // `moving` are triangles. The mesh must outlive it; its points may move, and nothing else.
   NearbyIntersections(const TriangleSoup& mesh, std::span<const std::uint32_t> moving,
-                      double reach);
+                      double margin);
 
   // As self_intersections() of `among`, which are moving, with the points as they are now.
   [[nodiscard]] std::vector<Pair> find(std::span<const std::uint32_t> among,
                                        ProgressObserver* progress);
 
  private:
-  [[nodiscard]] Box box_around(std::uint32_t triangle, double reach) const;
-  void find_around(std::span<const std::uint32_t> moving, double reach);
+  [[nodiscard]] Box box_around(std::uint32_t triangle, double margin) const;
+  void find_around(std::span<const std::uint32_t> moving, double margin);
   void add(std::uint32_t triangle);
 
   const TriangleSoup& mesh_;
@@ -41,5 +42,11 @@ class NearbyIntersections {
   TriangleSoup part_;                      // what is near the triangles asked for; scratch
   std::vector<std::uint32_t> part_triangles_, part_points_;  // which of the mesh they are
 };
+
+// The triangles whose boxes, widened by `margin`, meet one of these, ascending; of two that are not
+// finite nothing is said. Linear in the soup, with a small factor. The same for any number of
+// threads.
+[[nodiscard]] std::vector<std::uint32_t> triangles_near(const TriangleSoup& soup,
+                                                        std::span<const Box> boxes, double margin);
 
 }  // namespace meshrepair::internal

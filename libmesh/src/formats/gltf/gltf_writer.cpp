@@ -15,7 +15,6 @@
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
 #include "gltf_materials.h"
-#include "gltf_nodes.h"
 #include "gltf_vertices.h"
 
 namespace meshrepair {

@@ -1,4 +1,4 @@
-#include "surface_patches.h"
+#include "surface_pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ struct Neighbour {
   bool agrees = true;
 };
 
-// An edge with exactly two triangles, of those in a patch that cannot be oriented.
+// An edge with exactly two triangles, of those in a piece that cannot be oriented.
 struct Fold {
   double fold;
   std::uint32_t a, b;
@@ -69,16 +69,16 @@ SurfaceSum sum_of(const CleanSoup& soup, TriangleId t) {
   return sum;
 }
 
-class PatchFinder {
+class PieceFinder {
  public:
-  PatchFinder(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
+  PieceFinder(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
               const EdgeTable& table, ProgressObserver* progress)
       : soup_(soup), check_(progress), neighbours_(find_neighbours(triangles, table)) {
     result_.of.assign(triangles.size(), kUnseen);
     result_.turned.assign(triangles.size(), 0);
   }
 
-  Patches run() {
+  SurfacePieces run() {
     for (std::uint32_t t = 0; t < result_.of.size(); ++t) {
       if (result_.of[t] == kUnseen) grow_from(t);
     }
@@ -89,8 +89,8 @@ class PatchFinder {
   static constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
 
   void grow_from(std::uint32_t seed) {
-    const auto id = static_cast<std::uint32_t>(result_.patches.size());
-    Patch patch;
+    const auto id = static_cast<std::uint32_t>(result_.pieces.size());
+    SurfacePiece piece;
     members_.assign(1, seed);
     result_.of[seed] = id;
     for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -104,13 +104,13 @@ class PatchFinder {
           result_.turned[n.triangle] = turn ? 1 : 0;
           members_.push_back(n.triangle);
         } else {
-          patch.orientable &= (result_.turned[n.triangle] != 0) == turn;
+          piece.orientable &= (result_.turned[n.triangle] != 0) == turn;
         }
       }
     }
-    if (!patch.orientable) turn_unorientable();
-    add_up(patch);
-    result_.patches.push_back(patch);
+    if (!piece.orientable) turn_unorientable();
+    add_up(piece);
+    result_.pieces.push_back(piece);
   }
 
   // Joins the triangles over their flattest edges first, so that contradictions are left where the
@@ -159,24 +159,24 @@ class PatchFinder {
     return fold_cosine(at(u), at(v), at(corners[(k + 2) % 3]), at(tip));
   }
 
-  void add_up(Patch& patch) {
+  void add_up(SurfacePiece& piece) {
     for (const std::uint32_t t : members_) {
       const SurfaceSum sum = sum_of(soup_, TriangleId(t));
-      patch.sum.add(result_.turned[t] != 0 ? sum.turned_round() : sum);
+      piece.sum.add(result_.turned[t] != 0 ? sum.turned_round() : sum);
       const Triangle& triangle = soup_.triangles[TriangleId(t)];
-      patch.doubled &= !says_something(triangle);
-      patch.closes_holes &= triangle.source == Triangle::kNoSource;
+      piece.doubled &= !says_something(triangle);
+      piece.closes_holes &= triangle.source == Triangle::kNoSource;
     }
-    patch.doubled &= !patch.closes_holes;
-    if (patch.sum.turned <= patch.sum.kept) return;
-    patch.sum = patch.sum.turned_round();
+    piece.doubled &= !piece.closes_holes;
+    if (piece.sum.turned <= piece.sum.kept) return;
+    piece.sum = piece.sum.turned_round();
     for (const std::uint32_t t : members_) result_.turned[t] ^= 1;
   }
 
   const CleanSoup& soup_;
   CancelCheck check_;
   Neighbours neighbours_;
-  Patches result_;
+  SurfacePieces result_;
   std::vector<std::uint32_t> members_;
 };
 
@@ -212,9 +212,9 @@ bool SurfaceSum::nearly_closed() const {
                     static_cast<double>(normal[2])) <= kHoleShare * area;
 }
 
-Patches find_patches(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
-                     const EdgeTable& table, ProgressObserver* progress) {
-  return PatchFinder(soup, triangles, table, progress).run();
+SurfacePieces find_pieces(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
+                          const EdgeTable& table, ProgressObserver* progress) {
+  return PieceFinder(soup, triangles, table, progress).run();
 }
 
 std::int32_t side_of_corners(const CleanSoup& soup, TriangleId t) {

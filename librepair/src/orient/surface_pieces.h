@@ -34,22 +34,23 @@ struct SurfaceSum {
 };
 
 // Triangles connected through edges with exactly two triangles.
-struct Patch {
+struct SurfacePiece {
   SurfaceSum sum;
   bool orientable = true;    // if not, as few of its edges contradict as was found
   bool closes_holes = true;  // none of its triangles is of the input
   bool doubled = true;       // all those that are, are there both ways round
 };
 
-struct Patches {
-  std::vector<Patch> patches;
+struct SurfacePieces {
+  std::vector<SurfacePiece> pieces;
   std::vector<std::uint32_t> of;  // of each triangle
   std::vector<char> turned;       // of each triangle: against the order of its corners
 };
 
-// The patches, the triangles of each turned the same way round: as that turns the smaller area.
-[[nodiscard]] Patches find_patches(const CleanSoup& soup, std::span<const IndexTriangle> triangles,
-                                   const EdgeTable& table, ProgressObserver* progress);
+// The pieces, the triangles of each turned the same way round: as that turns the smaller area.
+[[nodiscard]] SurfacePieces find_pieces(const CleanSoup& soup,
+                                        std::span<const IndexTriangle> triangles,
+                                        const EdgeTable& table, ProgressObserver* progress);
 
 // How the triangle's normal, in the order of its corners, lies to that of its plane: 1 or -1.
 [[nodiscard]] std::int32_t side_of_corners(const CleanSoup& soup, TriangleId t);

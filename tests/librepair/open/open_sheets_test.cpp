@@ -1,6 +1,8 @@
 // Open sheets that are flat but for rounding, or hardly bent, enclose nothing, however they are
 // turned.
 
+#include "open/open_sheets.h"
+
 #include <cstdint>
 #include <utility>
 
@@ -11,7 +13,6 @@
 #include <repair/repair.h>
 
 #include "each_seed.h"
-#include "open/flat_sheets.h"
 #include "open/open_sheets.h"
 #include "open_surfaces.h"
 #include "shapes.h"

@@ -1,12 +1,14 @@
-// Which pictures are too large to be looked at.
+// Pictures in the formats that others write: JPEG by libjpeg, PNG by libpng.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <base/error.h>
 #include <picture/decode_image.h>
+#include <picture/pixels.h>
 
 namespace meshrepair {
 
@@ -22,5 +24,15 @@ namespace meshrepair {
   }
   return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
+
+[[nodiscard]] bool begins_with_jpeg(std::string_view bytes);
+
+// Throws InputError.
+[[nodiscard]] Pixels read_jpeg(std::string_view bytes, std::size_t most_pixels);
+
+[[nodiscard]] bool begins_with_png(std::string_view bytes);
+
+// Throws InputError.
+[[nodiscard]] Pixels read_png(std::string_view bytes, std::size_t most_pixels);
 
 }  // namespace meshrepair
