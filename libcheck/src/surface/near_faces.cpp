@@ -1,3 +1,14 @@
+// Which triangles face each other across a small distance: gaps between bodies, and walls that are
+// thin. A tree of boxes gives the pairs. Of two that are nearly parallel the overlap is found in
+// the plane of the larger one, by clipping the other against its three sides as Sutherland and
+// Hodgman do (1974), and the distance is that at the corners of the overlap.
+//
+// Whether solid or space is in between follows from the bodies, connected through edges of two
+// triangles, and from the sign of their volumes: two faces that turn their backs on each other and
+// are of one body, of a void and a body around it, or of two voids, have solid in between.
+//
+// All numbers are rounded: what is found is a measure, and the caller decides by exact predicates
+// what meets.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,13 @@
+// The mesh of a solid given by its cells (WM 4.4). The paper takes every facet between a solid and
+// an empty cell. Here such facets are merged again into the polygons that the input's triangles
+// left (merge_facets.h), singular edges and vertices are cut apart (cut_nonmanifold.h), and each
+// region is triangulated by itself (region_triangulator.h). So a triangle of the input that nothing
+// cuts comes out as it was, from the corner that it began with.
+//
+// All of this but the choice of diagonals is combinatorial. It cannot fail where predicates are
+// exact. In a loose complex, made by floating predicates, regions may be no polygons: then those
+// that went wrong are set apart, facet by facet, and all is merged anew. That ends, as each round
+// sets apart more, and with all facets apart nothing can go wrong.
 #include <algorithm>
 #include <array>
 #include <optional>

@@ -1,3 +1,13 @@
+// What is near becomes the same, in the order of its dimension: corners near corners become one,
+// then corners near edges come to lie on them, corners near faces come to lie in them, and edges
+// that pass near each other get a corner in common. What one step makes may bring more together, so
+// they are repeated until nothing changes; each adds what edges and faces have in common, of which
+// there is only so much.
+//
+// A point that came to lie on something stays there, as what it was near first counts. Nearest
+// pairs go first, with numbers as tie-break, so the result does not depend on the order in which
+// boxes are found. Positions are rounded. What is then cut along these corners (near_mesh.h) has
+// the same triangles on both sides, exactly, whatever was rounded.
 #include "near_parts.h"
 
 #include <algorithm>

@@ -1,3 +1,13 @@
+// The triangulation of a loop by a dynamic programme over its chords (G. Klincsek 1980; G. Barequet
+// and M. Sharir 1995): the best triangulation between the points i and j is that with the best
+// third corner in between. The cost is the area, and for an edge whose two triangles fold over each
+// other up to the area of the smaller one again: a patch that lies on itself, or on the surface
+// beyond the rim, has saved no area. Time grows with the third power of the loop, so long loops are
+// cut in two by a short chord first.
+//
+// A ring between two loops is the cheapest way around both, one step on one of them after the
+// other, from the two points that are nearest to each other (H. Fuchs, Z. Kedem and S. Uselton,
+// Optimal surface reconstruction from planar contours, 1977).
 #include "loop_triangulation.h"
 
 #include <algorithm>

@@ -1,3 +1,19 @@
+// Which cells are solid, by the rule that was asked for:
+//
+// - winding: the winding number of a cell, from a walk over all walls; where walls contradict each
+//   other, from least squares.
+// - parity: whether an odd number of walls is between the cell and the outside; where walls
+//   contradict each other, solidity, by the linear system of T. Murali and T. Funkhouser
+//   (Consistent solid and boundary representations from arbitrary polygonal data, 1997).
+// - solidity: the same, and then all that a flood from infinity does not reach (WM 6.2).
+//
+// The automatic rule believes the orientation where it can be trusted: winding numbers near
+// integers, and few walls that contradict them. Then parts that face the wrong way are turned
+// (turn_parts.h). Where the walk met a contradiction, solidity is asked, too, and both are compared
+// by what Murali and Funkhouser keep small: the area of boundary that no triangle covers, and of
+// triangles that the solid leaves unexplained. Solidity has to be clearly better, as what it adds
+// are often slivers. The other rule is named in the report where it comes near and much hangs on
+// it.
 #include <algorithm>
 #include <cmath>
 #include <utility>

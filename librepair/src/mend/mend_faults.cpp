@@ -1,3 +1,14 @@
+// A local search. For each pair of triangles at fault all small edits around it are tried: a
+// corner, an edge or a triangle moved along the normal of one of the two by 1 to 128 steps of the
+// numbers, a corner collapsed onto a neighbour, an edge flipped. The one that leaves the fewest
+// faults among the triangles around it is made, with fewer points of the input moved and a shorter
+// way as tie-breaks, and only if it leaves fewer than before. So the number of faults falls with
+// each edit, and the search ends.
+//
+// Faults are counted exactly, among the triangles near the place alone (fault_counter.h). All edits
+// keep the surface a closed manifold of the same genus: a collapse has to satisfy the link
+// condition (T. Dey, H. Edelsbrunner, S. Guha and D. Nekhayev, Topology preserving edge
+// contraction, 1999).
 #include "mend_faults.h"
 
 #include <algorithm>

@@ -1,3 +1,17 @@
+// A surface with two sides is there twice, once facing each way, and winds around nothing. Where
+// both copies have the same triangles, clean_soup() joins them. Here are those that do not: cut
+// along other diagonals, and apart by rounding.
+//
+// join_cuts() compares faces, not triangles. A face is what edges at which the surface does not
+// simply go on bound, nearly flat and without corners inside; its name is its outline. Faces of one
+// name as many of which face either way become one set of triangles that winds around nothing.
+//
+// bring_layers_together() joins points that are apart by rounding, looks where that makes two
+// layers one, and keeps the moves there alone. Corners of one triangle that would become one are a
+// wall between the layers: then these are a thin solid.
+//
+// Both ask whether most of a part is there twice. Two pieces of a surface that lie on each other
+// somewhere do so by chance, and stay.
 #include "two_layers.h"
 
 #include <algorithm>

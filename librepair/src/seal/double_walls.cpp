@@ -1,3 +1,17 @@
+// How the inner wall of a body is found (what it is, the header says):
+//
+// 1. Samples, more where triangles are large, are looked at along rays to all sides: seen from
+//    outside, where many escape, or not.
+// 2. From each one that is seen a ray goes inward. Where most find a wall soon behind them that
+//    faces them and is not seen, the body has two walls, and the distances tell how thick they are.
+// 3. A minimum cut over the triangles, each edge weighing its length, parts what is seen from what
+//    lies behind: its rims are the openings. Where they run the cut decides, not the rays, which
+//    tell little beside an opening.
+// 4. Pieces of the inner wall stay whose openings are all pinholes. From their rims on, the tubes
+//    that lead to the outer wall are added: triangles that have no wall behind them where one would
+//    be.
+//
+// Rays are rounded, and nothing depends on one alone.
 #include "double_walls.h"
 
 #include <algorithm>

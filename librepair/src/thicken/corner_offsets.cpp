@@ -1,3 +1,15 @@
+// A wall that is as thick everywhere has its corners where the offset planes of the triangles
+// around them meet. Of more than three planes no point is in all, so each corner gets the vector
+// that least squares find, each plane weighted by the angle of its triangle there, and drawn a
+// little to the mean normal in directions about which the planes say nothing. Where that leaves a
+// plane too far beside, its largest error is evened out over both sides of it; where that is too
+// much, as at sharp folds, each triangle goes along its own normal, and the gap is closed by other
+// walls (fold_walls.h).
+//
+// A narrow triangle is turned over by vectors that differ by little. So vectors near each other are
+// made more alike, the nearest most, as far as the planes allow, and at last vectors are halved
+// until no triangle is turned over; where that leaves a wall short of its thickness, the triangle
+// has one of its own (own_walls.h). Whether one is turned over, exact predicates decide.
 #include "corner_offsets.h"
 
 #include <algorithm>
