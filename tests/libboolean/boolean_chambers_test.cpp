@@ -108,7 +108,7 @@ TEST(BooleanChambers, WhatRoundingFoldsTakesNoTrees) {
   }
 }
 
-TEST(BooleanChambers, WhoAsksForARegionTestGetsTrees) {
+TEST(BooleanChambers, AskingForARegionTestGivesTrees) {
   BooleanOptions options;
   BooleanReport report;
   (void)boolean(std::vector{cube(), moved(cube(), {0.5, 0.5, 0.5})}, SetOperation::unite, options,

@@ -37,7 +37,7 @@ void expect_labels_of_the_cells(const TriangleSoup& soup) {
   }
 }
 
-TEST(LabelBesideTriangles, IsWhatTheCellsSay) {
+TEST(LabelBesideTriangles, LabelsAreThoseOfCells) {
   expect_labels_of_the_cells(cube());
   expect_labels_of_the_cells(sphere(3000));
   expect_labels_of_the_cells(torus(60, 30));

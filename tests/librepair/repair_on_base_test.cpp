@@ -86,7 +86,7 @@ TEST(RepairOnBase, CopiesOfATriangleAreOne) {
   }
 }
 
-TEST(RepairOnBase, IsNothingForASolid) {
+TEST(RepairOnBase, SolidsGetNoBase) {
   ScanBaseReport stands;
   RepairReport report;
   EXPECT_THROW((void)repair_on_base(cube(), {}, {}, stands, report), NoSolidError);

@@ -65,7 +65,7 @@ void expect_solid(const RepairResult& result) {
   EXPECT_GT(result.report.output_volume, -1e-9 * size);
 }
 
-TEST_P(EverySoup, IsRepairedToASolidByEveryRule) {
+TEST_P(EverySoup, EveryRuleRepairsAnySoupToASolid) {
   int solids = 0;
   for (std::uint64_t seed = 200; seed < 200 + share_of_cases(kSeeds); ++seed) {
     for (const InsideRule rule :

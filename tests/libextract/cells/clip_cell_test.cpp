@@ -104,7 +104,7 @@ TEST_F(ClipCube, ThroughOneEdgeAndTwoFaces) {
   EXPECT_EQ(clipper_.report().fallbacks(), 0u);
 }
 
-TEST_F(ClipCube, ThePartAboveKeepsItsIdAndTheNewFacetPointsToIt) {
+TEST_F(ClipCube, PartAboveKeepsItsIdAndTheNewFacetPointsThere) {
   const PlaneId by = plane({0, 0, 1}, -1);
   const CellId below = clip(by);
   const FacetId lid(complex_.facets.size() - 1);
@@ -124,7 +124,7 @@ TEST_F(ClipCube, NeighboursGetTheNewVerticesToo) {
   EXPECT_EQ(clipper_.report().fallbacks(), 0u);
 }
 
-TEST_F(ClipCube, ManyPlanesThroughOneVertexAndOneEdge) {
+TEST_F(ClipCube, ManyPlanesThroughOneVertexAndOneEdgeKeepCellsSound) {
   std::vector<PlaneId> planes;
   for (std::int64_t k = 1; k < 8; ++k) {
     planes.push_back(plane({k, -8 + k, 0}, 0));      // all hold the edge x = y = 0

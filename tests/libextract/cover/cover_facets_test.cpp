@@ -106,7 +106,7 @@ TEST(CoverFacets, FacetsOfEachTriangleAddUpToItsArea) {
 }
 
 // Far more triangles on one facet than are looked at one by one.
-TEST(CoverFacets, ManyTrianglesInOnePlane) {
+TEST(CoverFacets, ManyTrianglesInOnePlaneCoverTheirArea) {
   Random random(1);
   TriangleSoup soup;
   for (int i = 0; i < 90; ++i) {

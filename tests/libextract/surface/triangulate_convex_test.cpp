@@ -97,7 +97,7 @@ void expect_triangulation(const std::vector<IntegerPoint>& polygon) {
   EXPECT_EQ(topology.parts, 1u);
 }
 
-TEST(TriangulateConvex, RandomPolygons) {
+TEST(TriangulateConvex, RandomPolygonsAreCoveredWithoutDegeneratePieces) {
   for_each_seed(4000, [&](std::uint64_t seed) {
     Random random(seed);
     const std::int32_t size = random.integer(2, 60);
@@ -110,7 +110,7 @@ TEST(TriangulateConvex, RandomPolygons) {
   });
 }
 
-TEST(TriangulateConvex, ATriangleWithAllItsSidesFull) {
+TEST(TriangulateConvex, TriangleWithFullSidesHasNoDegeneratePiece) {
   Random random(1);
   for (std::int64_t parts = 1; parts < 30; ++parts) {
     std::vector<IntegerPoint> polygon;

@@ -63,7 +63,7 @@ TEST(Certify, LeavesASoundSurfaceAsItIs) {
   EXPECT_EQ(result.mesh.points, soup.points);
 }
 
-TEST(Certify, SaysWhatItCannotMend) {
+TEST(Certify, SaysWhatCannotBeMended) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {0.5, 0.25, 0.125}));
   CertifyReport report;

@@ -22,7 +22,7 @@ TriangleSoup cube_and(const TriangleSoup& box) {
 
 const TriangleSoup thin = box({2, 0, 0}, {3, 1, 1e-9});
 
-TEST(DropThinCrumbs, TakesThoseOfCutPiecesAlone) {
+TEST(DropThinCrumbs, TakesOnlyCrumbsOfCutPieces) {
   Surface surface = as_surface(cube_and(thin));
   std::vector<char> whole(24, 0);
   EXPECT_EQ(drop_thin_crumbs(surface, whole, 1e-10), 0u);
@@ -32,7 +32,7 @@ TEST(DropThinCrumbs, TakesThoseOfCutPiecesAlone) {
   EXPECT_EQ(surface.input_point.size(), 8u);
 }
 
-TEST(DropThinCrumbs, LeavesThoseWithAWholeTriangle) {
+TEST(DropThinCrumbs, LeavesCrumbsWithAWholeTriangle) {
   Surface surface = as_surface(cube_and(thin));
   std::vector<char> whole(24, 0);
   whole[17] = 1;
@@ -46,7 +46,7 @@ TEST(DropThinCrumbs, TakesCracksInside) {
   EXPECT_EQ(surface.mesh.triangles, cube().triangles);
 }
 
-TEST(DropThinCrumbs, LeavesSomething) {
+TEST(DropThinCrumbs, KeepsOnePartAtLeast) {
   TriangleSoup soup = thin;
   append(soup, moved(thin, {2, 0, 0}));
   Surface surface = as_surface(soup);

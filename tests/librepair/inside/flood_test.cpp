@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-TEST(Flood, AClosedSurfaceKeepsItOut) {
+TEST(Flood, ClosedSurfaceKeepsTheFloodOut) {
   TriangleSoup soup = box({0, 0, 0}, {4, 4, 4});
   append(soup, box({1, 1, 1}, {2, 2, 2}));
   const Graph g = graph_of(soup);
@@ -21,7 +21,7 @@ TEST(Flood, AClosedSurfaceKeepsItOut) {
   EXPECT_DOUBLE_EQ(volume_where(g, internal::flood_from_infinity(g.graph, all_empty)), 64);
 }
 
-TEST(Flood, OneMissingTriangleLetsItIn) {
+TEST(Flood, OneMissingTriangleLetsTheFloodIn) {
   TriangleSoup soup = sphere(300);
   soup.triangles.pop_back();
   const Graph g = graph_of(soup);

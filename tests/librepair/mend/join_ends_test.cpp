@@ -39,7 +39,7 @@ TEST(JoinEnds, TwoInOnePlaceBecomeOne) {
   EXPECT_TRUE(check_surface(surface.mesh).valid_solid());
 }
 
-TEST(JoinEnds, OthersStay) {
+TEST(JoinEnds, EdgesWithLengthStay) {
   const TriangleSoup soup = house({0.5, 0.25, 2}, {0.5, 0.75, 2});
   Surface surface = as_surface(soup);
   EXPECT_EQ(internal::join_ends(surface), 0u);

@@ -35,7 +35,7 @@ TriangleSoup in_single_precision(TriangleSoup soup) {
   return soup;
 }
 
-TEST(OpenRegions, OfFlatSheetsAreEmpty) {
+TEST(OpenRegions, RegionsOfAFlatSheetAreEmpty) {
   for_each_seed(30, [&](std::uint64_t seed) {
     for (const std::uint32_t n : {1u, 2u, 9u}) {
       const TriangleSoup sheet = placed(flat_sheet(n), seed);
@@ -45,7 +45,7 @@ TEST(OpenRegions, OfFlatSheetsAreEmpty) {
   });
 }
 
-TEST(OpenRegions, OfSeveralFlatSheetsAreEmpty) {
+TEST(OpenRegions, RegionsOfSeveralFlatSheetsAreEmpty) {
   for_each_seed(20, [&](std::uint64_t seed) {
     TriangleSoup sheets = flat_sheet(6);
     append(sheets, moved(transformed(flat_sheet(5), Eigen::AngleAxisd(1, Vec3d::UnitX()).matrix()),
@@ -54,7 +54,7 @@ TEST(OpenRegions, OfSeveralFlatSheetsAreEmpty) {
   });
 }
 
-TEST(OpenRegions, OfSheetsThatAreHardlyBentAreEmpty) {
+TEST(OpenRegions, RegionsOfHardlyBentSheetsAreEmpty) {
   for (std::uint64_t seed = 0; seed < share_of_cases(10u); ++seed) {
     for (const double height : {1e-6, 1e-3, 0.05}) {
       Random random(seed);
@@ -93,7 +93,7 @@ TEST(OpenRegions, LeaveNoFinsOnASolid) {
   EXPECT_LT(spoilt, 7);
 }
 
-TEST(OpenRegions, OfFlatSheetsThatCrossAreEmpty) {
+TEST(OpenRegions, RegionsOfCrossingFlatSheetsAreEmpty) {
   TriangleSoup cross = flat_sheet(8);
   TriangleSoup upright = flat_sheet(8);
   for (Vec3d& p : upright.points) p = Vec3d(2, p.y(), p.x() - 2);
@@ -110,7 +110,7 @@ TEST(OpenRegions, OfFlatSheetsThatCrossAreEmpty) {
 }
 
 // Crumbs of a sheet are none of it: what its folds enclose is not what was meant.
-TEST(OpenRegions, OfWhichASheetBoundsAlmostNothingAreEmpty) {
+TEST(OpenRegions, RegionsThatSheetsHardlyBoundAreEmpty) {
   for_each_seed(10, [&](std::uint64_t seed) {
     TriangleSoup terrain = wavy_sheet(24);
     // Folds: one line of points lies beyond the next one, and above it.
@@ -145,7 +145,7 @@ TriangleSoup box_of_walls(double beyond) {
 }
 
 // Each is flat; what they enclose together is not.
-TEST(OpenRegions, ThatSheetsEncloseTogetherAreSolid) {
+TEST(OpenRegions, RegionsThatSheetsEncloseTogetherAreSolid) {
   for_each_seed(10, [&](std::uint64_t seed) {
     const RepairResult result = repair(placed(box_of_walls(0.1), seed));
     EXPECT_NEAR(result.report.output_volume, 1, 0.02) << seed;

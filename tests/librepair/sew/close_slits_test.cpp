@@ -67,7 +67,7 @@ TEST(CloseSlits, GivesTheNeighbourOfADroppedTriangleItsCorner) {
   EXPECT_NEAR(volume_of(clean), 1, 1e-12);
 }
 
-TEST(CloseSlits, ClosesThoseWithOtherCornersOnBothSides) {
+TEST(CloseSlits, ClosesSlitsWithOtherCornersOnBothSides) {
   TriangleSoup soup = coarse_sphere(200);
   std::mt19937 random(7);
   for (std::uint64_t seed = 0; seed < share_of_cases(20u); ++seed) {
@@ -104,7 +104,7 @@ TEST(CloseSlits, LeavesHoles) {
   EXPECT_EQ(topology_of(clean).open_edges, 3u);
 }
 
-TEST(CloseSlits, LeavesThoseThatArePartOfAHole) {
+TEST(CloseSlits, LeavesSlitsThatArePartOfAHole) {
   TriangleSoup soup = cube();
   split(soup, 0, {0.25, 0.5});
   soup.triangles.pop_back();
@@ -156,7 +156,7 @@ CleanSoup tetrahedra_along_a_line(std::uint32_t count) {
   return cleaned(soup);
 }
 
-TEST(CloseSlits, LeavesThoseThatTakeVeryManyPieces) {
+TEST(CloseSlits, LeavesSlitsThatTakeVeryManyPieces) {
   CleanSoup few = tetrahedra_along_a_line(3);
   ASSERT_EQ(topology_of(few).open_edges, 9u);
   EXPECT_EQ(internal::close_slits(few), 1u);

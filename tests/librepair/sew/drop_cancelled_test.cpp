@@ -50,7 +50,7 @@ TEST(DropCancelled, TakesAWallWithoutInsideAndItsPoints) {
   }
 }
 
-TEST(DropCancelled, LeavesWhatHasMoreCopiesOneWay) {
+TEST(DropCancelled, LeavesTrianglesWithMoreCopiesOneWay) {
   TriangleSoup soup = cube();
   append_fin({0.5, -1, 0.25}, soup);
   append(soup, moved(cube(), {0, 0, 1}));  // cubes with a face in common

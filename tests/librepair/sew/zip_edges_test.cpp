@@ -121,7 +121,7 @@ TEST(ZipEdges, WhatWasClosedIsClosedOnTheGrid) {
   EXPECT_GT(open, expected_cases(std::size_t{200}));
 }
 
-TEST(ZipEdges, WithoutATriangleItIsNotClosed) {
+TEST(ZipEdges, MissingTriangleLeavesTheSurfaceOpen) {
   for_each_seed(50, [&](std::uint64_t seed) {
     TriangleSoup soup = cube();
     soup.triangles.erase(soup.triangles.begin() + static_cast<std::ptrdiff_t>(seed % 12));

@@ -14,7 +14,7 @@
 namespace meshrepair {
 namespace {
 
-TEST(Srgb, IsThatOfTheStandard) {
+TEST(Srgb, FollowsTheStandard) {
   EXPECT_DOUBLE_EQ(linear_of_srgb(0.04), 0.04 / 12.92);
   EXPECT_DOUBLE_EQ(linear_of_srgb(0.5), std::pow(0.555 / 1.055, 2.4));
   EXPECT_NEAR(linear_of_srgb(188 / 255.0), 0.5028864580325687, 1e-15);
