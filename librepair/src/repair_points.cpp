@@ -36,7 +36,7 @@ constexpr std::size_t kFewestNeighbourhoods = 16;
 // Of the triangles of a scan that is closed but for holes, most are in the result, and most of the
 // result is of them. Scans of one side come to less than a third or more than half.
 constexpr double kFewestKept = 0.5;
-constexpr double kMostMadeUp = 0.4;
+constexpr double kMostMadeUpOfScan = 0.4;
 // Smoothing pulls rims together and closes holes, so of the result of a try that nobody asked for
 // less may be made up: a half-sphere comes to a third.
 constexpr double kMostMadeUpByAdvice = 0.25;
@@ -209,7 +209,7 @@ class PointRepair {
       solid.soup = soup.soup;
       options.opacity = soup.opacity();
       options.examine = [first](const RepairReport& repair) {
-        require_enclosure(repair, first ? kMostMadeUp : kMostMadeUpByAdvice);
+        require_enclosure(repair, first ? kMostMadeUpOfScan : kMostMadeUpByAdvice);
       };
     }
     solid.surface = repair(solid.soup, options, repair_);

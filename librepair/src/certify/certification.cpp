@@ -63,7 +63,7 @@ constexpr std::size_t kTrianglesOfFault = 8;
 
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
-constexpr std::size_t kMostGrowth = 4;
+constexpr std::size_t kMostGrowthOfPart = 4;
 
 using GridCell = std::array<double, 3>;
 
@@ -143,7 +143,7 @@ Certification::Certification(Surface surface, const Grid& grid, const CertifyOpt
   current_.surface = std::move(surface);
   test(current_);
   report_.pairs_at_first = current_.found.count;
-  most_triangles_ = kMostGrowth * current_.surface.mesh.triangles.size();
+  most_triangles_ = kMostGrowthOfPart * current_.surface.mesh.triangles.size();
   best_ = current_.faults() > 0 ? current_ : std::move(current_);
 }
 
@@ -180,7 +180,7 @@ void Certification::mend_in_place() {
   } else if (best_.joined > 0 && options_.most_rounds == 0) {
     separate(best_);
   }
-  most_triangles_ = kMostGrowth * current_.surface.mesh.triangles.size();
+  most_triangles_ = kMostGrowthOfPart * current_.surface.mesh.triangles.size();
 }
 
 std::vector<Surface> Certification::take_faulty_groups() {

@@ -75,7 +75,7 @@ namespace {
 
 constexpr std::uint32_t kTries = 24;
 // How many steps all tries together may move a point by.
-constexpr double kReach = 256;
+constexpr double kSettleReach = 256;
 // Beyond this there are too many faults for chance to be a remedy.
 constexpr std::size_t kMostTriangles = 20'000;
 
@@ -140,7 +140,7 @@ void nudge_points(Surface& surface, const SelfIntersections& found, Precision pr
   if (movable.empty()) return;
   std::vector<std::uint32_t> each(movable.size());
   std::iota(each.begin(), each.end(), 0u);
-  const double reach = kReach * number_spacing(mesh, precision);
+  const double reach = kSettleReach * number_spacing(mesh, precision);
   PointMover mover(mesh, movable, std::move(each), reach, progress);
   for (std::uint32_t k = 0; k < kTries && mover.faults() > 0; ++k) {
     mover.try_moves(

@@ -34,12 +34,12 @@ constexpr double kThin = 2;
 constexpr double kClosed = 1e-3;
 
 // How far beyond the widest gap to go: corners that belong together may be farther apart.
-constexpr double kMargin = 2;
+constexpr double kGapMargin = 2;
 
 // Of gaps that nobody named: how much narrower they are than anything else, and how wide they are
 // at most, as a share of the diagonal and of the longest edges beside them.
-constexpr double kFar = 10;
-constexpr double kWidest = 1e-2, kBesideEdges = 0.1;
+constexpr double kFarApart = 10;
+constexpr double kWidestGap = 1e-2, kBesideEdges = 0.1;
 
 // 0 where nothing is finite.
 double finite_diagonal(const TriangleSoup& soup) {
@@ -116,7 +116,7 @@ void require_less_than(const Thinnest& thinnest, double distance) {
 
 GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress) {
   NearFacesOptions looking;
-  looking.largest_distance = kWidest * finite_diagonal(soup);
+  looking.largest_distance = kWidestGap * finite_diagonal(soup);
   looking.share = kBesideEdges;
   looking.progress = progress;
   NearFacesFound near = find_near_faces(soup, looking);
@@ -131,7 +131,8 @@ GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress) {
     const double gap = near.gaps[i].apart;
     const double next =
         i + 1 < near.gaps.size() ? near.gaps[i + 1].apart : looking.largest_distance;
-    if (kFar * gap <= std::min(next, thinnest.width)) proposal = {i + 1, gap, kMargin * gap};
+    if (kFarApart * gap <= std::min(next, thinnest.width))
+      proposal = {i + 1, gap, kGapMargin * gap};
   }
   return proposal;
 }
@@ -155,7 +156,7 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
   report.distance = distance;
   if (report.pairs == 0) return std::nullopt;
   // Where gaps are narrower than was asked for, so is what is taken for near beside them.
-  const double within = std::min(distance, kMargin * report.widest_gap);
+  const double within = std::min(distance, kGapMargin * report.widest_gap);
   internal::NearParts parts(soup, near.gaps, report.widest_gap, within, check);
   JoinedSoup joined = internal::cut_near_mesh(soup, parts.bring_together(), report, check);
   looking.largest_distance = distance;

@@ -31,7 +31,7 @@ const double kCornerDistance = std::sqrt(3.0);
 
 // Each round adds what edges and faces have in common, of which there is only so much; most need
 // three.
-constexpr int kMostRounds = 16;
+constexpr int kMostJoinings = 16;
 
 // Where the lines a b and c d are nearest to each other, as shares of the ways; not inside both
 // where they are parallel.
@@ -91,7 +91,7 @@ void NearParts::list_edges() {
 }
 
 const NearMesh& NearParts::bring_together() {
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostJoinings; ++round) {
     check_.ask();
     bool is_changed = merge_points();
     is_changed |= put_on_edges();

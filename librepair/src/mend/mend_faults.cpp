@@ -40,7 +40,7 @@ constexpr std::size_t kMostFaultyPairs = 1'000;
 constexpr std::size_t kMostAround = 48;
 
 // How far points are moved along a normal, in steps of the numbers.
-constexpr std::array<double, 8> kSteps{1, 2, 4, 8, 16, 32, 64, 128};
+constexpr std::array<double, 8> kShifts{1, 2, 4, 8, 16, 32, 64, 128};
 
 // Around what edits of these pairs may change, and as far beyond it as it is large.
 std::vector<Box> places_of(const EditableMesh& mesh, const std::vector<Vec3d>& points,
@@ -71,7 +71,8 @@ class FaultMender {
         options_(options),
         cancel_(options.progress),
         mesh_(surface.mesh.triangles, points_.size()),
-        faults_(surface.mesh, 2 * kSteps.back() * options.step, places_of(mesh_, points_, pairs)) {}
+        faults_(surface.mesh, 2 * kShifts.back() * options.step, places_of(mesh_, points_, pairs)) {
+  }
 
   // Makes the edit around the two triangles that leaves the fewest faults, if it leaves fewer.
   bool improve(std::uint32_t t, std::uint32_t u) {
@@ -151,14 +152,14 @@ class FaultMender {
                     const std::array<std::optional<Vec3d>, 2>& normals) {
     Edit edit;
     if (!take_stars(points, edit)) return;
-    const double farthest = 2 * kSteps.back() * options_.step;
+    const double farthest = 2 * kShifts.back() * options_.step;
     const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles, farthest);
     if (before == 0) return;
     std::vector<Vec3d> from(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) from[i] = points_[points[i]];
     for (const auto& normal : normals) {
       if (!normal) continue;
-      for (const double steps : kSteps) {
+      for (const double steps : kShifts) {
         for (const double sign : {1.0, -1.0}) {
           shift(from, points, sign * steps * options_.step * *normal, edit);
           if (edit.distance == 0) continue;

@@ -49,7 +49,7 @@ constexpr double kLeastOfPart = 0.4;
 
 // In grid steps: layers whose corners are farther apart are two surfaces. Of the input's own
 // rounding, so many are as near.
-constexpr double kNear = 64;
+constexpr double kNearLayers = 64;
 constexpr double kRoundings = 8;
 
 // Edges between the same places as a triangle's corners, whatever its direction.
@@ -218,7 +218,7 @@ class NearPoints {
 using Firsts = IdVector<PointId, PointId>;
 
 Firsts find_firsts(const CleanSoup& clean, CancelCheck& check) {
-  NearPoints near(std::max(kNear, kRoundings * rounding_of(clean)));
+  NearPoints near(std::max(kNearLayers, kRoundings * rounding_of(clean)));
   Firsts firsts;
   firsts.reserve(clean.points.size());
   for (PointId p(0u); p < clean.points.end_id(); ++p.value) {

@@ -60,7 +60,7 @@ constexpr double kLeastOfBody = 0.05;
 
 // Pinholes: see the header. Together they have at most so much of the inner wall's area, or twice
 // of that.
-constexpr double kNarrow = 0.01;
+constexpr double kNarrowPinhole = 0.01;
 constexpr std::size_t kFewEdges = 12, kSomeEdges = 80;
 constexpr double kWidestOfFewEdges = 0.08;
 constexpr std::size_t kMany = 6;
@@ -271,7 +271,7 @@ class BodyWalls {
       const bool is_of_mesh =
           rim.length >= kShortestEdge * mean_edge_ * static_cast<double>(rim.edges);
       const bool has_few = is_of_mesh && rim.edges <= kFewEdges && width <= kWidestOfFewEdges;
-      narrow += width <= kNarrow || has_few ? 1 : 0;
+      narrow += width <= kNarrowPinhole || has_few ? 1 : 0;
       of_some_edges += is_of_mesh && rim.edges <= kSomeEdges ? 1 : 0;
     }
     const auto count = static_cast<double>(rims.size());

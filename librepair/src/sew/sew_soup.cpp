@@ -42,7 +42,7 @@ constexpr double kNear = 0.25, kMove = 0.33;
 constexpr double kFarthest = 1.0 / 250;
 // Between distances that belong together.
 constexpr double kGap = 10;
-constexpr int kMostRounds = 8;
+constexpr int kMostSewings = 8;
 
 double diagonal_of(const TriangleSoup& soup, const OpenRims& rims) {
   Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -108,7 +108,7 @@ class Sewing {
     }
     check_.ask();
     if (!is_loose()) splits_ = find_splits(rims_, strangers_, clusters_, distance, kMove);
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostSewings; ++round) {
       check_.ask();
       SewnSoup sewn = make_soup();
       std::vector<char> given_up(soup_.points.size(), 0);

@@ -43,7 +43,7 @@ constexpr double kSheet = 2;
 // The last round leaves out what is still wanted and must not be.
 constexpr int kMostRounds = 8;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kFarCells = std::numeric_limits<double>::infinity();
 
 class ThinCells {
  public:
@@ -76,7 +76,7 @@ class ThinCells {
   // Of a node.
   struct Change {
     bool wanted = false;
-    double moved = kFar;  // how far the boundary moves if the cell changes; far: it must not
+    double moved = kFarCells;  // how far the boundary moves if the cell changes; far: it must not
   };
 
   // What changes with the minimum cut; false: nothing.
@@ -90,7 +90,7 @@ class ThinCells {
     bool is_any = false;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       changes_[n].wanted = (solid[n] != 0) != graph_.is_solid(nodes_[n].cell);
-      changes_[n].moved = kFar;
+      changes_[n].moved = kFarCells;
       is_any = is_any || changes_[n].wanted;
     }
     return is_any;
@@ -101,7 +101,7 @@ class ThinCells {
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     const auto enqueue = [&](std::uint32_t n) {
-      if (!changes_[n].wanted || changes_[n].moved < kFar) return;
+      if (!changes_[n].wanted || changes_[n].moved < kFarCells) return;
       const double distance = distance_to_boundary(nodes_[n]);
       if (distance <= kReach * options_.within) queue.emplace(distance, n);
     };
@@ -112,7 +112,7 @@ class ThinCells {
       const double distance = queue.top().first;
       const std::uint32_t n = queue.top().second;
       queue.pop();
-      if (changes_[n].moved < kFar) continue;
+      if (changes_[n].moved < kFarCells) continue;
       changes_[n].moved = distance;
       reached_.push_back(n);
       complex_.for_each_facet(nodes_[n].cell, [&](FacetId f) {
@@ -132,14 +132,14 @@ class ThinCells {
     for (const ThinCellGraph::Side& side : graph_.sides_of(node)) {
       const bool bounds = graph_.is_boundary(side.facet);
       const std::uint32_t other = graph_.node_of(side.other);
-      const double moved_there = other < ThinCellGraph::kWide ? changes_[other].moved : kFar;
-      may_go = may_go || (bounds && graph_.is_cut(side.facet)) || moved_there < kFar;
+      const double moved_there = other < ThinCellGraph::kWide ? changes_[other].moved : kFarCells;
+      may_go = may_go || (bounds && graph_.is_cut(side.facet)) || moved_there < kFarCells;
       if (std::abs(side.facing) < internal::kBroad) continue;
       const std::size_t which = side.facing > 0 ? 0 : 1;
       is_there[which] = true;
       moved[which] = std::max(moved[which], bounds ? 0 : moved_there);
     }
-    double best = kFar;
+    double best = kFarCells;
     for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
       if (may_go && is_there[which]) best = std::min(best, moved[which] + node.width.width);
     }
@@ -152,7 +152,7 @@ class ThinCells {
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       const Change& change = changes_[n];
       if (!change.wanted) continue;
-      if (change.moved < kFar) continue;
+      if (change.moved < kFarCells) continue;
       nodes_[n].stays = true;
       is_stable = false;
     }
