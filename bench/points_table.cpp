@@ -13,7 +13,7 @@
 #include <check/mesh_distance.h>
 #include <mesh/soup_io.h>
 #include <points/point_soup.h>
-#include <repair/drop_small_parts.h>
+#include <repair/keep_parts.h>
 #include <repair/repair.h>
 
 #include "bench_cases.h"

@@ -10,7 +10,7 @@
 
 #include <mesh/point_io.h>
 #include <mesh/soup_io.h>
-#include <scan/repair_points.h>
+#include <repair/repair_points.h>
 
 int main(int argc, char** argv) {
   if (argc != 3) {

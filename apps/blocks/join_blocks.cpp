@@ -13,8 +13,8 @@
 #include <check/part_orientation.h>
 #include <check/self_intersections.h>
 #include <mesh/append_soup.h>
-#include <mesh/float32.h>
 #include <mesh/mesh_limits.h>
+#include <mesh/precision.h>
 
 #include "blocks/block_folder.h"
 #include "blocks/verbs.h"

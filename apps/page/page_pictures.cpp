@@ -6,7 +6,6 @@
 #include <base/base64.h>
 #include <base/error.h>
 #include <picture/decode_image.h>
-#include <picture/image_bytes.h>
 
 namespace meshrepair {
 namespace {

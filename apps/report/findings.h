@@ -12,7 +12,7 @@
 #include <mesh/soup_io.h>
 #include <repair/fidelity.h>
 #include <repair/repair.h>
-#include <scan/repair_points.h>
+#include <repair/repair_points.h>
 
 #include "options/purposes.h"
 

@@ -15,7 +15,7 @@
 #include <spdlog/logger.h>
 
 #include <base/error.h>
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 
 #include "process/file_checksum.h"
 #include "resume/state_file.h"

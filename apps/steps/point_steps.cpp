@@ -10,7 +10,7 @@
 #include <spdlog/logger.h>
 
 #include <base/error.h>
-#include <scan/repair_on_base.h>
+#include <repair/repair_on_base.h>
 
 #include "options/numbers.h"
 #include "program/program.h"

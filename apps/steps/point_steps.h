@@ -5,7 +5,7 @@
 
 #include <mesh/point_cloud.h>
 #include <mesh/soup.h>
-#include <scan/repair_points.h>
+#include <repair/repair_points.h>
 
 #include "options/command_line.h"
 #include "program/program.h"

@@ -4,10 +4,9 @@
 
 #include <base/error.h>
 #include <boolean/boolean.h>
-#include <boolean/boolean_chambers.h>
-#include <boolean/label_beside_triangles.h>
 
-#include "joined_operands.h"
+#include "boolean_chambers.h"
+#include "label_beside_triangles.h"
 #include "operands.h"
 
 namespace meshrepair {
@@ -35,11 +34,11 @@ Tree make_operand(const TriangleSoup& solid, std::size_t number, const Grid& gri
   CleanSoup clean = internal::clean_operand(solid, number, grid, options, report);
   if (clean.triangles.empty()) return empty_tree(grid);
   CancelOnly quiet(options.repair.progress);
-  const bool is_solid = bounds_a_solid(clean, &quiet);
+  const bool is_solid = internal::bounds_a_solid(clean, &quiet);
   BuildTreeOptions tree_options = options.repair.tree;
   tree_options.progress = options.repair.progress;
   Tree tree = build_tree(std::move(clean), tree_options, operand.tree);
-  if (is_solid && label_beside_triangles(tree)) return tree;
+  if (is_solid && internal::label_beside_triangles(tree)) return tree;
   RepairReport labels;
   RepairOptions label_options = with_winding(options.repair);
   // The merge relies on the labels being those of closed surfaces.
@@ -128,8 +127,9 @@ Surface boolean(std::span<const TriangleSoup> solids, SetOperation operation,
     return surface;
   }
   if (may_spare_trees(options)) {
-    auto surface = boolean_by_chambers(solids, operation, options, report);
-    return surface ? std::move(*surface) : boolean_by_cells(solids, operation, options, report);
+    auto surface = internal::boolean_by_chambers(solids, operation, options, report);
+    return surface ? std::move(*surface)
+                   : internal::boolean_by_cells(solids, operation, options, report);
   }
   return boolean_surface(merge_operands(solids, operation, options, report), options, report);
 }

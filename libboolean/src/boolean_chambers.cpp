@@ -1,18 +1,19 @@
+#include "boolean_chambers.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include <boolean/boolean_chambers.h>
-#include <boolean/join_soups.h>
 #include <extract/arrange.h>
 #include <repair/chamber_graph.h>
 #include <repair/inside_rule.h>
 
+#include "join_soups.h"
 #include "operands.h"
 
-namespace meshrepair {
+namespace meshrepair::internal {
 namespace {
 
 using Windings = IdVector<TriangleId, std::int32_t>;
@@ -86,7 +87,7 @@ std::vector<char> combine_regions(CellGraph& graph, std::span<const TriangleSoup
     if (exact && !report.exact) return {};
     const bool any = std::find(solid.begin(), solid.end(), 1) != solid.end();
     if (!any && !given[k].triangles.empty()) {
-      internal::throw_too_small(k, solids.soup.grid);
+      throw_too_small(k, solids.soup.grid);
     }
     result.resize(solid.size());
     for (std::size_t c = 0; c < solid.size(); ++c) {
@@ -102,7 +103,7 @@ std::vector<char> combine_regions(CellGraph& graph, std::span<const TriangleSoup
 
 JoinedSolids join_operands(std::span<const TriangleSoup> solids, const BooleanOptions& options,
                            BooleanReport& report) {
-  const Grid grid = internal::grid_of(solids, report);
+  const Grid grid = grid_of(solids, report);
   std::vector<JoinedSolids> operands;
   std::vector<std::uint32_t> source;
   std::uint32_t sources = 0;
@@ -110,7 +111,7 @@ JoinedSolids join_operands(std::span<const TriangleSoup> solids, const BooleanOp
     source.push_back(sources);
     sources += static_cast<std::uint32_t>(solids[i].triangles.size());
     JoinedSolids& operand = operands.emplace_back();
-    operand.soup = internal::clean_operand(solids[i], i, grid, options, report);
+    operand.soup = clean_operand(solids[i], i, grid, options, report);
     operand.windings.push_back(windings_of(operand.soup));
   }
   return join_all(operands, source, 0, operands.size());
@@ -157,4 +158,4 @@ Surface boolean_by_cells(std::span<const TriangleSoup> solids, SetOperation oper
   return extract_mesh(joined.soup, combined, options.repair, report.result);
 }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -1,9 +1,9 @@
+#include "collapse_tree.h"
+
 #include <algorithm>
 #include <vector>
 
-#include <boolean/collapse_tree.h>
-
-namespace meshrepair {
+namespace meshrepair::internal {
 namespace {
 
 class Collapser {
@@ -81,4 +81,4 @@ class Collapser {
 
 Tree collapse_tree(Tree tree) { return Collapser(std::move(tree)).run(); }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -1,16 +1,12 @@
+#include "join_soups.h"
+
 #include <base/error.h>
-#include <base/hash_index.h>
-#include <boolean/join_soups.h>
-#include <bsp/corners.h>
-#include <exact/grid_hash.h>
+#include <base/internal/hash_index.h>
+#include <bsp/internal/corners.h>
+#include <exact/internal/grid_hash.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 namespace {
-
-using internal::CornerIds;
-using internal::hash_of_corners;
-using internal::HashIndex;
-using internal::sorted_corners;
 
 bool is_same_grid(const Grid& a, const Grid& b) { return a.unit == b.unit && a.origin == b.origin; }
 
@@ -46,9 +42,9 @@ class Joiner {
   void join_points() {
     HashIndex index(first_.grid_points.size() + second_.grid_points.size());
     const auto find = [&](const GridPoint& at, PointId fresh) {
-      return PointId(index.find_or_insert(
-          internal::hash_of(at), fresh.value,
-          [&](std::uint32_t known) { return joined_.grid_points[PointId(known)] == at; }));
+      return PointId(index.find_or_insert(hash_of(at), fresh.value, [&](std::uint32_t known) {
+        return joined_.grid_points[PointId(known)] == at;
+      }));
     };
     for (PointId p(0u); p < first_.grid_points.end_id(); ++p.value) {
       find(first_.grid_points[p], p);
@@ -117,4 +113,4 @@ CleanSoup join_soups(const CleanSoup& first, const CleanSoup& second, std::uint3
   return Joiner(first, second, second_source, map).run();
 }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

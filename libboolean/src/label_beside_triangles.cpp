@@ -1,12 +1,13 @@
+#include "label_beside_triangles.h"
+
 #include <array>
 #include <utility>
 #include <vector>
 
-#include <boolean/label_beside_triangles.h>
 #include <check/check_surface.h>
 #include <extract/clip_cell.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 namespace {
 
 struct Parent {
@@ -101,4 +102,4 @@ bool label_beside_triangles(Tree& tree) {
   return tree.nodes.size() > 0;
 }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

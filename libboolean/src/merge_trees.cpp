@@ -12,10 +12,10 @@
 #include <vector>
 
 #include <base/error.h>
-#include <boolean/collapse_tree.h>
-#include <boolean/join_soups.h>
 #include <boolean/merge_trees.h>
 
+#include "collapse_tree.h"
+#include "join_soups.h"
 #include "region_tracker.h"
 
 namespace meshrepair {
@@ -37,7 +37,7 @@ class Merger {
   Merger(const Tree& first, const Tree& second, SetOperation operation, const MergeOptions& options,
          MergeReport& report)
       : first_(first), second_(second), operation_(operation), options_(options), report_(report) {
-    merged_.input = join_soups(first.input, second.input, options.second_source, map_);
+    merged_.input = internal::join_soups(first.input, second.input, options.second_source, map_);
   }
 
   Tree run() {
@@ -239,7 +239,7 @@ class Merger {
   SetOperation operation_;
   const MergeOptions& options_;
   MergeReport& report_;
-  JoinMap map_;
+  internal::JoinMap map_;
   Tree merged_;
   Regions* regions_ = nullptr;
   std::vector<Step> steps_;
@@ -256,7 +256,7 @@ Tree merge_trees(const Tree& first, const Tree& second, SetOperation operation,
       options.test == RegionTest::cells
           ? Merger<internal::CellRegions>(first, second, operation, options, report).run()
           : Merger<internal::LinearRegions>(first, second, operation, options, report).run();
-  Tree collapsed = collapse_tree(std::move(merged));
+  Tree collapsed = internal::collapse_tree(std::move(merged));
   report.kept_nodes = collapsed.nodes.size();
   return collapsed;
 }

@@ -1,3 +1,14 @@
+// From triangles in doubles to triangles on the working grid, the numbers of which all predicates
+// are exact. Points are rounded once, here; those that come to one place are one point. Triangles
+// that have no area there go, and the report says of how many rounding alone is to blame.
+//
+// Copies of a triangle become one, with a winding and a number of layers. One that is there as
+// often either way winds around nothing. One that is there several times is one face, unless the
+// edges around it are balanced only with all copies: then solids overlap with a face in common, and
+// each copy counts (count_layers.h). Layers that only the grid has brought together add up, as the
+// wall of something thin is no copy.
+//
+// Ids follow the order of the input, and tasks are joined in their order.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -8,12 +19,12 @@
 
 #include <base/error.h>
 #include <base/first_equal.h>
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <base/parallel.h>
 #include <bsp/clean_soup.h>
 #include <bsp/common_grid.h>
-#include <bsp/corners.h>
-#include <exact/grid_hash.h>
+#include <bsp/internal/corners.h>
+#include <exact/internal/grid_hash.h>
 #include <mesh/mesh_limits.h>
 
 #include "count_layers.h"

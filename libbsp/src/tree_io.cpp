@@ -10,7 +10,6 @@
 #include <exact/predicates.h>
 #include <mesh/packing.h>
 #include <mesh/recognize_format.h>
-#include <mesh/unpack.h>
 
 #include "tree_sections.h"
 

@@ -39,7 +39,6 @@
 #include "report/describe_result.h"
 #include "resume/saved_states.h"
 #include "seal/seal_solid.h"
-#include "sew/moved_corners.h"
 #include "solid/find_solid.h"
 #include "surface/make_surface.h"
 #include "thicken/unite_walls.h"

@@ -98,7 +98,7 @@ TEST_F(SpillFileTest, WhatIsLetGoOfIsNotInMemory) {
   file.give_back(block);
 }
 
-TEST_F(SpillFileTest, HasNoName) {
+TEST_F(SpillFileTest, FileHasNoName) {
   SpillFile file(folder_, 0);
   void* const block = file.take(kMega);
   fill(block, kMega, 1);

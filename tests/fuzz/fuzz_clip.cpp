@@ -10,10 +10,10 @@
 #include <set>
 #include <vector>
 
-#include <extract/check_complex.h>
 #include <extract/clip_cell.h>
 #include <extract/float_engine.h>
 
+#include "cells/check_complex.h"
 #include "fuzz_input.h"
 
 namespace meshrepair::testing {
@@ -61,10 +61,10 @@ class ClipRun {
       const PlaneId plane = choose_plane();
       if (answers_ == Answers::exact && !cuts(cell, plane)) continue;
       const CellId below = clipper_.clip(cell, plane);
-      check_cell(complex_, cell);
-      check_cell(complex_, below);
+      internal::check_cell(complex_, cell);
+      internal::check_cell(complex_, below);
     }
-    check_complex(complex_);
+    internal::check_complex(complex_);
     if (answers_ == Answers::exact) check_geometry();
   }
 

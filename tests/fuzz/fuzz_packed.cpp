@@ -5,7 +5,6 @@
 
 #include <mesh/packing.h>
 #include <mesh/point_io.h>
-#include <mesh/unpack.h>
 
 #include "check_reading.h"
 

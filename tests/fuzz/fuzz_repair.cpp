@@ -14,7 +14,7 @@
 #include <bsp/tree_io.h>
 #include <check/check_surface.h>
 #include <check/self_intersections.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <mesh/soup_io.h>
 #include <repair/repair.h>
 

@@ -10,9 +10,9 @@
 #include <base/error.h>
 #include <bsp/tree_io.h>
 #include <extract/build_cells.h>
-#include <extract/check_complex.h>
 #include <repair/repair.h>
 
+#include "cells/check_complex.h"
 #include "fuzz_input.h"
 #include "require_surface.h"
 #include "tree_bytes.h"
@@ -42,7 +42,7 @@ void run_or_refuse(Work work) {
 void check_cells_of(const Tree& tree) {
   ClipReport report;
   const CellComplex complex = build_cells(tree, {.check_every_clip = true}, report);
-  check_complex(complex);
+  internal::check_complex(complex);
   require(complex.cells.size() == tree.leaves.size(), "there is not one cell for each leaf");
   require(report.fallbacks() == 0, "a tree that is not valid was taken");
 }

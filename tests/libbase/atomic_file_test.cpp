@@ -85,7 +85,7 @@ TEST(WriteFileAtomically, LinkStaysALink) {
   EXPECT_EQ(content_of(path), "new");
 }
 
-TEST(WriteFileAtomically, RelativeNameWithoutFolder) {
+TEST(WriteFileAtomically, RelativeNamesNeedNoFolder) {
   const TemporaryFolder folder;
   const fs::path before = fs::current_path();
   fs::current_path(folder.path());
@@ -94,7 +94,7 @@ TEST(WriteFileAtomically, RelativeNameWithoutFolder) {
   EXPECT_EQ(content_of(folder.path() / "out"), "x");
 }
 
-TEST(WriteFileAtomically, LongestNameThatTheSystemTakes) {
+TEST(WriteFileAtomically, LongestNameIsWritten) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / std::string(255, 'n');
   write_file_atomically(path, "x");
@@ -139,7 +139,7 @@ class Impatient : public ProgressObserver {
   int asked_ = 0;
 };
 
-TEST(WriteFileAtomically, CancelledWhileNobodyReadsThePipe) {
+TEST(WriteFileAtomically, CancellingEndsTheWaitForAReaderOfThePipe) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
   Impatient impatient;

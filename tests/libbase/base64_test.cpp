@@ -8,7 +8,7 @@
 namespace meshrepair {
 namespace {
 
-TEST(Base64, IsThatOfRfc4648) {
+TEST(Base64, EncodesAsRfc4648Says) {
   EXPECT_EQ(encode_base64(""), "");
   EXPECT_EQ(encode_base64("f"), "Zg==");
   EXPECT_EQ(encode_base64("fo"), "Zm8=");
@@ -21,7 +21,7 @@ TEST(Base64, AllBytesComeBack) {
   EXPECT_EQ(decode_base64(encode_base64(bytes)), bytes);
 }
 
-TEST(Base64, WhatIsNoneIsRefused) {
+TEST(Base64, RefusesOtherText) {
   EXPECT_EQ(decode_base64("Zm9v!mFy"), std::nullopt);
   EXPECT_EQ(decode_base64("Zm9vY"), std::nullopt);
 }

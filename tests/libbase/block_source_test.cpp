@@ -50,7 +50,7 @@ class OneShelf : public BlockSource {
   std::vector<std::size_t> sizes_, starts_;
 };
 
-TEST(BlockSource, LargeBlocksComeFromIt) {
+TEST(BlockSource, LargeBlocksComeFromTheSource) {
   OneShelf shelf;
   void* const small = take_block(kLeastBlock - 1);
   void* const large = take_block(kLeastBlock);
@@ -101,7 +101,7 @@ TEST(BlockSource, HasRoomWhereSmallBlocksWere) {
 
 #endif
 
-TEST(BlockSource, TheSystemGivesWhatItHasNoRoomFor) {
+TEST(BlockSource, SystemGivesBlocksThatTheSourceHasNoRoomFor) {
   OneShelf shelf;
   void* const block = take_block(2 * kRoom);
   EXPECT_NE(block, nullptr);
@@ -145,7 +145,7 @@ TEST(BlockSource, BlocksOfBeforeAreTheSystemsUntilTheyGrow) {
   EXPECT_EQ(shelf.given_back, 1);
 }
 
-TEST(BlockSource, VectorsGrowThroughIt) {
+TEST(BlockSource, VectorsGrowThroughTheSource) {
   OneShelf shelf;
   {
     TrivialVector<int> numbers;

@@ -71,7 +71,7 @@ TEST(IdVector, GrowsByAValueOfItsOwn) {
   for (const int value : few) EXPECT_EQ(value, 7);
 }
 
-TEST(BeginOfList, IsRefusedWhere32BitsDoNotTellWhereTheListIs) {
+TEST(BeginOfList, RefusesListsBeyond32Bits) {
   const std::size_t most = kNone;
   EXPECT_EQ(begin_of_list(most - 7, 7), kNone - 7);
   EXPECT_EQ(begin_of_list(most, 0), kNone);

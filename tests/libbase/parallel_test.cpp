@@ -126,7 +126,7 @@ std::size_t count_by_halves(std::size_t count) {
   return left + right;
 }
 
-TEST(ParallelInvoke, DoesBothWithinItselfToo) { EXPECT_EQ(count_by_halves(10000), 10000U); }
+TEST(ParallelInvoke, RunsNestedPairs) { EXPECT_EQ(count_by_halves(10000), 10000U); }
 
 TEST(ParallelInvoke, PassesOnWhatOneThrows) {
   const auto fail = [] { throw Cancelled(); };

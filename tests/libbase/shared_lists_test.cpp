@@ -33,7 +33,7 @@ std::vector<std::uint32_t> random_values(std::size_t count, std::uint32_t below,
   return values;
 }
 
-TEST(FirstEqual, IsTheLowestOneWhateverTheSizeOfTheList) {
+TEST(FirstEqual, LowestIndexIsFoundWhateverTheSizeOfTheList) {
   for (const std::size_t count : {0u, 1u, 2u, 100u, 8191u, 8192u, 16384u, 200'000u}) {
     for (const std::uint32_t below : {1u, 7u, 50'000u, 1u << 30}) {
       SCOPED_TRACE(::testing::Message() << count << " of " << below);
@@ -96,7 +96,7 @@ TEST(Buckets, MayBeWithoutItems) {
   EXPECT_EQ(Buckets<int>(0, 0, [](std::size_t, const auto&) {}).size(), 0u);
 }
 
-TEST(SharedSets, AreThoseThatOneThreadMakes) {
+TEST(SharedSets, SetsAreThoseOfOneThread) {
   for_each_seed(8, [&](std::uint64_t seed) {
     const std::uint32_t count = 20'000;
     // Near ones mostly, so that threads meet in long chains.

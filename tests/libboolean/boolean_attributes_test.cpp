@@ -31,7 +31,7 @@ TexturedSurface combined(const TexturedSoup& input, SetOperation operation, bool
   return result;
 }
 
-TEST(BooleanAttributes, AreThoseOfTheOperandThatTheSurfaceIsOf) {
+TEST(BooleanAttributes, AttributesComeFromTheOperandOfTheSurface) {
   const TexturedSoup input = textured(three_balls());
   for (const SetOperation operation : {SetOperation::unite, SetOperation::intersect,
                                        SetOperation::subtract, SetOperation::exclude}) {
@@ -44,7 +44,7 @@ TEST(BooleanAttributes, AreThoseOfTheOperandThatTheSurfaceIsOf) {
 }
 
 // The same soup, put together of its parts.
-TEST(BooleanAttributes, AreAppendedAsIfReadAtOnce) {
+TEST(BooleanAttributes, AttributesAreAppendedAsIfReadAtOnce) {
   Attributes all;
   std::size_t triangles = 0;
   TriangleSoup soup;
@@ -64,7 +64,7 @@ TEST(BooleanAttributes, AreAppendedAsIfReadAtOnce) {
             "of " + std::to_string(triangles - three_balls()[2].triangles.size()));
 }
 
-TEST(BooleanAttributes, OfPartsThatLackSomeStayInStep) {
+TEST(BooleanAttributes, PartsWithoutAttributesKeepOthersInStep) {
   const TriangleSoup ball = sphere(300);
   Attributes all;
   append_attributes(all, 0, {}, ball.triangles.size());

@@ -1,12 +1,12 @@
 // Without trees the result is that of merged trees.
+#include "boolean_chambers.h"
+
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include <boolean/boolean_chambers.h>
 
 #include "random_solids.h"
 #include "shapes.h"
@@ -23,7 +23,8 @@ constexpr SetOperation kAll[] = {SetOperation::unite, SetOperation::intersect,
 // Whether trees are not needed.
 bool is_as_by_trees(const std::vector<TriangleSoup>& solids, SetOperation operation) {
   BooleanReport report, of_trees;
-  const std::optional<Surface> surface = boolean_by_chambers(solids, operation, {}, report);
+  const std::optional<Surface> surface =
+      internal::boolean_by_chambers(solids, operation, {}, report);
   if (!surface) return false;
   BooleanOptions options;
   options.by_trees = true;
@@ -82,7 +83,8 @@ TEST(BooleanChambers, CellsGiveTheSame) {
     SCOPED_TRACE(operation_name(operation));
     BooleanReport report, of_trees;
     BooleanOptions options;
-    const Surface surface = boolean_by_cells(random_pair(seed), operation, options, report);
+    const Surface surface =
+        internal::boolean_by_cells(random_pair(seed), operation, options, report);
     options.by_trees = true;
     const Surface other = boolean(random_pair(seed), operation, options, of_trees);
     const double volume = signed_volume(other.mesh), area = surface_area(other.mesh);
@@ -106,7 +108,7 @@ TEST(BooleanChambers, WhatRoundingFoldsTakesNoTrees) {
   }
 }
 
-TEST(BooleanChambers, WhoAsksForARegionTestGetsTrees) {
+TEST(BooleanChambers, AskingForARegionTestGivesTrees) {
   BooleanOptions options;
   BooleanReport report;
   (void)boolean(std::vector{cube(), moved(cube(), {0.5, 0.5, 0.5})}, SetOperation::unite, options,

@@ -31,7 +31,7 @@ Result compute(const std::vector<TriangleSoup>& solids, SetOperation operation) 
   return result;
 }
 
-TEST(Boolean, OfTwoBoxes) {
+TEST(Boolean, TwoBoxesGiveTheExactVolume) {
   const std::vector<TriangleSoup> boxes = {cube(), box({0.5, 0.5, 0.5}, {2, 2, 2})};
   EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::unite).volume(), 1 + 3.375 - 0.125);
   EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::intersect).volume(), 0.125);
@@ -39,7 +39,7 @@ TEST(Boolean, OfTwoBoxes) {
   EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::exclude).volume(), 0.875 + 3.25);
 }
 
-TEST(Boolean, OfBoxesThatShareAFaceLeavesNoWall) {
+TEST(Boolean, UnionOfBoxesThatShareAFaceLeavesNoWall) {
   const Result united = compute({cube(), box({1, 0, 0}, {3, 1, 1})}, SetOperation::unite);
   EXPECT_DOUBLE_EQ(united.volume(), 3);
   EXPECT_EQ(united.surface.mesh.triangles.size(), 12u + 8u);
@@ -72,7 +72,7 @@ TEST(Boolean, TrianglesThatNothingCutsStayAsTheyAre) {
   EXPECT_TRUE(from_both[0] && from_both[1]);
 }
 
-TEST(Boolean, OfManyIsTakenInTurn) {
+TEST(Boolean, ManyOperandsAreTakenInTurn) {
   std::vector<TriangleSoup> boxes;
   for (int i = 0; i < 5; ++i) boxes.push_back(moved(cube(), {0.5 * i, 0, 0}));
   EXPECT_DOUBLE_EQ(compute(boxes, SetOperation::unite).volume(), 3);

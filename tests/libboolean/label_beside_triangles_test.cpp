@@ -1,6 +1,7 @@
+#include "label_beside_triangles.h"
+
 #include <gtest/gtest.h>
 
-#include <boolean/label_beside_triangles.h>
 #include <bsp/build_tree.h>
 #include <repair/repair.h>
 
@@ -22,21 +23,21 @@ Tree tree_of(const TriangleSoup& soup) {
 }
 
 void expect_labels_of_the_cells(const TriangleSoup& soup) {
-  ASSERT_TRUE(bounds_a_solid(clean(soup)));
+  ASSERT_TRUE(internal::bounds_a_solid(clean(soup)));
   Tree by_cells = tree_of(soup);
   RepairOptions options;
   options.inside.rule = InsideRule::winding;
   RepairReport report;
   label_tree(by_cells, options, report);
   Tree by_triangles = tree_of(soup);
-  ASSERT_TRUE(label_beside_triangles(by_triangles));
+  ASSERT_TRUE(internal::label_beside_triangles(by_triangles));
   ASSERT_EQ(by_triangles.leaves.size(), by_cells.leaves.size());
   for (LeafId leaf(0u); leaf < by_cells.leaves.end_id(); ++leaf.value) {
     EXPECT_EQ(by_triangles.leaves[leaf].label, by_cells.leaves[leaf].label) << leaf.value;
   }
 }
 
-TEST(LabelBesideTriangles, IsWhatTheCellsSay) {
+TEST(LabelBesideTriangles, LabelsAreThoseOfCells) {
   expect_labels_of_the_cells(cube());
   expect_labels_of_the_cells(sphere(3000));
   expect_labels_of_the_cells(torus(60, 30));
@@ -60,22 +61,22 @@ TEST(LabelBesideTriangles, PartsThatFaceEachOtherInOnePlane) {
 }
 
 TEST(LabelBesideTriangles, WhatIsNoSolidIsToldBefore) {
-  EXPECT_FALSE(bounds_a_solid(clean(flipped(cube()))));
-  EXPECT_FALSE(bounds_a_solid(clean(two_overlapping_spheres(1000))));
-  EXPECT_FALSE(bounds_a_solid(clean(without_some(sphere(1000), 0.1, 1))));
+  EXPECT_FALSE(internal::bounds_a_solid(clean(flipped(cube()))));
+  EXPECT_FALSE(internal::bounds_a_solid(clean(two_overlapping_spheres(1000))));
+  EXPECT_FALSE(internal::bounds_a_solid(clean(without_some(sphere(1000), 0.1, 1))));
   TriangleSoup doubled = cube();
   append(doubled, flipped(cube()));
-  EXPECT_FALSE(bounds_a_solid(clean(doubled)));
+  EXPECT_FALSE(internal::bounds_a_solid(clean(doubled)));
   TriangleSoup touching = cube();
   append(touching, moved(cube(), {1, 1, 0}));
-  EXPECT_FALSE(bounds_a_solid(clean(touching)));
+  EXPECT_FALSE(internal::bounds_a_solid(clean(touching)));
 }
 
 TEST(LabelBesideTriangles, GivesUpWhereCopiesFaceBothWays) {
   TriangleSoup doubled = cube();
   append(doubled, flipped(cube()));
   Tree tree = tree_of(doubled);
-  EXPECT_FALSE(label_beside_triangles(tree));
+  EXPECT_FALSE(internal::label_beside_triangles(tree));
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-#include <boolean/collapse_tree.h>
 #include <boolean/merge_trees.h>
 #include <bsp/common_grid.h>
 #include <extract/build_cells.h>
 #include <repair/repair.h>
 
+#include "collapse_tree.h"
 #include "shapes.h"
 
 namespace meshrepair {
@@ -63,7 +63,7 @@ class MergeTrees : public ::testing::TestWithParam<RegionTest> {
   MergeReport report_;
 };
 
-TEST_P(MergeTrees, OfBoxesInAllPositions) {
+TEST_P(MergeTrees, BoxesInAllPositionsGiveTheExactVolume) {
   expect_volumes(cube(), box({0.5, 0.25, 0.125}, {2, 3, 4}), 0.5 * 0.75 * 0.875);
   expect_volumes(cube(), box({2, 0, 0}, {3, 1, 1}), 0);
   expect_volumes(cube(), box({1, 0, 0}, {2, 1, 1}), 0);       // share a face
@@ -75,13 +75,13 @@ TEST_P(MergeTrees, OfBoxesInAllPositions) {
   expect_volumes(cube(), cube(), 1);
 }
 
-TEST_P(MergeTrees, OfEqualSolidsCollapse) {
+TEST_P(MergeTrees, TreesOfEqualSolidsCollapse) {
   const TriangleSoup soup = sphere(400);
   EXPECT_EQ(volume_of(soup, soup, SetOperation::subtract, true), 0);
   EXPECT_EQ(report_.kept_nodes, 0u);
 }
 
-TEST_P(MergeTrees, OfSpheresAddUp) {
+TEST_P(MergeTrees, VolumesOfSpheresAddUp) {
   const TriangleSoup a = sphere(800), b = sphere(600, 0.8, {0.7, 0.2, 0.1});
   const double both = volume_of(a, b, SetOperation::intersect, true);
   EXPECT_GT(both, 0.3);

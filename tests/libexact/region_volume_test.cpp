@@ -19,7 +19,7 @@ Plane plane(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t offset)
 
 bool has_volume(const std::vector<Plane>& planes) { return RegionVolume(kBox).has_volume(planes); }
 
-TEST(RegionVolume, OfPlanesAcrossAndBesideTheBox) {
+TEST(RegionVolume, PlanesAcrossAndBesideTheBoxAreTold) {
   EXPECT_TRUE(has_volume({}));
   EXPECT_TRUE(has_volume({plane(1, 0, 0, 0)}));
   EXPECT_TRUE(has_volume({plane(1, 2, 3, 40)}));
@@ -28,7 +28,7 @@ TEST(RegionVolume, OfPlanesAcrossAndBesideTheBox) {
   EXPECT_TRUE(has_volume({plane(1, 1, 1, -23)}));
 }
 
-TEST(RegionVolume, IsNoneWhereOnlyAFacetAnEdgeOrAPointIsLeft) {
+TEST(RegionVolume, FacetsEdgesAndPointsHaveNoVolume) {
   EXPECT_FALSE(has_volume({plane(1, 0, 0, -8)}));  // a face of the box
   EXPECT_FALSE(has_volume({plane(1, 1, 0, -16)}));
   EXPECT_FALSE(has_volume({plane(1, 1, 1, -24)}));

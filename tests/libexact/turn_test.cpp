@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <exact/predicates.h>
-#include <exact/turn.h>
 
 #include "random_geometry.h"
 

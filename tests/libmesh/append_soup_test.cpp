@@ -39,7 +39,7 @@ TEST(BringToUnit, ScalesAllPoints) {
   EXPECT_EQ(unit_scale(LengthUnit::meter, LengthUnit::millimeter), 1000);
 }
 
-TEST(BringToUnit, OfTheSameLeavesPointsBitForBit) {
+TEST(BringToUnit, SameUnitLeavesPointsBitForBit) {
   TriangleSoup soup = corner();
   bring_to_unit(LengthUnit::inch, LengthUnit::inch, soup);
   EXPECT_TRUE(std::signbit(soup.points[0].x()));

@@ -50,7 +50,7 @@ void expect_near(const std::array<double, 2>& a, const std::array<double, 2>& b)
   EXPECT_NEAR(a[1], b[1], 1e-7);
 }
 
-TEST(PlacedPictures, OfTheFirstSetStayAsTheyAre) {
+TEST(PlacedPictures, PicturesOfTheFirstSetStayAsTheyAre) {
   Pictured mesh;
   EXPECT_FALSE(with_placed_pictures(mesh.attributes));
   // Nothing lies where there is no picture.

@@ -105,7 +105,7 @@ TEST(Scene, FormatsWithoutObjectsAreOneMesh) {
   EXPECT_TRUE(is_plain(result.scene));
 }
 
-TEST(Placement, OneAfterTheOther) {
+TEST(Placement, PlacementsCompose) {
   Placement turn, move;
   turn.linear << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   move.offset = Vec3d(1, 2, 3);

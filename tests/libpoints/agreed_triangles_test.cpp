@@ -28,7 +28,7 @@ std::vector<std::array<std::uint32_t, 3>> corners_of(const std::vector<VotedTria
 
 using Corners = std::vector<std::array<std::uint32_t, 3>>;
 
-TEST(AgreedTriangles, OfTwoDiagonalsTheOneWithMoreVotesStays) {
+TEST(AgreedTriangles, DiagonalWithMoreVotesStays) {
   const std::vector<VotedTriangle> wanted = {triangle(0, 1, 2, 1), triangle(0, 1, 3, 2),
                                              triangle(0, 2, 3, 1), triangle(1, 2, 3, 2)};
   EXPECT_EQ(corners_of(agreed_triangles(kSquare, flat(4), wanted, nullptr)),
@@ -40,13 +40,13 @@ TEST(AgreedTriangles, TurnDoesNotMatter) {
   EXPECT_EQ(agreed_triangles(kSquare, flat(4), wanted, nullptr).size(), 2U);
 }
 
-TEST(AgreedTriangles, OfTwoThatOverlapTheSmallerIsTaken) {
+TEST(AgreedTriangles, SmallerOfOverlappingTrianglesStays) {
   std::vector<VotedTriangle> wanted = {triangle(0, 1, 2), triangle(0, 1, 3)};
   wanted[0].size = 2;
   EXPECT_EQ(corners_of(agreed_triangles(kSquare, flat(4), wanted, nullptr)), (Corners{{0, 1, 3}}));
 }
 
-TEST(AgreedTriangles, AtMostTwoMeetInAnEdge) {
+TEST(AgreedTriangles, AtMostTwoTrianglesMeetInAnEdge) {
   std::vector<Vec3d> points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {-1, 1, 0.5}, {-1, -1, 0.5}};
   TangentPlane plane;
   plane.normal = Vec3d::UnitX();
@@ -63,7 +63,7 @@ TEST(SingleFans, TheSmallerFanGoes) {
   EXPECT_EQ(corners_of(bow), (Corners{{0, 1, 2}, {0, 2, 3}}));
 }
 
-TEST(SingleFans, WhatIsOneFanStays) {
+TEST(SingleFans, PointsWithOneFanStay) {
   std::vector<VotedTriangle> fan = {triangle(0, 1, 2), triangle(0, 2, 3), triangle(0, 3, 1)};
   EXPECT_EQ(keep_single_fans(fan, 4), 0U);
   EXPECT_EQ(fan.size(), 3U);

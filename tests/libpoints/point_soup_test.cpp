@@ -8,7 +8,7 @@
 #include <check/mesh_distance.h>
 #include <mesh/topology.h>
 #include <points/point_soup.h>
-#include <repair/drop_small_parts.h>
+#include <repair/keep_parts.h>
 #include <repair/repair.h>
 
 #include "point_clouds.h"
@@ -58,21 +58,23 @@ class SolidFromPoints : public ::testing::TestWithParam<Sampling> {
   }
 };
 
-TEST_P(SolidFromPoints, Sphere) { expect_found_again(testing::sphere(20000), 0, 1); }
+TEST_P(SolidFromPoints, SphereIsReconstructed) { expect_found_again(testing::sphere(20000), 0, 1); }
 
-TEST_P(SolidFromPoints, Torus) { expect_found_again(testing::torus(150, 50), 1, 1); }
+TEST_P(SolidFromPoints, TorusIsReconstructed) { expect_found_again(testing::torus(150, 50), 1, 1); }
 
-TEST_P(SolidFromPoints, PlateOfThreeSpacings) {
+TEST_P(SolidFromPoints, PlateOfThreeSpacingsIsReconstructed) {
   expect_found_again(testing::box({0, 0, 0}, {1, 1, 0.072}), 0, 1);
 }
 
-TEST_P(SolidFromPoints, TwoPlatesFourSpacingsApart) {
+TEST_P(SolidFromPoints, PlatesFourSpacingsApartStayApart) {
   TriangleSoup plates = testing::box({0, 0, 0}, {1, 1, 0.11});
   testing::append(plates, testing::box({0, 0, 0.26}, {1, 1, 0.37}));
   expect_found_again(plates, 0, 2);
 }
 
-TEST_P(SolidFromPoints, GenusFive) { expect_found_again(testing::genus_five_body(), 5, 1); }
+TEST_P(SolidFromPoints, SurfaceOfGenusFiveIsReconstructed) {
+  expect_found_again(testing::genus_five_body(), 5, 1);
+}
 
 INSTANTIATE_TEST_SUITE_P(Samplings, SolidFromPoints,
                          ::testing::Values(Sampling{"Even", false, 0},

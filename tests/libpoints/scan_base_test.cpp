@@ -108,7 +108,7 @@ TEST(ScanBase, PiecesOfFewTrianglesAreDroppedHoweverLarge) {
 }
 
 // A ball with a small hole hovers over the ground: only the ground gets a wall.
-TEST(ScanBase, WhatIsOpenAtAHoleStandsOnNothing) {
+TEST(ScanBase, HolesGetNoWalls) {
   TriangleSoup ball = testing::sphere(2000, 0.2);
   ball.triangles.pop_back();
   ScanBaseReport base;
@@ -138,7 +138,7 @@ TEST(ScanBase, StandsWhereItIsTold) {
   EXPECT_THROW((void)with_base(terrain(8, nowhere), options, base), UsageError);
 }
 
-TEST(ScanBase, WhatIsClosedHasNone) {
+TEST(ScanBase, ClosedSurfacesGetNoBase) {
   ScanBaseReport base;
   EXPECT_THROW((void)with_base(testing::cube(), {}, base), NoSolidError);
   ScanBaseOptions options;

@@ -17,7 +17,7 @@ std::vector<std::uint32_t> all_but_first(const std::vector<Vec3d>& points) {
   return others;
 }
 
-TEST(TangentPlane, OfPointsInAPlaneIsThatPlane) {
+TEST(TangentPlane, PointsInAPlaneGetThatPlane) {
   testing::Random random(7);
   const Vec3d normal = Vec3d(1, 2, -2) / 3;
   const Vec3d axis = normal.unitOrthogonal();
@@ -38,13 +38,13 @@ TEST(TangentPlane, SaysThatPointsLieAlongALine) {
   EXPECT_TRUE(fit_tangent_plane(points, 0, all_but_first(points)).line);
 }
 
-TEST(TangentPlane, OfCoincidingPointsIsSomePlane) {
+TEST(TangentPlane, CoincidingPointsGetSomePlane) {
   const std::vector<Vec3d> points(5, Vec3d(1, 1, 1));
   const TangentPlane plane = fit_tangent_plane(points, 0, all_but_first(points));
   EXPECT_NEAR(plane.normal.norm(), 1, 1e-12);
 }
 
-TEST(TangentPlane, WithoutNeighboursIsSomePlane) {
+TEST(TangentPlane, PointsWithoutNeighboursGetSomePlane) {
   EXPECT_NEAR(fit_tangent_plane({{0, 0, 0}}, 0, {}).normal.norm(), 1, 1e-12);
 }
 

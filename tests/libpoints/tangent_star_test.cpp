@@ -1,5 +1,3 @@
-#include "tangent_star.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,8 @@
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "point_stars.h"
 
 namespace meshrepair {
 namespace {
@@ -27,7 +27,7 @@ void add_hexagon(TangentStar& star) {
   }
 }
 
-TEST(TangentStar, OfAHexagonHasItsSixNeighbours) {
+TEST(TangentStar, StarInAHexagonHasSixNeighbours) {
   TangentStar star;
   star.begin(kOrigin, kUp, 10);
   add_hexagon(star);
@@ -51,7 +51,7 @@ TEST(TangentStar, CornersAreCounterClockwiseAroundTheNormal) {
   }
 }
 
-TEST(TangentStar, IsOpenWhereNothingIs) {
+TEST(TangentStar, StarIsOpenWhereNeighboursAreMissing) {
   TangentStar star;
   star.begin(kOrigin, kUp, 1);
   star.add(0, {1, 0, 0}, 0);

@@ -51,7 +51,7 @@ TriangleSoup above(const TriangleSoup& soup, double height) {
   return part;
 }
 
-TEST(Terrain, HillsAreOneSeenFromAbove) {
+TEST(Terrain, HillsAreATerrainSeenFromAbove) {
   EXPECT_TRUE(is_terrain(graph_of(rolling_hills), 2));
   EXPECT_TRUE(is_terrain(graph_of(lone_hill), 2));
   EXPECT_FALSE(is_terrain(graph_of(rolling_hills), 0));
@@ -80,13 +80,13 @@ TEST(Terrain, OneSideOfABodyIsSteepWhereItEnds) {
   EXPECT_FALSE(is_terrain(above(testing::torus(100, 50), 0.02), 2));
 }
 
-TEST(Terrain, TwoSheetsOnEachOtherAreNone) {
+TEST(Terrain, TwoSheetsOnEachOtherAreNoTerrain) {
   TriangleSoup two = graph_of(rolling_hills);
   testing::append(two, testing::moved(two, {0, 0, 0.05}));
   EXPECT_FALSE(is_terrain(two, 2));
 }
 
-TEST(Terrain, NoTrianglesAreNone) { EXPECT_FALSE(is_terrain(TriangleSoup(), 2)); }
+TEST(Terrain, NoTrianglesAreNoTerrain) { EXPECT_FALSE(is_terrain(TriangleSoup(), 2)); }
 
 }  // namespace
 }  // namespace meshrepair

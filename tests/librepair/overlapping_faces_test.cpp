@@ -68,7 +68,7 @@ double volume_of_union(const std::vector<Tetrahedron>& tetrahedra) {
   return static_cast<double>(inside) / kPoints;
 }
 
-TEST(OverlappingFaces, OfTetrahedraAreUnited) {
+TEST(OverlappingFaces, OverlappingTetrahedraAreUnited) {
   for (std::uint64_t seed = 0; seed < share_of_cases(30u); ++seed) {
     const std::vector<Tetrahedron> tetrahedra = tetrahedra_of(3 + seed % 6, seed);
     for (const InsideRule rule : {InsideRule::automatic, InsideRule::winding}) {
@@ -82,7 +82,7 @@ TEST(OverlappingFaces, OfTetrahedraAreUnited) {
 }
 
 // On the working grid most triangles of the two are the same, and some are not.
-TEST(OverlappingFaces, OfACopyBesideItselfAreOnTheSurface) {
+TEST(OverlappingFaces, FacesOfAShiftedCopyAreOnTheSurface) {
   for (const double offset : {1e-10, 1e-9, 1e-8, 3e-8}) {
     TriangleSoup soup = transformed(
         torus(20, 10), Eigen::AngleAxisd(0.3, Vec3d(1, 2, 3).normalized()).toRotationMatrix());

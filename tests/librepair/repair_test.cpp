@@ -1,10 +1,12 @@
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <mesh/precision.h>
 #include <repair/repair.h>
 
 #include "shapes.h"
@@ -22,6 +24,21 @@ void expect_solid(const RepairResult& result) {
   EXPECT_TRUE(t.oriented());
   EXPECT_EQ(result.report.clip.fallbacks(), 0u);
   EXPECT_EQ(result.report.tree.lost_fragments, 0u);
+}
+
+TEST(Repair, ExampleInTheHeaderCertifiesWhatStlHolds) {
+  TriangleSoup soup = cube();
+  append(soup, moved(cube(), {0.3, 0.4, 0.5}));
+  soup.triangles.pop_back();
+  // As in repair/repair.h.
+  meshrepair::RepairOptions options;
+  options.certify.precision = meshrepair::Precision::float32;
+  options.certify.welded = true;
+  const meshrepair::RepairResult result = meshrepair::repair(soup, options);
+  if (!result.report.certify.passed()) throw std::runtime_error("not certified");
+  const meshrepair::TriangleSoup& solid = result.surface.mesh;
+  expect_solid(result);
+  for (const Vec3d& p : solid.points) EXPECT_EQ(p, rounded_to_float32(p));
 }
 
 TEST(Repair, CubeStaysACube) {

@@ -62,7 +62,7 @@ TEST_P(BooleanProperties, VolumesAddUp) {
   }
 }
 
-TEST_P(BooleanProperties, WithItselfAndWithNothing) {
+TEST_P(BooleanProperties, SolidWithItselfAndWithNothingFollowsSetAlgebra) {
   for_each_seed(kSeeds / 3, [&](std::uint64_t third) {
     const std::uint64_t seed = first_seed() + 3 * third;
     SCOPED_TRACE(seed);

@@ -6,9 +6,9 @@
 
 #include <base/error.h>
 #include <bsp/tree_io.h>
-#include <extract/check_complex.h>
 #include <repair/repair.h>
 
+#include "cells/check_complex.h"
 #include "complexes.h"
 #include "degenerate_soups.h"
 #include "each_seed.h"
@@ -43,11 +43,11 @@ TEST_P(EverySoup, GivesASoundComplex) {
     Cells cells = cells_of(GetParam().make(seed));
     EXPECT_EQ(cells.clip.fallbacks(), 0u);
     EXPECT_EQ(cells.complex.cells.size(), cells.tree->leaves.size());
-    ASSERT_NO_THROW(check_complex(cells.complex));
+    ASSERT_NO_THROW(internal::check_complex(cells.complex));
     expect_convex_cells(cells.complex);
     expect_cells_fill_the_box(cells);
     (void)cover_of(cells);
-    ASSERT_NO_THROW(check_complex(cells.complex));
+    ASSERT_NO_THROW(internal::check_complex(cells.complex));
     expect_convex_cells(cells.complex);
     expect_cells_fill_the_box(cells);
   }
@@ -65,7 +65,7 @@ void expect_solid(const RepairResult& result) {
   EXPECT_GT(result.report.output_volume, -1e-9 * size);
 }
 
-TEST_P(EverySoup, IsRepairedToASolidByEveryRule) {
+TEST_P(EverySoup, EveryRuleRepairsAnySoupToASolid) {
   int solids = 0;
   for (std::uint64_t seed = 200; seed < 200 + share_of_cases(kSeeds); ++seed) {
     for (const InsideRule rule :

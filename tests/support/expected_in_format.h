@@ -12,7 +12,7 @@
 
 #include <base/file_bytes.h>
 #include <mesh/attributes.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <mesh/soup_io.h>
 
 namespace meshrepair {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <mesh/attributes.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <mesh/soup.h>
 
 #include "textured.h"

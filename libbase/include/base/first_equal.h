@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <base/buckets.h>
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <base/parallel.h>
 
 namespace meshrepair {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <base/parallel.h>
 
 namespace meshrepair {

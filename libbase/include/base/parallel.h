@@ -49,19 +49,19 @@ void parallel_tasks(std::size_t count, std::size_t per_task, const Body& body) {
   });
 }
 
-// What join(all, part) makes of the results of part_of(first, last) for each of these tasks, from
-// the first to the last: rounding, too, depends on `per_task` alone. Without items a Part{}.
-template <class PartOf, class Join>
-auto parallel_reduce(std::size_t count, std::size_t per_task, const PartOf& part_of,
+// What join(all, partial) makes of the results of reduce(first, last) for each of these tasks, from
+// the first to the last: rounding, too, depends on `per_task` alone. Without items a Partial{}.
+template <class Reduce, class Join>
+auto parallel_reduce(std::size_t count, std::size_t per_task, const Reduce& reduce,
                      const Join& join) {
-  using Part = std::invoke_result_t<const PartOf&, std::size_t, std::size_t>;
-  static_assert(!std::is_same_v<Part, bool>, "threads would share the bytes of vector<bool>");
-  std::vector<Part> parts(tasks_of(count, per_task));
+  using Partial = std::invoke_result_t<const Reduce&, std::size_t, std::size_t>;
+  static_assert(!std::is_same_v<Partial, bool>, "threads would share the bytes of vector<bool>");
+  std::vector<Partial> partials(tasks_of(count, per_task));
   parallel_tasks(count, per_task, [&](std::size_t task, std::size_t first, std::size_t last) {
-    parts[task] = part_of(first, last);
+    partials[task] = reduce(first, last);
   });
-  Part all{};
-  for (Part& part : parts) join(all, std::exchange(part, Part{}));
+  Partial all{};
+  for (Partial& partial : partials) join(all, std::exchange(partial, Partial{}));
   return all;
 }
 

@@ -36,11 +36,11 @@ class CancelOnly : public ProgressObserver {
   ProgressObserver* observer_;
 };
 
-// Passes on a whole as a part of the observer's stage: from one share of it to another.
-class PartOfStage : public ProgressObserver {
+// Passes on a whole as a share of the observer's stage: from one share of it to another.
+class ShareOfStage : public ProgressObserver {
  public:
   // `observer` may be null.
-  PartOfStage(ProgressObserver* observer, double from, double to)
+  ShareOfStage(ProgressObserver* observer, double from, double to)
       : observer_(observer), from_(from), to_(to) {}
   void advance(double share) override {
     if (observer_ != nullptr) observer_->advance(from_ + share * (to_ - from_));

@@ -1,12 +1,12 @@
-// How sheets of a surface touch along edges.
+// How a surface touches itself along edges.
 #pragma once
 
 #include <mesh/soup.h>
 
 namespace meshrepair {
 
-// What the sheets are at the places where several edges lie: each joins the walls of what is solid
-// beside the edge, or of what is empty there (cut_nonmanifold.h). Both if nothing touches.
+// What its fans of triangles are where several edges lie in one place: each joins the walls of what
+// is solid beside the edge, or of what is empty there (cut_nonmanifold.h). Both if nothing touches.
 struct EdgeContacts {
   bool separate = true;
   bool joined = true;

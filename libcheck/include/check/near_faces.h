@@ -24,7 +24,7 @@ struct NearFacesFound {
 };
 
 struct NearFacesOptions {
-  double reach = 0;  // what is farther apart is not looked for
+  double largest_distance = 0;  // what is farther apart is not looked for
   // Nor what is farther apart than this share of the longest edges of both.
   double share = std::numeric_limits<double>::infinity();
   ProgressObserver* progress = nullptr;

@@ -39,7 +39,7 @@ struct SelfIntersections {
 
 // Counts the pairs of triangles that have more in common than the corners and the edge that they
 // share: also those with a common corner that meet elsewhere too, and those folded onto each other
-// at a common edge. Of sheets that cross along an edge that both have with points of their own, one
+// at a common edge. Of faces that cross along an edge that both have with points of their own, one
 // pair (welded only). Exact; the same for any number of threads. Throws Cancelled. n log n and the
 // number of pairs whose boxes meet.
 [[nodiscard]] SelfIntersections self_intersections(const TriangleSoup& soup,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <base/progress.h>
-#include <check/nearest_triangle.h>
+#include <check/internal/nearest_triangle.h>
 
 namespace meshrepair::internal {
 

@@ -17,13 +17,13 @@
 #include <Eigen/Geometry>
 
 #include <base/error.h>
-#include <base/hash_index.h>
 #include <base/ids.h>
+#include <base/internal/hash_index.h>
 #include <base/parallel.h>
 #include <base/raw_vector.h>
 #include <base/shared_progress.h>
+#include <check/internal/nearest_triangle.h>
 #include <check/mesh_distance.h>
-#include <check/nearest_triangle.h>
 #include <mesh/mesh_parts.h>
 
 #include "distance_bound.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <base/parallel.h>
-#include <check/nearest_triangle.h>
+#include <check/internal/nearest_triangle.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include <base/parallel.h>
 #include <base/raw_vector.h>
 #include <base/shared_progress.h>
-#include <check/nearest_triangle.h>
+#include <check/internal/nearest_triangle.h>
 #include <check/point_distances.h>
 #include <mesh/mesh_parts.h>
 

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include <check/star_distance.h>
+#include <check/internal/star_distance.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -9,7 +9,7 @@
 #include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
-#include <check/triangle_pair.h>
+#include <check/internal/triangle_pair.h>
 
 #include "crossing_sheets.h"
 #include "findings.h"

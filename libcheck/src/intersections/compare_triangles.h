@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include <check/internal/triangle_list.h>
 #include <check/self_intersections.h>
-#include <check/triangle_list.h>
 
 namespace meshrepair::internal {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 
 namespace meshrepair::internal {
 

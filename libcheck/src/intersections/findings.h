@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <check/internal/triangle_pair.h>
 #include <check/self_intersections.h>
-#include <check/triangle_pair.h>
 
 namespace meshrepair::internal {
 

@@ -5,8 +5,8 @@
 #include <base/buckets.h>
 #include <base/ids.h>
 #include <base/parallel.h>
-#include <check/known_intersections.h>
-#include <check/triangle_list.h>
+#include <check/internal/known_intersections.h>
+#include <check/internal/triangle_list.h>
 #include <mesh/weld_points.h>
 
 #include "compare_triangles.h"

@@ -1,11 +1,13 @@
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
 #include <base/ids.h>
-#include <check/nearby_intersections.h>
+#include <base/parallel.h>
+#include <check/internal/nearby_intersections.h>
+#include <check/internal/triangle_list.h>
 #include <check/self_intersections.h>
-#include <check/triangles_near.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -16,29 +18,29 @@ constexpr std::size_t kMostPairs = 200'000;
 }  // namespace
 
 NearbyIntersections::NearbyIntersections(const TriangleSoup& mesh,
-                                         std::span<const std::uint32_t> moving, double reach)
+                                         std::span<const std::uint32_t> moving, double margin)
     : mesh_(mesh),
       tree_({}),
       part_index_(mesh.points.size(), kNone),
       is_in_part_(mesh.triangles.size(), 0) {
-  find_around(moving, reach);
+  find_around(moving, margin);
   boxes_.reserve(around_.size());
-  for (const std::uint32_t t : around_) boxes_.push_back(box_around(t, reach));
+  for (const std::uint32_t t : around_) boxes_.push_back(box_around(t, margin));
   tree_ = BoxTree(boxes_);
 }
 
-Box NearbyIntersections::box_around(std::uint32_t triangle, double reach) const {
+Box NearbyIntersections::box_around(std::uint32_t triangle, double margin) const {
   Box box;
   for (const std::uint32_t p : mesh_.triangles[triangle]) box.add(mesh_.points[p]);
-  box.widen(reach);
+  box.widen(margin);
   return box;
 }
 
-void NearbyIntersections::find_around(std::span<const std::uint32_t> moving, double reach) {
+void NearbyIntersections::find_around(std::span<const std::uint32_t> moving, double margin) {
   std::vector<Box> boxes;
   boxes.reserve(moving.size());
-  for (const std::uint32_t t : moving) boxes.push_back(box_around(t, reach));
-  around_ = triangles_near(mesh_, boxes, reach);
+  for (const std::uint32_t t : moving) boxes.push_back(box_around(t, margin));
+  around_ = triangles_near(mesh_, boxes, margin);
 }
 
 void NearbyIntersections::add(std::uint32_t triangle) {
@@ -85,6 +87,32 @@ std::vector<NearbyIntersections::Pair> NearbyIntersections::find(
   for (const std::uint32_t p : part_points_) part_index_[p] = kNone;
   for (const std::uint32_t t : part_triangles_) is_in_part_[t] = 0;
   return pairs;
+}
+
+namespace {
+
+// Enough that looking up takes longer than handing out the task.
+constexpr std::size_t kBoxesPerTask = 16384;
+
+}  // namespace
+
+std::vector<std::uint32_t> triangles_near(const TriangleSoup& soup, std::span<const Box> boxes,
+                                          double margin) {
+  const BoxTree tree(boxes);
+  const auto find = [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> near;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto id = static_cast<std::uint32_t>(t);
+      Box box = box_of(soup, id);
+      box.widen(margin);
+      if (meets_any(tree, boxes, box)) near.push_back(id);
+    }
+    return near;
+  };
+  return parallel_reduce(soup.triangles.size(), kBoxesPerTask, find,
+                         [](std::vector<std::uint32_t>& all, std::vector<std::uint32_t> part) {
+                           all.insert(all.end(), part.begin(), part.end());
+                         });
 }
 
 }  // namespace meshrepair::internal

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include <base/ids.h>
-#include <check/triangle_list.h>
-#include <check/triangles_near.h>
+#include <check/internal/nearby_intersections.h>
+#include <check/internal/triangle_list.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -32,12 +32,12 @@ TriangleSoup part_of(const TriangleSoup& soup, std::span<const std::uint32_t> tr
 }  // namespace
 
 NearbyPart nearby_part(const TriangleSoup& soup, std::span<const std::uint32_t> among,
-                       double reach) {
+                       double margin) {
   const SoupCorners corners(soup, false);
   const TriangleList list(corners, among);
   // Those that were left out have nothing near them, but are to be counted.
   NearbyPart part;
-  part.triangles = triangles_near(soup, list.boxes(), reach);
+  part.triangles = triangles_near(soup, list.boxes(), margin);
   part.triangles.insert(part.triangles.end(), among.begin(), among.end());
   std::sort(part.triangles.begin(), part.triangles.end());
   part.triangles.erase(std::unique(part.triangles.begin(), part.triangles.end()),

@@ -19,8 +19,8 @@ struct NearbyPart {
   std::vector<std::uint32_t> among;      // the triangles it is near to, in its own numbers
 };
 
-// All that may meet one of `among`, which may repeat, or lie within `reach` of it.
+// All that may meet one of `among`, which may repeat, or lie within `margin` of it.
 [[nodiscard]] NearbyPart nearby_part(const TriangleSoup& soup, std::span<const std::uint32_t> among,
-                                     double reach);
+                                     double margin);
 
 }  // namespace meshrepair::internal

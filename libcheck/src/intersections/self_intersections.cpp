@@ -1,5 +1,5 @@
+#include <check/internal/triangle_list.h>
 #include <check/self_intersections.h>
-#include <check/triangle_list.h>
 
 #include "compare_triangles.h"
 #include "nearby_part.h"

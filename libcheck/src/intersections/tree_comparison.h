@@ -9,9 +9,9 @@
 #include <base/raw_vector.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
+#include <check/internal/triangle_list.h>
+#include <check/internal/triangle_pair.h>
 #include <check/self_intersections.h>
-#include <check/triangle_list.h>
-#include <check/triangle_pair.h>
 
 #include "findings.h"
 #include "triangle_hubs.h"

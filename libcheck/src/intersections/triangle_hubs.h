@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <check/box_tree.h>
-#include <check/triangle_list.h>
-#include <check/triangle_pair.h>
+#include <check/internal/triangle_list.h>
+#include <check/internal/triangle_pair.h>
 
 namespace meshrepair::internal {
 

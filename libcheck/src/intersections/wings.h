@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <base/parallel.h>
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 #include <mesh/edge_table.h>
 
 namespace meshrepair::internal {

@@ -1,3 +1,14 @@
+// Which triangles face each other across a small distance: gaps between bodies, and walls that are
+// thin. A tree of boxes gives the pairs. Of two that are nearly parallel the overlap is found in
+// the plane of the larger one, by clipping the other against its three sides as Sutherland and
+// Hodgman do (1974), and the distance is that at the corners of the overlap.
+//
+// Whether solid or space is in between follows from the bodies, connected through edges of two
+// triangles, and from the sign of their volumes: two faces that turn their backs on each other and
+// are of one body, of a void and a body around it, or of two voids, have solid in between.
+//
+// All numbers are rounded: what is found is a measure, and the caller decides by exact predicates
+// what meets.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -127,8 +138,8 @@ class NearFacesFinder {
     return size;
   }
 
-  [[nodiscard]] double reach_of(std::uint32_t i) const {
-    return std::min(options_.reach, options_.share * facing_[i].longest);
+  [[nodiscard]] double largest_between(std::uint32_t i) const {
+    return std::min(options_.largest_distance, options_.share * facing_[i].longest);
   }
 
   [[nodiscard]] bool share_a_corner(std::uint32_t i, std::uint32_t k) const {
@@ -140,7 +151,7 @@ class NearFacesFinder {
 
   void look_around(const BoxTree& tree, std::uint32_t i, NearFacesFound& found) const {
     Box around = boxes_[i];
-    around.widen(reach_of(i));
+    around.widen(largest_between(i));
     tree.visit([&](const Box& box) { return box.meets(around); },
                [&](std::uint32_t k) {
                  if (k > i && boxes_[k].meets(around)) compare(i, k, found);
@@ -188,12 +199,12 @@ class NearFacesFinder {
       if (c > 1) area += (overlap[c - 1].at - overlap[0].at).cross(along);
     }
     if (low < 0 && high > 0) least = 0;
-    const double reach = std::min(reach_of(i), reach_of(k));
+    const double largest = std::min(largest_between(i), largest_between(k));
     const bool is_behind = cosine < 0 && std::abs(low) > high;
     const bool is_wall = is_behind && have_solid_between(facing_[i].body, facing_[k].body);
     double apart = is_wall ? least : most;
     if (apart <= kRounding * std::max(size_of(i), size_of(k))) apart = 0;
-    if (apart > reach || 0.5 * area.norm() <= apart * extent) return;
+    if (apart > largest || 0.5 * area.norm() <= apart * extent) return;
     (is_wall ? found.walls : found.gaps)
         .push_back({std::min(sound_[i], sound_[k]), std::max(sound_[i], sound_[k]), apart});
   }

@@ -8,7 +8,7 @@
 #include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 
 #include "column_ray.h"
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include <base/parallel.h>
+#include <check/internal/triangle_list.h>
 #include <check/soup_rays.h>
-#include <check/triangle_list.h>
 #include <exact/double_predicates.h>
 #include <mesh/edge_table.h>
 

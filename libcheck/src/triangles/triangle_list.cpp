@@ -1,7 +1,7 @@
 #include <utility>
 
 #include <base/parallel.h>
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 #include <exact/double_predicates.h>
 #include <mesh/weld_points.h>
 

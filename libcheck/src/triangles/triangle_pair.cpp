@@ -15,7 +15,7 @@
 
 #include <Eigen/Geometry>
 
-#include <check/triangle_pair.h>
+#include <check/internal/triangle_pair.h>
 #include <exact/double_predicates.h>
 
 namespace meshrepair::internal {

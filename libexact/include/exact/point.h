@@ -34,7 +34,7 @@ struct Point {
 
 // The common point of three planes; a lattice point whenever its coordinates are integers, whatever
 // the planes. The order of the planes does not matter. When the planes have no single common point,
-// or one outside the grid's reach, returns a loose point at `fallback` instead.
+// or one outside what the grid covers, returns a loose point at `fallback` instead.
 [[nodiscard]] Point meet(const PlaneTable& planes, PlaneId a, PlaneId b, PlaneId c,
                          const std::array<double, 3>& fallback);
 

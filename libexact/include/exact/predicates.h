@@ -1,4 +1,5 @@
-// The exact predicates: on which side of a plane does a point lie?
+// The exact predicates: on which side of a plane does a point lie, and which way do three points of
+// it turn?
 //
 // Properties: side(p, P) is the sign of normal(P) . p + offset(P), without error, for lattice
 // points and points given by three planes. side(meet(A, B, C), A) == 0. Turning a plane round turns
@@ -50,5 +51,14 @@ inline constexpr double kDistanceError = 0x1p-23;
   return sign_of(Int128{plane.normal[0]} * p.x + Int128{plane.normal[1]} * p.y +
                  Int128{plane.normal[2]} * p.z + plane.offset);
 }
+
+// +1 counter-clockwise, -1 clockwise, 0 in a line. All three lie in `plane`.
+//
+// Properties: it is the sign of the triangle's area seen from where the plane's normal points,
+// without error, for lattice points and points given by three planes. It stays when the points are
+// rotated and changes sign when two of them change places. Loose points get the sign of their
+// rounded area, or 0 where one is within its tolerance of the line through the others.
+[[nodiscard]] int turn(const Point& a, const Point& b, const Point& c, PlaneId plane,
+                       const PlaneTable& planes);
 
 }  // namespace meshrepair

@@ -79,9 +79,9 @@ class Arrangement {
                                                  ArrangeReport& report) const;
 
  private:
-  struct Parts;
-  explicit Arrangement(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  struct State;
+  explicit Arrangement(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace meshrepair

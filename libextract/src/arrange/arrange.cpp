@@ -45,8 +45,8 @@ std::optional<std::vector<internal::CutSet::Pair>> find_pairs(const CleanSoup& s
 
 }  // namespace
 
-struct Arrangement::Parts {
-  Parts(const CleanSoup& soup_in, std::span<const internal::CutSet::Pair> pairs)
+struct Arrangement::State {
+  State(const CleanSoup& soup_in, std::span<const internal::CutSet::Pair> pairs)
       : soup(soup_in), cut(soup_in, pairs) {}
 
   [[nodiscard]] Vec3d place(std::uint32_t point) const {
@@ -86,7 +86,7 @@ struct Arrangement::Parts {
   internal::Chambers chambers;
 };
 
-Arrangement::Arrangement(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Arrangement::Arrangement(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Arrangement::Arrangement(Arrangement&&) noexcept = default;
 Arrangement& Arrangement::operator=(Arrangement&&) noexcept = default;
 Arrangement::~Arrangement() = default;
@@ -95,7 +95,7 @@ std::optional<Arrangement> Arrangement::make(const CleanSoup& soup, ArrangeRepor
                                              ProgressObserver* progress) {
   const auto pairs = find_pairs(soup, progress);
   if (!pairs) return std::nullopt;
-  auto parts = std::make_unique<Parts>(soup, *pairs);
+  auto parts = std::make_unique<State>(soup, *pairs);
   report = {};
   report.cut_triangles = parts->cut.size();
   {
@@ -115,17 +115,17 @@ std::optional<Arrangement> Arrangement::make(const CleanSoup& soup, ArrangeRepor
   return Arrangement(std::move(parts));
 }
 
-std::size_t Arrangement::chambers() const { return parts_->chambers.count; }
+std::size_t Arrangement::chambers() const { return state_->chambers.count; }
 
 std::vector<double> Arrangement::volumes() const {
   std::vector<double> volumes(chambers(), 0);
   const std::vector<double> moments =
-      parts_->measures([](const Vec3d& a, const Vec3d& b, const Vec3d& c) -> double {
+      state_->measures([](const Vec3d& a, const Vec3d& b, const Vec3d& c) -> double {
         return a.dot(b.cross(c)) / 6;
       });
   for (std::uint32_t f = 0; f < moments.size(); ++f) {
-    volumes[parts_->chambers.behind[f]] += moments[f];
-    volumes[parts_->chambers.front[f]] -= moments[f];
+    volumes[state_->chambers.behind[f]] += moments[f];
+    volumes[state_->chambers.front[f]] -= moments[f];
   }
   return volumes;
 }
@@ -133,19 +133,19 @@ std::vector<double> Arrangement::volumes() const {
 // Facets that are in no stack in their order, then those of the lowest triangle of each stack.
 std::vector<ChamberWall> Arrangement::walls() const {
   const std::vector<double> areas =
-      parts_->measures([](const Vec3d& a, const Vec3d& b, const Vec3d& c) -> double {
+      state_->measures([](const Vec3d& a, const Vec3d& b, const Vec3d& c) -> double {
         return 0.5 * (b - a).cross(c - a).norm();
       });
   std::vector<ChamberWall> walls;
   walls.reserve(areas.size());
-  for (std::uint32_t f = 0; f < parts_->sheets.size(); ++f) {
-    if (!parts_->stacks->contains(f)) walls.push_back(parts_->wall(f, areas[f]));
+  for (std::uint32_t f = 0; f < state_->sheets.size(); ++f) {
+    if (!state_->stacks->contains(f)) walls.push_back(state_->wall(f, areas[f]));
   }
-  parts_->stacks->for_each([&](std::span<const std::uint32_t> stack) {
-    const std::uint32_t above = parts_->wall(stack.back(), 0).above;
+  state_->stacks->for_each([&](std::span<const std::uint32_t> stack) {
+    const std::uint32_t above = state_->wall(stack.back(), 0).above;
     for (const std::uint32_t f : stack) {
-      if (parts_->sheets.triangle[f] != parts_->sheets.triangle[stack.front()]) break;
-      walls.push_back(parts_->wall(f, areas[f]));
+      if (state_->sheets.triangle[f] != state_->sheets.triangle[stack.front()]) break;
+      walls.push_back(state_->wall(f, areas[f]));
       walls.back().above = above;
     }
   });
@@ -155,10 +155,10 @@ std::vector<ChamberWall> Arrangement::walls() const {
 std::vector<Arrangement::Layer> Arrangement::layers() const {
   std::vector<Layer> layers;
   std::uint32_t wall = 0;
-  for (std::uint32_t f = 0; f < parts_->sheets.size(); ++f)
-    wall += parts_->stacks->contains(f) ? 0 : 1;
-  parts_->stacks->for_each([&](std::span<const std::uint32_t> stack) {
-    const auto triangle = [&](std::uint32_t f) { return parts_->sheets.triangle[f]; };
+  for (std::uint32_t f = 0; f < state_->sheets.size(); ++f)
+    wall += state_->stacks->contains(f) ? 0 : 1;
+  state_->stacks->for_each([&](std::span<const std::uint32_t> stack) {
+    const auto triangle = [&](std::uint32_t f) { return state_->sheets.triangle[f]; };
     for (std::size_t i = 0; i < stack.size() && triangle(stack[i]) == triangle(stack[0]); ++i) {
       for (std::size_t k = 1; k < stack.size(); ++k) {
         const bool is_another = triangle(stack[k]) != triangle(stack[k - 1]);
@@ -174,13 +174,13 @@ std::optional<Arrangement::Boundary> Arrangement::boundary(const std::vector<cha
                                                            const ExtractOptions& options,
                                                            ArrangeReport& report) const {
   internal::KeptFacets kept =
-      internal::keep_facets(parts_->soup, parts_->sheets, *parts_->edges, *parts_->stacks,
-                            parts_->chambers, solid, options.touching);
+      internal::keep_facets(state_->soup, state_->sheets, *state_->edges, *state_->stacks,
+                            state_->chambers, solid, options.touching);
   if (!kept.closed) return std::nullopt;
   report.singular_edges = kept.singular_edges;
   report.regions = 0;
   std::optional<Surface> surface = internal::make_sheet_surface(
-      parts_->cut, *parts_->points, parts_->sheets, *parts_->edges, kept, options, report);
+      state_->cut, *state_->points, state_->sheets, *state_->edges, kept, options, report);
   if (!surface) return std::nullopt;
   return Boundary{std::move(*surface), std::move(kept.places)};
 }

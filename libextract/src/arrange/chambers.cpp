@@ -1,3 +1,17 @@
+// A chamber is a connected region that no facet divides. Idea: each facet has two sides, and each
+// side lies in one chamber, so chambers are classes of sides. Sides are joined across edges with
+// two facets, and around the other edges, where what is after a facet and before the next one is
+// the same place.
+//
+// That leaves each connected part of the surface with classes of its own. Which chamber of the
+// others a part lies in, a ray tells that starts at a corner far out, beyond which nothing of the
+// part itself is: the side above that corner is that of the first facet above it, or the outside
+// where there is none. Exact: heights over a point are compared as fractions of integers, and a ray
+// that meets an edge or two facets in one plane is not believed, but another one asked. Where none
+// tells, there are no chambers, and the caller makes cells.
+//
+// Compare Q. Zhou, E. Grinspun, D. Zorin and A. Jacobson, Mesh arrangements for solid geometry
+// (2016), whose cells are these chambers.
 #include "chambers.h"
 
 #include <algorithm>
@@ -6,7 +20,7 @@
 #include <base/parallel.h>
 #include <base/shared_sets.h>
 #include <check/soup_rays.h>
-#include <exact/turn.h>
+#include <exact/predicates.h>
 
 namespace meshrepair::internal {
 namespace {

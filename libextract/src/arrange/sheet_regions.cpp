@@ -6,7 +6,7 @@
 #include <base/ids.h>
 #include <base/parallel.h>
 #include <base/shared_sets.h>
-#include <exact/turn.h>
+#include <exact/predicates.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -1,3 +1,17 @@
+// From the kept facets of an arrangement to the triangles of the result. Facets of one region,
+// which lie in one triangle of the input or in several of one plane, become one planar mesh:
+// vertices inside the region and inside straight lines go, and what is left is made constrained
+// Delaunay. A region that is its whole triangle comes out as that triangle, with its corners in
+// their order.
+//
+// Vertices are not points but fans: corners of facets that are joined one after the other around a
+// point. So solids that touch in a point or along an edge have vertices of their own there. Where
+// the solid touches itself along an edge, both pairs of facets may share both of its ends, and an
+// indexed mesh could not tell the two edges apart: each gets a vertex in its middle. That is tried
+// last, as it adds vertices.
+//
+// Invariant: the result does not depend on the order of tasks. Regions come in the order of the
+// triangles that they begin in, and vertices in the order in which triangles use them.
 #include "sheet_surface.h"
 
 #include <algorithm>

@@ -4,7 +4,8 @@
 
 #include <base/error.h>
 #include <extract/build_cells.h>
-#include <extract/check_complex.h>
+
+#include "check_complex.h"
 
 namespace meshrepair {
 namespace {
@@ -58,8 +59,8 @@ class CellBuilder {
     }
     hang_triangles(complex_.facets.end_id().value - 1, node);
     if (options_.check_every_clip) {
-      check_cell(complex_, cell);
-      check_cell(complex_, below);
+      internal::check_cell(complex_, cell);
+      internal::check_cell(complex_, below);
     }
     return below;
   }

@@ -1,12 +1,13 @@
+#include "check_complex.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <base/error.h>
-#include <extract/check_complex.h>
 
-namespace meshrepair {
+namespace meshrepair::internal {
 namespace {
 
 void require(bool holds, const char* what, CellId cell) {
@@ -162,4 +163,4 @@ void check_complex(const CellComplex& complex) {
   for (CellId c(0u); c < complex.cells.end_id(); ++c.value) check_cell(complex, c);
 }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -8,6 +8,8 @@
 // Where solids touch, edges and vertices stay on both: a vertex of one must not come to lie inside
 // a triangle of the other. Only in the middle of an edge along which they touch a vertex may go,
 // if it goes from all of them.
+#include "merge_facets.h"
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -15,11 +17,8 @@
 
 #include <base/disjoint_sets.h>
 #include <exact/predicates.h>
-#include <extract/merge_facets.h>
 
-#include "loose_regions.h"
-
-namespace meshrepair {
+namespace meshrepair::internal {
 namespace {
 
 class FacetMerger {
@@ -163,9 +162,8 @@ class FacetMerger {
     const std::uint32_t side_in = previous_on_outline(side_out);
     const VertexId beyond = place_of(boundary_.next(side_out));
     if (complex_.loose) {
-      return internal::lies_between(complex_.vertices[place_of(side_out)],
-                                    complex_.vertices[place_of(side_in)],
-                                    complex_.vertices[beyond]);
+      return lies_between(complex_.vertices[place_of(side_out)],
+                          complex_.vertices[place_of(side_in)], complex_.vertices[beyond]);
     }
     const Edge& edge = complex_.edges[edge_of(side_in)];
     return side(complex_.vertices[beyond], edge.planes[0], complex_.planes) == 0 &&
@@ -294,6 +292,18 @@ class FacetMerger {
 
 }  // namespace
 
+bool lies_between(const Point& point, const Point& a, const Point& b) {
+  const auto vector = [](const Point& p) {
+    return Vec3d(p.position[0], p.position[1], p.position[2]);
+  };
+  const Vec3d along = vector(b) - vector(a);
+  const Vec3d from_a = vector(point) - vector(a);
+  const double length = along.norm();
+  const double reach = from_a.dot(along);
+  return reach > 0 && reach < length * length &&
+         from_a.cross(along).norm() <= static_cast<double>(point.error) * length;
+}
+
 MergedFacets merge_facets(const CellComplex& complex, const IdVector<FacetId, Cover>& cover,
                           const std::vector<char>& solid, const Boundary& boundary,
                           const ManifoldCorners& corners, std::span<const char> alone,
@@ -301,4 +311,4 @@ MergedFacets merge_facets(const CellComplex& complex, const IdVector<FacetId, Co
   return FacetMerger(complex, cover, solid, boundary, corners, alone, merges_triangles).run();
 }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

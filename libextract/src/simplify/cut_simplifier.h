@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <base/progress.h>
-#include <check/star_distance.h>
-#include <mesh/collapsible_mesh.h>
+#include <check/internal/star_distance.h>
+#include <mesh/internal/collapsible_mesh.h>
 #include <mesh/soup.h>
 
 namespace meshrepair::internal {

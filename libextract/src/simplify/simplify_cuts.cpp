@@ -1,3 +1,16 @@
+// Where surfaces cross at a small angle, cutting leaves slivers that exact merging does not take
+// away. Edges are collapsed onto one of their ends within a bound on the distance of the two
+// surfaces (J. Cohen, D. Manocha and M. Olano: Simplifying polygonal models using successive
+// mappings, 1997), the shortest first. Only vertices of cut triangles move.
+//
+// A collapse looks at its own star, and not at what is near: to ask that at each move would cost
+// more than all else. So moves are made first, and tested together: which triangles meet now and
+// did not before, which parts changed their volume or face the wrong way. The points to blame stay,
+// and all is done again from the start. In the first rounds only the point that changed a triangle
+// last stays, later all that came to its corners, so that the rounds end.
+//
+// Invariant: after each round the surface is closed and manifold, of the same genus, and within the
+// bound. What fails is at worst not simplified.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -212,10 +225,10 @@ std::vector<std::uint32_t> turning_triangles(const Candidate& candidate, double 
   const BoxTree tree(boxes);
   std::vector<std::uint32_t> blamed;
   for (const std::uint32_t t : candidate.changed) {
-    Box reach;
-    for (const std::uint32_t p : mesh.triangles[t]) reach.add(mesh.points[p]);
-    reach.widen(within);
-    if (meets_any(tree, boxes, reach)) blamed.push_back(t);
+    Box around;
+    for (const std::uint32_t p : mesh.triangles[t]) around.add(mesh.points[p]);
+    around.widen(within);
+    if (meets_any(tree, boxes, around)) blamed.push_back(t);
   }
   return blamed;
 }

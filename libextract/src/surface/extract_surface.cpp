@@ -1,3 +1,13 @@
+// The mesh of a solid given by its cells (WM 4.4). The paper takes every facet between a solid and
+// an empty cell. Here such facets are merged again into the polygons that the input's triangles
+// left (merge_facets.h), singular edges and vertices are cut apart (cut_nonmanifold.h), and each
+// region is triangulated by itself (region_triangulator.h). So a triangle of the input that nothing
+// cuts comes out as it was, from the corner that it began with.
+//
+// All of this but the choice of diagonals is combinatorial. It cannot fail where predicates are
+// exact. In a loose complex, made by floating predicates, regions may be no polygons: then those
+// that went wrong are set apart, facet by facet, and all is merged anew. That ends, as each round
+// sets apart more, and with all facets apart nothing can go wrong.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -8,12 +18,11 @@
 #include <extract/boundary.h>
 #include <extract/cut_nonmanifold.h>
 #include <extract/extract_surface.h>
-#include <extract/merge_facets.h>
-#include <extract/triangulate.h>
 #include <mesh/topology.h>
 
-#include "facets/loose_regions.h"
+#include "facets/merge_facets.h"
 #include "input_points.h"
+#include "loose_regions.h"
 #include "region_triangulator.h"
 
 namespace meshrepair {
@@ -26,7 +35,7 @@ using internal::RegionTriangle;
 struct MergedBoundary {
   Boundary boundary;
   ManifoldCorners corners;
-  MergedFacets merged;
+  internal::MergedFacets merged;
   MiddleVertices middles;
   std::vector<char> alone;  // of each polygon: not to be merged with others; empty: none
   bool merges_triangles = true;
@@ -131,7 +140,7 @@ class SurfaceExtractor {
     }
     pieces_.clear();
     if (has_middle) {
-      triangulate_convex(corner_list_, pieces_);
+      internal::triangulate_convex(corner_list_, pieces_);
     } else {
       pieces_.push_back({0, 1, 2});
     }
@@ -233,7 +242,7 @@ class SurfaceExtractor {
   const std::vector<char>& solid_;
   const Boundary& boundary_;
   const ManifoldCorners& corners_;
-  const MergedFacets& merged_;
+  const internal::MergedFacets& merged_;
   const MiddleVertices& middles_;
   const std::vector<char>& alone_;
   const InputPoints& input_points_;
@@ -241,7 +250,7 @@ class SurfaceExtractor {
   std::vector<std::uint32_t> output_vertex_, output_middle_;
   std::vector<std::uint32_t> failed_, region_of_triangle_;
   IdVector<PointId, VertexId> taken_by_;  // of the points of the input, in a loose complex
-  std::vector<PolygonCorner> corner_list_;
+  std::vector<internal::PolygonCorner> corner_list_;
   std::vector<std::uint32_t> vertex_list_;
   std::vector<std::array<std::uint32_t, 3>> pieces_;
 };
@@ -290,8 +299,8 @@ class LooseExtractor {
   void merge() {
     for (std::size_t round = 0;; ++round) {
       if (round == kMostRounds) set_all_apart();
-      parts_.merged = merge_facets(complex_, cover_, solid_, parts_.boundary, parts_.corners,
-                                   parts_.alone, parts_.merges_triangles);
+      parts_.merged = internal::merge_facets(complex_, cover_, solid_, parts_.boundary,
+                                             parts_.corners, parts_.alone, parts_.merges_triangles);
       if (!internal::set_apart_odd_regions(parts_.boundary, parts_.corners, parts_.merged,
                                            parts_.alone)) {
         break;
@@ -340,8 +349,8 @@ Surface extract_surface(const CellComplex& complex, const IdVector<FacetId, Cove
   if (complex.loose) {
     return LooseExtractor(complex, cover, solid, std::move(parts)).run(report, options.progress);
   }
-  parts.merged = merge_facets(complex, cover, solid, parts.boundary, parts.corners, {},
-                              options.merges_triangles);
+  parts.merged = internal::merge_facets(complex, cover, solid, parts.boundary, parts.corners, {},
+                                        options.merges_triangles);
   parts.middles = separate_common_edges(complex, parts.boundary, parts.corners);
   const InputPoints input_points(complex.soup());
   return SurfaceExtractor(complex, cover, solid, parts, input_points).run(report, options.progress);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <exact/grid_hash.h>
+#include <exact/internal/grid_hash.h>
 
 namespace meshrepair::internal {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <bsp/clean_soup.h>
 #include <exact/point.h>
 

@@ -3,15 +3,25 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <base/disjoint_sets.h>
-#include <extract/merge_facets.h>
-#include <extract/triangulate.h>
 
+#include "facets/merge_facets.h"
 #include "triangulate/planar_mesh.h"
 
 namespace meshrepair::internal {
+
+struct PolygonCorner {
+  std::array<double, 3> position{};  // only for choosing the shorter diagonal
+  bool straight = false;             // its two neighbours and it are in a line
+};
+
+// Appends n - 2 triangles (indices into `polygon`, in its orientation) without a degenerate one. At
+// least three corners are not straight. Linear time.
+void triangulate_convex(std::span<const PolygonCorner> polygon,
+                        std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 // A triangle between output vertices. `sides[k]` is the boundary side that runs along its whole
 // side from corner k to k + 1, or kNone.

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include <base/assert.h>
-#include <exact/turn.h>
+#include <exact/predicates.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -5,7 +5,7 @@
 // leaves an edge crossing is tried again later, and there always is one that helps.
 #include <algorithm>
 
-#include <exact/turn.h>
+#include <exact/predicates.h>
 
 #include "planar_mesh.h"
 

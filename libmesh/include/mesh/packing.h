@@ -6,10 +6,14 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <base/progress.h>
+#include <base/trivial_vector.h>
 
 namespace meshrepair {
+
+struct MeshSource;
 
 enum class Packing { none, gzip, zstd, zip };
 
@@ -37,5 +41,11 @@ struct PackedFile {
 // null; it is asked whether to go on. Throws Cancelled.
 [[nodiscard]] std::string pack_bytes(std::string_view bytes, Packing packing,
                                      ProgressObserver* progress = nullptr);
+
+// All that comes out of the source, whose options have the observer. What is behind the packed
+// bytes but zeros is left out, with a warning. Throws InputError when they are damaged, cut off, or
+// hold more than a file of this size should; Cancelled.
+[[nodiscard]] TrivialVector<char> unpack(const MeshSource& source, Packing packing,
+                                         std::vector<std::string>& warnings);
 
 }  // namespace meshrepair

@@ -5,6 +5,13 @@
 
 namespace meshrepair {
 
+// The nearest float32, as a double. Never inlined: g++ 12 leaves out this rounding for some
+// elements when it vectorises several of them.
+[[nodiscard]] double rounded_to_float32(double x);
+
+// By coordinate.
+[[nodiscard]] Vec3d rounded_to_float32(const Vec3d& p);
+
 enum class Precision { float64, float32 };
 
 namespace internal {

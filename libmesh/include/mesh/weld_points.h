@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <mesh/soup.h>
 
 namespace meshrepair {

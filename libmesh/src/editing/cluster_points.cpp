@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include <base/hash_index.h>
 #include <base/ids.h>
+#include <base/internal/hash_index.h>
 #include <mesh/cluster_points.h>
 
 namespace meshrepair {

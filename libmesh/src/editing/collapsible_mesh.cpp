@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <mesh/collapsible_mesh.h>
+#include <mesh/internal/collapsible_mesh.h>
 
 namespace meshrepair::internal {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include <mesh/editable_mesh.h>
+#include <mesh/internal/editable_mesh.h>
 
 namespace meshrepair::internal {
 namespace {

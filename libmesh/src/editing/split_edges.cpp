@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <mesh/split_edges.h>
 
 namespace meshrepair {

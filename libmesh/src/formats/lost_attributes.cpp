@@ -5,8 +5,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include <mesh/float32.h>
 #include <mesh/lost_attributes.h>
+#include <mesh/precision.h>
 
 #include "formats/obj/obj_io.h"
 #include "formats/threemf/threemf_io.h"

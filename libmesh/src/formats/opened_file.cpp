@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <mesh/named_files.h>
-#include <mesh/unpack.h>
+#include <mesh/packing.h>
 
 #include "formats/threemf/threemf_io.h"
 

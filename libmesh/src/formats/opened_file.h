@@ -47,7 +47,7 @@ class OpenedFile {
   void refuse_second_packing(Packing packing) const;
 
   std::optional<FileBytes> file_;
-  std::optional<PartOfStage> unpacking_, reading_;
+  std::optional<ShareOfStage> unpacking_, reading_;
   std::optional<MeshArchive> archive_;
   TrivialVector<char> unpacked_;
   MeshSource source_;

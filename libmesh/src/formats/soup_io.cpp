@@ -5,8 +5,8 @@
 
 #include <base/atomic_file.h>
 #include <base/error.h>
-#include <mesh/float32.h>
 #include <mesh/mesh_source.h>
+#include <mesh/precision.h>
 #include <mesh/soup_io.h>
 #include <mesh/weld_points.h>
 

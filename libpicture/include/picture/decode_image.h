@@ -3,8 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
 #include <string_view>
 
+#include <mesh/attributes.h>
 #include <picture/pixels.h>
 
 namespace meshrepair {
@@ -17,5 +21,11 @@ inline constexpr std::size_t kMostImagePixels = std::size_t{1} << 26;
 // at before memory is taken for it. A JPEG that ends early is as far there as it goes.
 [[nodiscard]] Pixels decode_image(std::string_view bytes,
                                   std::size_t most_pixels = kMostImagePixels);
+
+// As they are; nobody looks into them. Files are opened only within these folders. Throws
+// InputError, a part of a sentence, where the picture is not there or has more bytes than `most`.
+[[nodiscard]] std::string image_bytes(const Image& image,
+                                      std::span<const std::filesystem::path> folders,
+                                      std::uintmax_t most);
 
 }  // namespace meshrepair

@@ -5,7 +5,6 @@
 #include <base/ids.h>
 #include <mesh/mesh_source.h>
 #include <picture/decode_image.h>
-#include <picture/image_bytes.h>
 #include <picture/textures.h>
 
 namespace meshrepair {

@@ -25,7 +25,7 @@ struct CertifyOptions {
 };
 
 // So many pairs may be chance in a surface of so many triangles: of more the surface is finer than
-// the numbers. Of large meshes it takes more to say so: they have more places where sheets cross,
+// the numbers. Of large meshes it takes more to say so: they have more places where faces cross,
 // and what is left to cells takes far longer.
 [[nodiscard]] constexpr std::size_t pairs_by_chance(std::size_t triangles) {
   constexpr std::size_t kAlways = 32, kLarge = 1 << 18, kTrianglesOfPair = 256;

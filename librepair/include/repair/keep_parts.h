@@ -48,4 +48,9 @@ struct KeepPartsReport {
 void keep_parts(const TriangleSoup& input, Surface& surface, const KeepPartsOptions& options,
                 RepairReport& report, ProgressObserver* progress = nullptr);
 
+// Takes the closed parts, connected through points, that have fewer triangles than this away from a
+// surface that repair() made, and brings the report's `output` up to date. Parts that are larger
+// stay as they are; where there is none, nothing is taken away. Returns how many parts went.
+std::size_t drop_small_parts(Surface& surface, std::size_t fewest, RepairReport& report);
+
 }  // namespace meshrepair

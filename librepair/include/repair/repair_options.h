@@ -54,7 +54,7 @@ struct RepairOptions {
   std::vector<double> reach;
   // Slits and fins thinner than two steps of the working grid are filled and dropped where
   // triangles are cut; in single precision also those thinner than so many steps of its numbers, as
-  // their sheets would cross once they are written, and wider ones, up to 16 times, where few
+  // their faces would cross once they are written, and wider ones, up to 16 times, where few
   // faults are left else. 0: none are, in either precision.
   double slit_steps = 4;
   CertifyOptions certify;

@@ -29,8 +29,8 @@ struct ThinCellsOptions {
   ProgressObserver* progress = nullptr;
 };
 
-// Where cutting left sheets of the boundary nearer to each other than `within`, the cells between
-// them change sides, and the sheets go: stacks of cells where many sheets nearly coincide,
+// Where cutting left faces of the boundary nearer to each other than `within`, the cells between
+// them change sides, and the faces go: stacks of cells where many faces nearly coincide,
 // together, such that the boundary has the least area. Cells that are wider stay, and so does what
 // nothing cuts: of cells that change together, one has a facet of a triangle of which some is no
 // boundary. The new boundary is not farther than 2 `within` from the old one. Widths and areas are

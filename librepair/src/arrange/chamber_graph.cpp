@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <repair/chamber_graph.h>
 
 namespace meshrepair {

@@ -7,12 +7,12 @@
 
 #include <check/self_intersections.h>
 #include <extract/arrange.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <repair/chamber_graph.h>
 #include <repair/inside_rule.h>
 
-#include "sheets/fill_slits.h"
+#include "slits/fill_slits.h"
 
 namespace meshrepair::internal {
 namespace {

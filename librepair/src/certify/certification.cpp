@@ -24,12 +24,10 @@
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <repair/certify.h>
-#include <repair/join_ends.h>
-#include <repair/mend_faults.h>
 
+#include "common/drop_thin_parts.h"
 #include "faulty_groups.h"
-#include "mend/drop_thin_parts.h"
-#include "nudge_points.h"
+#include "mend/mend_faults.h"
 #include "separate_copies.h"
 #include "settle_points.h"
 
@@ -65,7 +63,7 @@ constexpr std::size_t kTrianglesOfFault = 8;
 
 // Where sheets lie closer together than the grid's steps, each round makes ever more of crossings
 // that are only moved.
-constexpr std::size_t kMostGrowth = 4;
+constexpr std::size_t kMostGrowthOfPart = 4;
 
 using GridCell = std::array<double, 3>;
 
@@ -145,7 +143,7 @@ Certification::Certification(Surface surface, const Grid& grid, const CertifyOpt
   current_.surface = std::move(surface);
   test(current_);
   report_.pairs_at_first = current_.found.count;
-  most_triangles_ = kMostGrowth * current_.surface.mesh.triangles.size();
+  most_triangles_ = kMostGrowthOfPart * current_.surface.mesh.triangles.size();
   best_ = current_.faults() > 0 ? current_ : std::move(current_);
 }
 
@@ -182,7 +180,7 @@ void Certification::mend_in_place() {
   } else if (best_.joined > 0 && options_.most_rounds == 0) {
     separate(best_);
   }
-  most_triangles_ = kMostGrowth * current_.surface.mesh.triangles.size();
+  most_triangles_ = kMostGrowthOfPart * current_.surface.mesh.triangles.size();
 }
 
 std::vector<Surface> Certification::take_faulty_groups() {
@@ -356,7 +354,7 @@ bool Certification::mend_places(Attempt& attempt) {
   if (attempt.found.count + attempt.found.degenerate == 0) return false;
   MendOptions options;
   options.step = spacing_;
-  options.reach = std::max(step_, kMendSteps * spacing_);
+  options.within = std::max(step_, kMendSteps * spacing_);
   options.rounded = [&](const Vec3d& p) { return rounded_to(p, options_.precision); };
   options.progress = &progress_;
   Attempt mended = attempt;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <base/progress.h>
-#include <check/known_intersections.h>
+#include <check/internal/known_intersections.h>
 #include <check/self_intersections.h>
 #include <exact/grid.h>
 #include <extract/surface.h>

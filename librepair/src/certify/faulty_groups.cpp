@@ -1,6 +1,6 @@
 #include "faulty_groups.h"
 
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/weld_points.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 // Of a group's diagonal: points that move do not bring groups together that lie this far apart,
 // mostly.
-constexpr double kMargin = 1e-3;
+constexpr double kGroupMargin = 1e-3;
 
 void add_degenerate(const TriangleSoup& mesh, std::vector<std::uint32_t>& triangles) {
   const SoupCorners corners(mesh, false);
@@ -54,7 +54,7 @@ std::vector<std::uint32_t> triangles_at_fault(const TriangleSoup& mesh,
   return triangles;
 }
 
-PartGroups groups_apart(const TriangleSoup& mesh) { return find_groups(mesh, kMargin); }
+PartGroups groups_apart(const TriangleSoup& mesh) { return find_groups(mesh, kGroupMargin); }
 
 std::vector<Surface> take_groups(Surface& surface, const PartGroups& groups,
                                  std::span<const std::uint32_t> at_fault) {

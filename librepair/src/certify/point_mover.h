@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <base/progress.h>
-#include <check/nearby_intersections.h>
+#include <check/internal/nearby_intersections.h>
 #include <mesh/soup.h>
 
 namespace meshrepair::internal {

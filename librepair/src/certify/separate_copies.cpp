@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <mesh/precision.h>
 #include <mesh/weld_points.h>
 

@@ -11,7 +11,6 @@
 #include <base/ids.h>
 #include <mesh/triangulate_polygon.h>
 
-#include "flat_points.h"
 #include "improve_pieces.h"
 
 namespace meshrepair::internal {

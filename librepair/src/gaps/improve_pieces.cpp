@@ -9,7 +9,7 @@ namespace meshrepair::internal {
 namespace {
 
 // Nearly all is done in three.
-constexpr int kMostPasses = 32;
+constexpr int kMostFlipPasses = 32;
 
 using Edge = std::array<std::uint32_t, 2>;  // in the direction of its triangle
 
@@ -69,7 +69,7 @@ class Flipper {
 
 void improve_pieces(const FlatPoints& at, std::vector<IndexTriangle>& pieces) {
   Flipper flipper(at, pieces);
-  for (int pass = 0; pass < kMostPasses && flipper.pass(); ++pass) {
+  for (int pass = 0; pass < kMostFlipPasses && flipper.pass(); ++pass) {
   }
 }
 

@@ -22,7 +22,7 @@
 #include <check/near_faces.h>
 #include <repair/join_gaps.h>
 
-#include "cut_near_mesh.h"
+#include "near_mesh.h"
 #include "near_parts.h"
 
 namespace meshrepair {
@@ -34,12 +34,12 @@ constexpr double kThin = 2;
 constexpr double kClosed = 1e-3;
 
 // How far beyond the widest gap to go: corners that belong together may be farther apart.
-constexpr double kMargin = 2;
+constexpr double kGapMargin = 2;
 
 // Of gaps that nobody named: how much narrower they are than anything else, and how wide they are
 // at most, as a share of the diagonal and of the longest edges beside them.
-constexpr double kFar = 10;
-constexpr double kWidest = 1e-2, kBesideEdges = 0.1;
+constexpr double kFarApart = 10;
+constexpr double kWidestGap = 1e-2, kBesideEdges = 0.1;
 
 // 0 where nothing is finite.
 double finite_diagonal(const TriangleSoup& soup) {
@@ -116,7 +116,7 @@ void require_less_than(const Thinnest& thinnest, double distance) {
 
 GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress) {
   NearFacesOptions looking;
-  looking.reach = kWidest * finite_diagonal(soup);
+  looking.largest_distance = kWidestGap * finite_diagonal(soup);
   looking.share = kBesideEdges;
   looking.progress = progress;
   NearFacesFound near = find_near_faces(soup, looking);
@@ -129,8 +129,10 @@ GapProposal propose_gaps(const TriangleSoup& soup, ProgressObserver* progress) {
   for (std::size_t i = 0; i < near.gaps.size(); ++i) {
     add_edges(soup, near.gaps[i], thinnest);
     const double gap = near.gaps[i].apart;
-    const double next = i + 1 < near.gaps.size() ? near.gaps[i + 1].apart : looking.reach;
-    if (kFar * gap <= std::min(next, thinnest.width)) proposal = {i + 1, gap, kMargin * gap};
+    const double next =
+        i + 1 < near.gaps.size() ? near.gaps[i + 1].apart : looking.largest_distance;
+    if (kFarApart * gap <= std::min(next, thinnest.width))
+      proposal = {i + 1, gap, kGapMargin * gap};
   }
   return proposal;
 }
@@ -142,7 +144,7 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
   const double distance = distance_for(soup, options);
   if (!(distance > 0)) return std::nullopt;
   NearFacesOptions looking;
-  looking.reach = kThin * distance;
+  looking.largest_distance = kThin * distance;
   looking.progress = options.progress;
   NearFacesFound near = find_near_faces(soup, looking);
   std::erase_if(near.gaps, [&](const NearFaces& gap) { return gap.apart > distance; });
@@ -154,10 +156,10 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
   report.distance = distance;
   if (report.pairs == 0) return std::nullopt;
   // Where gaps are narrower than was asked for, so is what is taken for near beside them.
-  const double reach = std::min(distance, kMargin * report.widest_gap);
-  internal::NearParts parts(soup, near.gaps, report.widest_gap, reach, check);
+  const double within = std::min(distance, kGapMargin * report.widest_gap);
+  internal::NearParts parts(soup, near.gaps, report.widest_gap, within, check);
   JoinedSoup joined = internal::cut_near_mesh(soup, parts.bring_together(), report, check);
-  looking.reach = distance;
+  looking.largest_distance = distance;
   for (const NearFaces& gap : find_near_faces(joined.soup, looking).gaps) {
     report.left += gap.apart > kClosed * distance ? 1 : 0;
   }

@@ -12,7 +12,7 @@ namespace meshrepair::internal {
 namespace {
 
 // Of the angle between planes: what is more nearly parallel has no place in common that is near.
-constexpr double kAcross = 0.1;
+constexpr double kAcrossLevels = 0.1;
 
 Vec3d area_of(const TriangleSoup& soup, const IndexTriangle& t) {
   const Vec3d& a = soup.points[t[0]];
@@ -68,7 +68,7 @@ void Levels::grow(std::uint32_t first, const TriangleSoup& soup,
   levels_.push_back(level);
   const auto is_within = [&](const IndexTriangle& t) {
     const Vec3d area = area_of(soup, t);
-    return std::abs(level.normal.dot(area)) >= (1 - kAcross) * area.norm() &&
+    return std::abs(level.normal.dot(area)) >= (1 - kAcrossLevels) * area.norm() &&
            std::all_of(t.begin(), t.end(), [&](std::uint32_t p) {
              return std::abs(level.height_of(soup.points[p])) <= distance;
            });
@@ -113,7 +113,7 @@ Vec3d Levels::place_in(std::span<const std::pair<std::uint32_t, std::uint32_t>> 
     const Level& level = levels_[number];
     Vec3d way = level.normal;
     for (const Vec3d& other : ways) way -= other.dot(way) * other;
-    if (way.norm() < kAcross) continue;
+    if (way.norm() < kAcrossLevels) continue;
     way.normalize();
     place -= way * (level.height_of(place) / level.normal.dot(way));
     ways.push_back(way);

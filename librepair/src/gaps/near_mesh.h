@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <base/progress.h>
 #include <mesh/edge_table.h>
 #include <mesh/soup.h>
+#include <repair/join_gaps.h>
 
 #include "face_pieces.h"
 
@@ -40,5 +42,10 @@ struct NearMesh {
 inline bool has(const std::vector<std::uint32_t>& list, std::uint32_t value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
+
+// Triangles are cut along edges between points that they have. The report gets what became of
+// points.
+[[nodiscard]] JoinedSoup cut_near_mesh(const TriangleSoup& soup, const NearMesh& mesh,
+                                       JoinGapsReport& report, CancelCheck& check);
 
 }  // namespace meshrepair::internal

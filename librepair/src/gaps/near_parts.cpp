@@ -1,3 +1,13 @@
+// What is near becomes the same, in the order of its dimension: corners near corners become one,
+// then corners near edges come to lie on them, corners near faces come to lie in them, and edges
+// that pass near each other get a corner in common. What one step makes may bring more together, so
+// they are repeated until nothing changes; each adds what edges and faces have in common, of which
+// there is only so much.
+//
+// A point that came to lie on something stays there, as what it was near first counts. Nearest
+// pairs go first, with numbers as tie-break, so the result does not depend on the order in which
+// boxes are found. Positions are rounded. What is then cut along these corners (near_mesh.h) has
+// the same triangles on both sides, exactly, whatever was rounded.
 #include "near_parts.h"
 
 #include <algorithm>
@@ -17,11 +27,11 @@ namespace meshrepair::internal {
 namespace {
 
 // A corner of a body that is as far as the distance from three faces at once is so far from theirs.
-const double kRadius = std::sqrt(3.0);
+const double kCornerDistance = std::sqrt(3.0);
 
 // Each round adds what edges and faces have in common, of which there is only so much; most need
 // three.
-constexpr int kMostRounds = 16;
+constexpr int kMostJoinings = 16;
 
 // Where the lines a b and c d are nearest to each other, as shares of the ways; not inside both
 // where they are parallel.
@@ -56,7 +66,7 @@ std::vector<Box> boxes_of_edges(const NearMesh& mesh) {
 NearParts::NearParts(const TriangleSoup& soup, std::span<const NearFaces> pairs, double gap,
                      double distance, CancelCheck& check)
     : pairs_(pairs),
-      radius_(kRadius * distance),
+      radius_(kCornerDistance * distance),
       check_(check),
       mesh_(soup),
       is_placed_(soup.points.size(), 0) {
@@ -81,7 +91,7 @@ void NearParts::list_edges() {
 }
 
 const NearMesh& NearParts::bring_together() {
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostJoinings; ++round) {
     check_.ask();
     bool is_changed = merge_points();
     is_changed |= put_on_edges();

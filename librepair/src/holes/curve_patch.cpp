@@ -1,3 +1,12 @@
+// A flat patch over a hole in something round is a facet that was not there. So the patch gets new
+// points (refine_patch.h), which are then placed where the sum of squared bending is least, the
+// triangles around the rim held: one sparse linear system, L^T A^-1 L x = b, with the cotangent
+// Laplacian L (P. Liepa, Filling holes in meshes, 2003; M. Botsch and L. Kobbelt, An intuitive
+// framework for real-time freeform modeling, 2004).
+//
+// Least bending makes caps too flat, so a second solution evens out the mean curvature instead. It
+// is taken where it leaves the rim about as smoothly. A solution that went astray, or leaves the
+// rim more steeply than the flat patch, is none: the flat patch stays, which is always there.
 #include "curve_patch.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ namespace {
 // Cosines of the angle to the plane of the loop: at the loop, and anywhere on a flange. A funnel is
 // steeper.
 constexpr double kFlatAtRim = 0.85;
-constexpr double kFlat = 0.7;
+constexpr double kFlatFlange = 0.7;
 
 // Of the loop, by length.
 constexpr double kNearlyAll = 0.9;
@@ -115,7 +115,7 @@ class FlangeFinder {
       if (seen_by_[t] == mark) return;
       const Vec3d own = area_of_triangle(t);
       const double part = std::abs(own.dot(normal)) / size;
-      if (part < kFlat * own.norm()) return;
+      if (part < kFlatFlange * own.norm()) return;
       seen_by_[t] = mark;
       flange_.push_back(t);
       projected += part;

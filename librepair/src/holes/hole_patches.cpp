@@ -1,3 +1,20 @@
+// Idea: a hole is closed by the triangulation of its rim that has the least area and hardly folds
+// (loop_triangulation.h); what such a patch crosses is resolved later, by cutting, so it need not
+// be free of intersections. The work is in what is a hole and what is not:
+//
+// - Two rims that face each other, closed for less area than apart, are one gap, closed by a ring:
+//   between the two walls of a vessel, or two pieces of a surface.
+// - A patch that has more than a share of the area of what it closes is no patch: the surface is an
+//   open sheet. Sheets that share rims or rings count as one, and all patches of one together, the
+//   largest judged first (sheet_rims.h).
+// - A patch that folds back onto the surface would be a copy of it.
+// - A patch of a hole in something round is refined and bent as the surface around it goes on
+//   (curve_patch.h), unless the rim is a cut or the bounding box would grow.
+//
+// Patches are found in parallel, and added in the order of the loops. A patch that makes a triangle
+// again that is there already is dropped. Least area after G. Barequet and M. Sharir, Filling gaps
+// in the boundary of a polyhedron (1995); refining and bending after P. Liepa, Filling holes in
+// meshes (2003).
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,7 +30,7 @@
 #include <base/error.h>
 #include <base/parallel.h>
 #include <base/shared_progress.h>
-#include <bsp/corners.h>
+#include <bsp/internal/corners.h>
 #include <mesh/edge_table.h>
 #include <repair/hole_patches.h>
 #include <repair/orient_parts.h>
@@ -23,13 +40,11 @@
 #include "curve_patch.h"
 #include "facing_rims.h"
 #include "flanges.h"
-#include "large_openings.h"
 #include "loop_triangulation.h"
 #include "new_points.h"
 #include "notches.h"
 #include "rim.h"
 #include "sheet_rims.h"
-#include "strip_triangulation.h"
 
 namespace meshrepair {
 namespace {

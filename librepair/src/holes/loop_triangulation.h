@@ -1,4 +1,5 @@
-// A triangulation of a closed loop in space with little area and few folds.
+// Triangulations with little area and few folds: of a closed loop in space, and of the ring between
+// two.
 #pragma once
 
 #include <array>
@@ -33,5 +34,18 @@ struct LoopTriangulationOptions {
 
 // No surface with this border has less area; one in a plane may have it.
 [[nodiscard]] double least_area(const Rim& rim);
+
+struct StripTriangulation {
+  // Positions in `a`, and behind them those in `b`. Triangles with an edge of `a` have its
+  // direction, and the others the one that agrees.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  double area = 0;
+  bool folded =
+      false;  // lies back on the surface at most of the edges: it is no gap that it closes
+};
+
+// The ring of least area that has an edge where the two loops come nearest to each other (Fuchs,
+// Kedem and Uselton 1977), whatever their directions. Takes the product of their lengths.
+[[nodiscard]] StripTriangulation triangulate_strip(const Rim& a, const Rim& b);
 
 }  // namespace meshrepair::internal

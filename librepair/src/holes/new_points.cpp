@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include <base/first_known.h>
-#include <exact/grid_hash.h>
+#include <exact/internal/grid_hash.h>
 
 namespace meshrepair::internal {
 namespace {

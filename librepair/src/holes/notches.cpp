@@ -10,7 +10,7 @@ namespace {
 constexpr double kWidestCosine = -0.5;
 
 // Of a notch, as a share of the length of the rim.
-constexpr double kWidest = 0.1;
+constexpr double kWidestNotch = 0.1;
 
 // As fold_cosine() has it: the triangle bends from the surface by up to 60 degrees.
 constexpr double kMostBend = -0.5;
@@ -58,7 +58,7 @@ class NotchFiller {
   void look_at(std::uint32_t b) {
     const std::uint32_t a = before_[b], c = after_[b];
     const Vec3d &from = points_[a], &at = points_[b], &to = points_[c];
-    if ((to - from).norm() > kWidest * length_) return;
+    if ((to - from).norm() > kWidestNotch * length_) return;
     const double cosine = (from - at).normalized().dot((to - at).normalized());
     if (!(cosine > kWidestCosine)) return;
     if (fold_cosine(from, at, apex_[a], to) > kMostBend) return;

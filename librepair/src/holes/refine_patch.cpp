@@ -13,7 +13,7 @@
 namespace meshrepair::internal {
 namespace {
 
-constexpr int kMostPasses = 20;  // of turning edges, after each pass of splitting
+constexpr int kMostTurnings = 20;  // of turning edges, after each pass of splitting
 
 // Points are this much denser than where a triangle's middle is as far from its corners as the
 // rim's points are apart (Liepa's alpha).
@@ -136,7 +136,7 @@ class Refiner {
   }
 
   void turn_edges() {
-    for (int pass = 0; pass < kMostPasses; ++pass) {
+    for (int pass = 0; pass < kMostTurnings; ++pass) {
       bool changed = false;
       for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) changed |= turn_edge(t, k);

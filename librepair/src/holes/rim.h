@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <mesh/triangle_measures.h>
+#include <mesh/internal/triangle_measures.h>
 
 namespace meshrepair::internal {
 

@@ -1,6 +1,6 @@
-#include <repair/flood.h>
+#include "flood.h"
 
-namespace meshrepair {
+namespace meshrepair::internal {
 
 std::vector<char> flood_from_infinity(const CellGraph& graph, const std::vector<char>& empty,
                                       ProgressObserver* progress) {
@@ -27,4 +27,4 @@ std::vector<char> flood_from_infinity(const CellGraph& graph, const std::vector<
   return inside;
 }
 
-}  // namespace meshrepair
+}  // namespace meshrepair::internal

@@ -1,11 +1,27 @@
+// Which cells are solid, by the rule that was asked for:
+//
+// - winding: the winding number of a cell, from a walk over all walls; where walls contradict each
+//   other, from least squares.
+// - parity: whether an odd number of walls is between the cell and the outside; where walls
+//   contradict each other, solidity, by the linear system of T. Murali and T. Funkhouser
+//   (Consistent solid and boundary representations from arbitrary polygonal data, 1997).
+// - solidity: the same, and then all that a flood from infinity does not reach (WM 6.2).
+//
+// The automatic rule believes the orientation where it can be trusted: winding numbers near
+// integers, and few walls that contradict them. Then parts that face the wrong way are turned
+// (turn_parts.h). Where the walk met a contradiction, solidity is asked, too, and both are compared
+// by what Murali and Funkhouser keep small: the area of boundary that no triangle covers, and of
+// triangles that the solid leaves unexplained. Solidity has to be clearly better, as what it adds
+// are often slivers. The other rule is named in the report where it comes near and much hangs on
+// it.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include <repair/flood.h>
 #include <repair/inside_rule.h>
 #include <repair/walk.h>
 
+#include "flood.h"
 #include "outer_pockets.h"
 #include "turn_parts.h"
 #include "voids.h"
@@ -84,7 +100,7 @@ class InsideDecider {
     CellLabels labels = by_parity();
     std::vector<char> empty(labels.solid.size());
     for (std::size_t i = 0; i < empty.size(); ++i) empty[i] = labels.solid[i] == 0;
-    labels.solid = flood_from_infinity(graph_, empty, options_.solve.progress);
+    labels.solid = internal::flood_from_infinity(graph_, empty, options_.solve.progress);
     const internal::Voids voids = internal::find_voids(
         graph_, labels.solid, empty, orientation_.part_of, options_.solve.progress);
     if (cavities == Cavities::fill) {

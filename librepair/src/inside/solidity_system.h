@@ -1,10 +1,35 @@
-// The sparse system of a quadratic energy over the cells, those outside fixed.
+// The sparse system of a quadratic energy over the cells, those outside fixed, and its solution by
+// conjugate gradients with a diagonal preconditioner, on several threads.
 #pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 #include <repair/cell_graph.h>
 #include <repair/solidity.h>
 
 namespace meshrepair::internal {
+
+// A sparse matrix by rows. Row i has the entries first[i] ... last[i] - 1; between rows there may
+// be room that is not used.
+struct SparseRows {
+  std::vector<std::uint32_t> first, last;
+  std::unique_ptr<std::uint32_t[]> column;  // NOLINT(modernize-avoid-c-arrays): not initialised
+  std::unique_ptr<double[]> value;          // NOLINT(modernize-avoid-c-arrays)
+
+  [[nodiscard]] std::size_t size() const { return first.size(); }
+};
+
+// The x with matrix * x = right, from 0 on, until the residual has become `options.tolerance` of
+// what it was. The matrix is symmetric and positive definite, and has its diagonal among its
+// entries. Sums are made of the sums of blocks of rows, in their order: the result does not depend
+// on the number of threads.
+[[nodiscard]] std::vector<double> solve_by_conjugate_gradients(const SparseRows& matrix,
+                                                               const std::vector<double>& right,
+                                                               const SolveOptions& options,
+                                                               SolveReport& report);
 
 // One link's share of the energy: weight * (x_below - sign * x_above - jump)^2 with sign 1 or -1,
 // or with jump 0 a mean of both.

@@ -2,15 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
 
-#include <check/triangle_list.h>
+#include <check/internal/nearby_intersections.h>
+#include <check/internal/triangle_list.h>
 #include <exact/double_predicates.h>
 
 namespace meshrepair::internal {
+namespace {
+
+bool covers(const Box& all, const Box& part) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(all.low[k] <= part.low[k] && part.high[k] <= all.high[k])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+BoxesAround::BoxesAround(const TriangleSoup& mesh, std::vector<Box> places)
+    : mesh_(mesh), places_(std::move(places)) {
+  take(triangles_near(mesh_, places_, 0));
+}
+
+void BoxesAround::find(const Box& box, std::vector<std::uint32_t>& found) {
+  if (!has_all_ && !is_at_a_place(box)) take_all();
+  tree_->visit([&](const Box& other) { return other.meets(box); },
+               [&](std::uint32_t i) {
+                 if (boxes_[i].meets(box)) found.push_back(triangles_[i]);
+               });
+}
+
+bool BoxesAround::is_at_a_place(const Box& box) const {
+  return std::any_of(places_.begin(), places_.end(),
+                     [&](const Box& place) { return covers(place, box); });
+}
+
+void BoxesAround::take(std::vector<std::uint32_t> triangles) {
+  triangles_ = std::move(triangles);
+  boxes_.resize(triangles_.size());
+  for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i] = box_of(mesh_, triangles_[i]);
+  tree_.emplace(boxes_);
+}
+
+void BoxesAround::take_all() {
+  std::vector<std::uint32_t> all(mesh_.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  take(std::move(all));
+  has_all_ = true;
+}
+
 namespace {
 
 // Of a sum of three products, as a share of the largest coordinate.
@@ -62,13 +107,13 @@ std::ptrdiff_t FaultCounter::start(const EditableMesh& mesh,
 }
 
 void FaultCounter::find_others(const EditableMesh& mesh, std::span<const std::uint32_t> triangles) {
-  Box reach;
+  Box around;
   for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t p : mesh.triangles()[t]) reach.add(points_[p]);
+    for (const std::uint32_t p : mesh.triangles()[t]) around.add(points_[p]);
   }
-  reach.widen(reach_);
+  around.widen(reach_);
   near_.clear();
-  at_first_.find(reach, near_);
+  at_first_.find(around, near_);
   near_.insert(near_.end(), changed_.begin(), changed_.end());
   std::sort(near_.begin(), near_.end());
   near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
@@ -91,10 +136,10 @@ void FaultCounter::find_others_near(const std::vector<TriangleCorners>& triangle
       continue;
     }
     const CornerTriangle& a = asked_.back().triangle;
-    Box reach = asked_.back().box;
-    reach.widen(moved);
+    Box around = asked_.back().box;
+    around.widen(moved);
     for (const std::uint32_t i : all_others_) {
-      if (!reach.meets(others_[i].box)) continue;
+      if (!around.meets(others_[i].box)) continue;
       const CornerTriangle& b = others_[i].triangle;
       if (!lie_apart(a, b, a, moved) && !lie_apart(a, b, b, moved)) near.push_back(i);
     }

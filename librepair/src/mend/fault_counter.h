@@ -1,4 +1,4 @@
-// How many triangles are at fault while a few of them are changed.
+// How many triangles are at fault while a few of them are changed, of a large mesh at few places.
 #pragma once
 
 #include <array>
@@ -10,13 +10,35 @@
 #include <vector>
 
 #include <check/box_tree.h>
-#include <check/triangle_pair.h>
-#include <mesh/editable_mesh.h>
+#include <check/internal/triangle_pair.h>
+#include <mesh/internal/editable_mesh.h>
 #include <mesh/soup.h>
 
-#include "boxes_around.h"
-
 namespace meshrepair::internal {
+
+// Looks through all triangles once, for those near the places, and makes a tree of all only when
+// something is asked for elsewhere.
+class BoxesAround {
+ public:
+  // `mesh` keeps its place and its triangles. Boxes are of where its points are now, or later, for
+  // those of triangles that are elsewhere.
+  BoxesAround(const TriangleSoup& mesh, std::vector<Box> places);
+
+  // Appends the triangles whose boxes meet this one.
+  void find(const Box& box, std::vector<std::uint32_t>& found);
+
+ private:
+  [[nodiscard]] bool is_at_a_place(const Box& box) const;
+  void take(std::vector<std::uint32_t> triangles);
+  void take_all();
+
+  const TriangleSoup& mesh_;
+  std::vector<Box> places_;
+  bool has_all_ = false;
+  std::vector<std::uint32_t> triangles_;  // in the tree
+  std::vector<Box> boxes_;                // of them
+  std::optional<BoxTree> tree_;
+};
 
 // Counts the faults of a few triangles, which are pairs that meet beyond what they share and
 // triangles without area, while some points move and edges turn. Exact.

@@ -1,3 +1,16 @@
+// A local search. For each pair of triangles at fault all small edits around it are tried: a
+// corner, an edge or a triangle moved along the normal of one of the two by 1 to 128 steps of the
+// numbers, a corner collapsed onto a neighbour, an edge flipped. The one that leaves the fewest
+// faults among the triangles around it is made, with fewer points of the input moved and a shorter
+// way as tie-breaks, and only if it leaves fewer than before. So the number of faults falls with
+// each edit, and the search ends.
+//
+// Faults are counted exactly, among the triangles near the place alone (fault_counter.h). All edits
+// keep the surface a closed manifold of the same genus: a collapse has to satisfy the link
+// condition (T. Dey, H. Edelsbrunner, S. Guha and D. Nekhayev, Topology preserving edge
+// contraction, 1999).
+#include "mend_faults.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,22 +23,15 @@
 #include <Eigen/Geometry>
 
 #include <check/box_tree.h>
-#include <check/star_distance.h>
+#include <check/internal/star_distance.h>
 #include <exact/double_predicates.h>
-#include <mesh/editable_mesh.h>
-#include <repair/mend_faults.h>
+#include <mesh/internal/collapsible_mesh.h>
+#include <mesh/internal/editable_mesh.h>
 
 #include "fault_counter.h"
 
-namespace meshrepair {
+namespace meshrepair::internal {
 namespace {
-
-using internal::EditableMesh;
-using internal::FaultCounter;
-using internal::kGone;
-using internal::MeshEdit;
-using internal::StarDistance;
-using internal::TriangleCorners;
 
 // More faults than these are not of single places.
 constexpr std::size_t kMostFaultyPairs = 1'000;
@@ -34,7 +40,7 @@ constexpr std::size_t kMostFaultyPairs = 1'000;
 constexpr std::size_t kMostAround = 48;
 
 // How far points are moved along a normal, in steps of the numbers.
-constexpr std::array<double, 8> kSteps{1, 2, 4, 8, 16, 32, 64, 128};
+constexpr std::array<double, 8> kShifts{1, 2, 4, 8, 16, 32, 64, 128};
 
 // Around what edits of these pairs may change, and as far beyond it as it is large.
 std::vector<Box> places_of(const EditableMesh& mesh, const std::vector<Vec3d>& points,
@@ -65,7 +71,8 @@ class FaultMender {
         options_(options),
         cancel_(options.progress),
         mesh_(surface.mesh.triangles, points_.size()),
-        faults_(surface.mesh, 2 * kSteps.back() * options.step, places_of(mesh_, points_, pairs)) {}
+        faults_(surface.mesh, 2 * kShifts.back() * options.step, places_of(mesh_, points_, pairs)) {
+  }
 
   // Makes the edit around the two triangles that leaves the fewest faults, if it leaves fewer.
   bool improve(std::uint32_t t, std::uint32_t u) {
@@ -145,14 +152,14 @@ class FaultMender {
                     const std::array<std::optional<Vec3d>, 2>& normals) {
     Edit edit;
     if (!take_stars(points, edit)) return;
-    const double farthest = 2 * kSteps.back() * options_.step;
+    const double farthest = 2 * kShifts.back() * options_.step;
     const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles, farthest);
     if (before == 0) return;
     std::vector<Vec3d> from(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) from[i] = points_[points[i]];
     for (const auto& normal : normals) {
       if (!normal) continue;
-      for (const double steps : kSteps) {
+      for (const double steps : kShifts) {
         for (const double sign : {1.0, -1.0}) {
           shift(from, points, sign * steps * options_.step * *normal, edit);
           if (edit.distance == 0) continue;
@@ -205,8 +212,8 @@ class FaultMender {
     edit.input_points = surface_.input_point[point] != 0 ? 1 : 0;
     for (std::size_t to = 0; to < link.size(); ++to) {
       const double length = (link_[to] - points_[point]).stableNorm();
-      edit.distance = std::min(star_distance_.bound(to, options_.reach), length);
-      if (!(edit.distance <= options_.reach)) continue;
+      edit.distance = std::min(star_distance_.bound(to, options_.within), length);
+      if (!(edit.distance <= options_.within)) continue;
       if (!mesh_.find_collapse(point, link[to], edit.mesh)) continue;
       edit.gain = before - faults_.count(edit.mesh.now);
       take_if_better(edit);
@@ -221,7 +228,7 @@ class FaultMender {
     const TriangleCorners& one = edit.mesh.now[0];
     const TriangleCorners& old = mesh_.triangles()[triangle];
     edit.distance = distance_of_lines(one[0], one[1], old[k], old[(k + 1) % 3]);
-    if (!(edit.distance <= options_.reach)) return;
+    if (!(edit.distance <= options_.within)) return;
     const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles);
     if (before == 0) return;
     edit.gain = before - faults_.count(edit.mesh.now);
@@ -291,4 +298,53 @@ std::size_t mend_faults(Surface& surface, const SelfIntersections& found,
   return edits;
 }
 
-}  // namespace meshrepair
+namespace {
+
+// The ends of the edges without length, those that are no points of the input first: they are the
+// ones to be moved.
+std::vector<std::uint32_t> find_ends(const Surface& surface) {
+  const TriangleSoup& mesh = surface.mesh;
+  std::vector<std::uint32_t> ends;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      if (mesh.points[a] == mesh.points[b]) ends.insert(ends.end(), {a, b});
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::stable_partition(ends.begin(), ends.end(),
+                        [&](std::uint32_t p) { return surface.input_point[p] == 0; });
+  return ends;
+}
+
+}  // namespace
+
+std::size_t join_ends(Surface& surface) {
+  const std::vector<std::uint32_t> ends = find_ends(surface);
+  if (ends.empty()) return 0;
+  const std::vector<Vec3d>& points = surface.mesh.points;
+  CollapsibleMesh mesh(surface.mesh.triangles, points.size());
+  PointStar star;
+  std::size_t joined = 0;
+  for (const std::uint32_t p : ends) {
+    if (!mesh.find_star(p, star)) continue;
+    for (std::size_t i = 0; i < star.link.size(); ++i) {
+      if (points[star.link[i]] != points[p] || !mesh.may_collapse(star, i)) continue;
+      mesh.collapse(star, i);
+      ++joined;
+      break;
+    }
+  }
+  if (joined == 0) return 0;
+  std::vector<char> is_left;
+  is_left.reserve(surface.mesh.triangles.size());
+  for (std::uint32_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    is_left.push_back(mesh.is_left(t) ? 1 : 0);
+  }
+  surface.mesh.triangles = mesh.triangles();
+  keep_triangles(surface, is_left);
+  return joined;
+}
+
+}  // namespace meshrepair::internal

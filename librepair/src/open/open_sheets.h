@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <bsp/clean_soup.h>
+#include <mesh/edge_table.h>
 #include <repair/cell_graph.h>
 
 namespace meshrepair::internal {
@@ -29,5 +31,12 @@ namespace meshrepair::internal {
 // empty; they are connected through what no triangle covers.
 std::size_t empty_open_regions(const CellGraph& graph, const CleanSoup& soup,
                                std::vector<char>& solid);
+
+// The original place of the point, in grid units.
+[[nodiscard]] Vec3d original_place(const CleanSoup& soup, PointId point);
+
+// Whether all points, of which there are some, lie in one plane, each off by no more than
+// `rounding`: the plane of three that are far from each other tells.
+[[nodiscard]] bool is_flat(const std::vector<Vec3d>& points, double rounding);
 
 }  // namespace meshrepair::internal

@@ -1,12 +1,12 @@
 // Orientation of parts.
 //
-// Idea: a patch, connected through edges with exactly two triangles, can only be turned as a whole,
-// and its area votes for one of the two ways. Patches meet at crowded edges, those with more than
-// two triangles. Where their number is even, the surface is taken to bound a wedge between each
-// triangle and the next one around the edge, so neighbours are turned against each other: a bond. A
-// clean soup may break bonds (wedges that overlap), so they bind only patches that have no say of
-// their own; between others they only tell what belongs together. A patch that is closed at an edge
-// by itself needs none there.
+// Idea: a piece, connected through edges with exactly two triangles, can only be turned as a whole,
+// and its area votes for one of the two ways. Pieces meet at crowded edges, those with more
+// than two triangles. Where their number is even, the surface is taken to bound a wedge between
+// each triangle and the next one around the edge, so neighbours are turned against each other: a
+// bond. A clean soup may break bonds (wedges that overlap), so they bind only pieces that have no
+// say of their own; between others they only tell what belongs together. A piece that is closed at
+// an edge by itself needs none there.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,14 +16,14 @@
 #include <repair/orient_parts.h>
 
 #include "common/edge_fan.h"
-#include "surface_patches.h"
+#include "surface_pieces.h"
 #include "turn_sets.h"
 
 namespace meshrepair {
 namespace {
 
-using internal::Patch;
-using internal::Patches;
+using internal::SurfacePiece;
+using internal::SurfacePieces;
 using internal::SurfaceSum;
 using internal::TurnSets;
 
@@ -33,12 +33,12 @@ double turned_share(const SurfaceSum& sum) {
 
 bool says_which_way(const SurfaceSum& sum) { return turned_share(sum) <= kBelievedShare; }
 
-// The patches that have a say of their own.
-std::vector<char> firm_patches(const std::vector<Patch>& patches) {
+// The pieces that have a say of their own.
+std::vector<char> firm_pieces(const std::vector<SurfacePiece>& pieces) {
   std::vector<char> firm;
-  firm.reserve(patches.size());
-  for (const Patch& patch : patches) {
-    firm.push_back(says_which_way(patch.sum) ? 1 : 0);
+  firm.reserve(pieces.size());
+  for (const SurfacePiece& piece : pieces) {
+    firm.push_back(says_which_way(piece.sum) ? 1 : 0);
   }
   return firm;
 }
@@ -51,13 +51,13 @@ class PartOrienter {
         check_(progress),
         triangles_(index_triangles(soup)),
         table_(triangles_),
-        patches_(internal::find_patches(soup, triangles_, table_, progress)),
-        open_(patches_.patches.size(), 0),
-        wall_(patches_.patches.size(), 0) {}
+        pieces_(internal::find_pieces(soup, triangles_, table_, progress)),
+        open_(pieces_.pieces.size(), 0),
+        wall_(pieces_.pieces.size(), 0) {}
 
   Orientation run() {
     look_at_edges();
-    TurnSets sets(firm_patches(patches_.patches));
+    TurnSets sets(firm_pieces(pieces_.pieces));
     bind(sets);
     gather(sets);
     count_crowded_edges();
@@ -76,7 +76,7 @@ class PartOrienter {
     table_.for_each_edge([&](std::span<const std::uint32_t> sides) {
       check_.tick();
       if (sides.size() == 1) {
-        ++open_[patches_.of[sides[0] / 3]];
+        ++open_[pieces_.of[sides[0] / 3]];
       } else if (sides.size() > 2) {
         crowded_.emplace_back(sides.begin(), sides.end());
       }
@@ -85,45 +85,45 @@ class PartOrienter {
     for (const auto& sides : crowded_) find_bonds(sides);
   }
 
-  // A patch that is there both ways round and is an open sheet, or at one that is not, is a wall:
+  // A piece that is there both ways round and is an open sheet, or at one that is not, is a wall:
   // both sides of it are inside, or neither.
   void find_walls() {
-    const auto& patches = patches_.patches;
-    for (std::size_t p = 0; p < patches.size(); ++p) {
-      wall_[p] = patches[p].doubled && open_[p] > 0 && !patches[p].sum.nearly_closed();
+    const auto& pieces = pieces_.pieces;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      wall_[p] = pieces[p].doubled && open_[p] > 0 && !pieces[p].sum.nearly_closed();
     }
     for (const auto& sides : crowded_) {
       const bool none_else = std::all_of(sides.begin(), sides.end(), [&](std::uint32_t s) {
-        const Patch& patch = patches[patches_.of[s / 3]];
-        return patch.doubled || patch.closes_holes;
+        const SurfacePiece& piece = pieces[pieces_.of[s / 3]];
+        return piece.doubled || piece.closes_holes;
       });
       if (none_else) continue;
       for (const std::uint32_t s : sides) {
-        const std::uint32_t p = patches_.of[s / 3];
-        if (patches[p].doubled) wall_[p] = 1;
+        const std::uint32_t p = pieces_.of[s / 3];
+        if (pieces[p].doubled) wall_[p] = 1;
       }
     }
   }
 
   void find_bonds(std::vector<std::uint32_t> sides) {
-    std::erase_if(sides, [&](std::uint32_t s) { return wall_[patches_.of[s / 3]] != 0; });
+    std::erase_if(sides, [&](std::uint32_t s) { return wall_[pieces_.of[s / 3]] != 0; });
     if (sides.empty() || sides.size() % 2 != 0) return;
     if (!internal::sort_around_edge(soup_, triangles_, sides)) return;
     std::vector<std::uint32_t> here;
     here.reserve(sides.size());
-    for (const std::uint32_t s : sides) here.push_back(patches_.of[s / 3]);
+    for (const std::uint32_t s : sides) here.push_back(pieces_.of[s / 3]);
     std::sort(here.begin(), here.end());
-    // Whether an odd number of the sides are the patch's.
-    const auto ends_here = [&](std::uint32_t patch) {
-      const auto [first, last] = std::equal_range(here.begin(), here.end(), patch);
+    // Whether an odd number of the sides are the piece's.
+    const auto ends_here = [&](std::uint32_t piece) {
+      const auto [first, last] = std::equal_range(here.begin(), here.end(), piece);
       return (last - first) % 2 != 0;
     };
     for (std::size_t i = 0; i < sides.size(); ++i) {
       check_.tick();
       const std::uint32_t s = sides[i];
       const std::uint32_t t = sides[(i + 1) % sides.size()];
-      const std::uint32_t a = patches_.of[s / 3];
-      const std::uint32_t b = patches_.of[t / 3];
+      const std::uint32_t a = pieces_.of[s / 3];
+      const std::uint32_t b = pieces_.of[t / 3];
       if (a == b || !ends_here(a) || !ends_here(b)) continue;
       bonds_.push_back({std::min(a, b), std::max(a, b), runs_up(s) != runs_up(t) ? 1 : -1});
     }
@@ -132,7 +132,7 @@ class PartOrienter {
   // Whether the triangle, as it is turned, passes the edge towards the point with the higher index.
   [[nodiscard]] bool runs_up(std::uint32_t side) const {
     const bool up = side_start(triangles_, side) < side_start(triangles_, next_side(side));
-    return up != (patches_.turned[side / 3] != 0);
+    return up != (pieces_.turned[side / 3] != 0);
   }
 
   // The bonds on which most edges agree come first.
@@ -157,11 +157,11 @@ class PartOrienter {
     }
   }
 
-  // Makes a part of each set of patches.
+  // Makes a part of each set of pieces.
   void gather(TurnSets& sets) {
-    const auto& patches = patches_.patches;
-    std::vector<std::uint32_t> part_of_root(patches.size(), kNone);
-    for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    const auto& pieces = pieces_.pieces;
+    std::vector<std::uint32_t> part_of_root(pieces.size(), kNone);
+    for (std::uint32_t p = 0; p < pieces.size(); ++p) {
       const TurnSets::Place place = sets.find(p);
       std::uint32_t& part = part_of_root[place.root];
       if (part == kNone) {
@@ -172,9 +172,9 @@ class PartOrienter {
       }
       part_.push_back(part);
       turn_.push_back(place.turned ? 1 : 0);
-      sums_[part].add(place.turned ? patches[p].sum.turned_round() : patches[p].sum);
+      sums_[part].add(place.turned ? pieces[p].sum.turned_round() : pieces[p].sum);
       part_open_[part] += open_[p];
-      report_.unorientable_parts += !patches[p].orientable;
+      report_.unorientable_parts += !pieces[p].orientable;
     }
     report_.parts = result_.parts.size();
   }
@@ -184,7 +184,7 @@ class PartOrienter {
     std::vector<std::uint32_t> parts;
     for (const auto& sides : crowded_) {
       parts.clear();
-      for (const std::uint32_t s : sides) parts.push_back(part_[patches_.of[s / 3]]);
+      for (const std::uint32_t s : sides) parts.push_back(part_[pieces_.of[s / 3]]);
       std::sort(parts.begin(), parts.end());
       for (auto first = parts.begin(); first != parts.end();) {
         const auto last = std::upper_bound(first, parts.end(), *first);
@@ -217,12 +217,12 @@ class PartOrienter {
     result_.part_of.reserve(soup_.triangles.size());
     for (TriangleId t(0u); t < soup_.triangles.end_id(); ++t.value) {
       check_.tick();
-      const std::uint32_t patch = patches_.of[t.value];
-      const std::uint32_t part = part_[patch];
+      const std::uint32_t piece = pieces_.of[t.value];
+      const std::uint32_t part = part_[piece];
       const bool turn =
-          (patches_.turned[t.value] != 0) ^ (turn_[patch] != 0) ^ (turn_part_[part] != 0);
+          (pieces_.turned[t.value] != 0) ^ (turn_[piece] != 0) ^ (turn_part_[part] != 0);
       std::int32_t winding = soup_.triangles[t].winding;
-      if (wall_[patch] == 0) {
+      if (wall_[piece] == 0) {
         winding = internal::side_of_corners(soup_, t) * (turn ? -1 : 1) * soup_.triangles[t].layers;
       }
       report_.turned_triangles += winding * soup_.triangles[t].winding < 0;
@@ -236,8 +236,8 @@ class PartOrienter {
   CancelCheck check_;
   std::vector<IndexTriangle> triangles_;
   EdgeTable table_;
-  Patches patches_;
-  // Of each patch.
+  SurfacePieces pieces_;
+  // Of each piece.
   std::vector<std::size_t> open_;  // edges
   std::vector<char> wall_, turn_;
   std::vector<std::uint32_t> part_;

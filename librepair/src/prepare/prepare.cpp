@@ -7,11 +7,10 @@
 
 #include <base/error.h>
 #include <mesh/topology.h>
-#include <repair/close_slits.h>
 #include <repair/hole_patches.h>
-#include <repair/zip_edges.h>
 
 #include "open/open_sheets.h"
+#include "sew/close_slits.h"
 #include "two_layers.h"
 
 namespace meshrepair::internal {

@@ -1,3 +1,17 @@
+// A surface with two sides is there twice, once facing each way, and winds around nothing. Where
+// both copies have the same triangles, clean_soup() joins them. Here are those that do not: cut
+// along other diagonals, and apart by rounding.
+//
+// join_cuts() compares faces, not triangles. A face is what edges at which the surface does not
+// simply go on bound, nearly flat and without corners inside; its name is its outline. Faces of one
+// name as many of which face either way become one set of triangles that winds around nothing.
+//
+// bring_layers_together() joins points that are apart by rounding, looks where that makes two
+// layers one, and keeps the moves there alone. Corners of one triangle that would become one are a
+// wall between the layers: then these are a thin solid.
+//
+// Both ask whether most of a part is there twice. Two pieces of a surface that lie on each other
+// somewhere do so by chance, and stay.
 #include "two_layers.h"
 
 #include <algorithm>
@@ -10,12 +24,12 @@
 #include <vector>
 
 #include <base/disjoint_sets.h>
-#include <base/hash_index.h>
 #include <base/ids.h>
+#include <base/internal/hash_index.h>
 #include <bsp/common_grid.h>
 #include <mesh/edge_table.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <repair/orient_parts.h>
 
 #include "open/open_sheets.h"
@@ -35,7 +49,7 @@ constexpr double kLeastOfPart = 0.4;
 
 // In grid steps: layers whose corners are farther apart are two surfaces. Of the input's own
 // rounding, so many are as near.
-constexpr double kNear = 64;
+constexpr double kNearLayers = 64;
 constexpr double kRoundings = 8;
 
 // Edges between the same places as a triangle's corners, whatever its direction.
@@ -204,7 +218,7 @@ class NearPoints {
 using Firsts = IdVector<PointId, PointId>;
 
 Firsts find_firsts(const CleanSoup& clean, CancelCheck& check) {
-  NearPoints near(std::max(kNear, kRoundings * rounding_of(clean)));
+  NearPoints near(std::max(kNearLayers, kRoundings * rounding_of(clean)));
   Firsts firsts;
   firsts.reserve(clean.points.size());
   for (PointId p(0u); p < clean.points.end_id(); ++p.value) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include <base/parallel.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <mesh/topology.h>
-
-#include "whole_triangle.h"
+#include <mesh/weld_points.h>
 
 namespace meshrepair::internal {
 namespace {
@@ -91,6 +91,43 @@ void compare_with_input(const TriangleSoup& soup, const Surface& surface, Repair
   const auto rounded =
       static_cast<std::size_t>(std::count(is_rounded.begin(), is_rounded.end(), 1));
   fates.rounded = std::min(rounded, fates.cut);
+}
+
+void note_moved_corners(const TriangleSoup& given, Surface& surface, RepairReport& report) {
+  const std::vector<std::uint32_t> place = first_in_place(given.points, surface.mesh.points);
+  for (std::size_t p = 0; p < place.size(); ++p) {
+    if (place[p] >= given.points.size()) surface.input_point[p] = 0;
+  }
+  std::vector<char> is_whole(given.triangles.size(), 0);
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    const std::uint32_t source = surface.source[t];
+    if (source == Surface::kNoSource) continue;
+    const auto& corners = surface.mesh.triangles[t];
+    const auto& of = given.triangles[source];
+    const bool has_all = std::all_of(of.begin(), of.end(), [&](std::uint32_t p) {
+      return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t q) {
+        return surface.mesh.points[q] == given.points[p];
+      });
+    });
+    if (has_all) is_whole[source] = 1;
+  }
+  const auto whole = static_cast<std::size_t>(std::count(is_whole.begin(), is_whole.end(), 1));
+  TriangleFates& fates = report.triangles;
+  const std::size_t all = fates.untouched + fates.cut;
+  fates.untouched = std::min(whole, fates.untouched);
+  fates.cut = all - fates.untouched;
+}
+
+bool has_corners_of_source(const TriangleSoup& soup, const Surface& surface, std::size_t t) {
+  const auto& from = soup.triangles[surface.source[t]];
+  const auto& to = surface.mesh.triangles[t];
+  return std::all_of(from.begin(), from.end(), [&](std::uint32_t p) {
+    const Vec3d &given = soup.points[p], single = rounded_to_float32(given);
+    return std::any_of(to.begin(), to.end(), [&](std::uint32_t q) {
+      const Vec3d& point = surface.mesh.points[q];
+      return point == given || point == single;
+    });
+  });
 }
 
 }  // namespace meshrepair::internal

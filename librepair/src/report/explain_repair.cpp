@@ -13,8 +13,8 @@
 #include <repair/repair_options.h>
 #include <repair/repair_report.h>
 
+#include "describe_result.h"
 #include "prepare/prepare.h"
-#include "whole_triangle.h"
 
 namespace meshrepair {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <base/ids.h>
 #include <base/progress.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <repair/fidelity.h>
 
 namespace meshrepair {
@@ -68,7 +68,7 @@ std::vector<std::uint32_t> find_pieces(const TriangleSoup& input, const Surface&
 OneSidedDistance measure(const TriangleSoup& from, const TriangleSoup& to,
                          std::span<const std::uint32_t> twins, ProgressObserver* progress,
                          double begin) {
-  PartOfStage half(progress, begin, begin + 0.5);
+  ShareOfStage half(progress, begin, begin + 0.5);
   DistanceOptions options;
   options.samples = fidelity_samples(from.triangles.size());
   options.progress = &half;

@@ -3,6 +3,7 @@
 // shell is the innermost part around it. So parts come and go in groups, a shell with its walls.
 // Where a group goes and what is in its voids stays, that has two parts fewer around it, and faces
 // as it did.
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,12 +14,12 @@
 #include <check/box_tree.h>
 #include <check/part_orientation.h>
 #include <mesh/mesh_parts.h>
+#include <mesh/topology.h>
 #include <repair/explain_repair.h>
 #include <repair/keep_parts.h>
 #include <repair/repair_report.h>
 
 #include "describe_result.h"
-#include "whole_triangle.h"
 
 namespace meshrepair {
 namespace {
@@ -193,6 +194,24 @@ void keep_parts(const TriangleSoup& input, Surface& surface, const KeepPartsOpti
   if (!options.wanted() || surface.mesh.triangles.empty() || !report.output.closed()) return;
   CancelOnly quiet(progress);
   PartKeeper(input, surface, options, report, &quiet).run();
+}
+
+std::size_t drop_small_parts(Surface& surface, std::size_t fewest, RepairReport& report) {
+  const MeshParts parts = find_parts(surface.mesh);
+  std::vector<std::size_t> triangles(parts.count, 0);
+  for (const std::uint32_t part : parts.of_triangle) ++triangles[part];
+  const auto small =
+      std::count_if(triangles.begin(), triangles.end(), [&](std::size_t n) { return n < fewest; });
+  if (small == 0 || static_cast<std::size_t>(small) == triangles.size()) return 0;
+  std::vector<char> keep;
+  keep.reserve(parts.of_triangle.size());
+  for (const std::uint32_t part : parts.of_triangle) keep.push_back(triangles[part] >= fewest);
+  leave_out(surface, keep, report.explanation);
+  keep_triangles(surface, keep);
+  report.output = examine_topology(surface.mesh.triangles, surface.mesh.points.size());
+  report.output_volume = signed_volume(surface.mesh);
+  report.output_area = surface_area(surface.mesh);
+  return static_cast<std::size_t>(small);
 }
 
 }  // namespace meshrepair

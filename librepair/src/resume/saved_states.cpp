@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <base/parallel.h>
 
 namespace meshrepair::internal {

@@ -1,3 +1,17 @@
+// How the inner wall of a body is found (what it is, the header says):
+//
+// 1. Samples, more where triangles are large, are looked at along rays to all sides: seen from
+//    outside, where many escape, or not.
+// 2. From each one that is seen a ray goes inward. Where most find a wall soon behind them that
+//    faces them and is not seen, the body has two walls, and the distances tell how thick they are.
+// 3. A minimum cut over the triangles, each edge weighing its length, parts what is seen from what
+//    lies behind: its rims are the openings. Where they run the cut decides, not the rays, which
+//    tell little beside an opening.
+// 4. Pieces of the inner wall stay whose openings are all pinholes. From their rims on, the tubes
+//    that lead to the outer wall are added: triangles that have no wall behind them where one would
+//    be.
+//
+// Rays are rounded, and nothing depends on one alone.
 #include "double_walls.h"
 
 #include <algorithm>
@@ -13,8 +27,8 @@
 #include <base/error.h>
 #include <base/parallel.h>
 #include <mesh/edge_table.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/mesh_parts.h>
-#include <mesh/triangle_measures.h>
 
 #include "common/minimum_cut.h"
 #include "triangle_rays.h"
@@ -46,7 +60,7 @@ constexpr double kLeastOfBody = 0.05;
 
 // Pinholes: see the header. Together they have at most so much of the inner wall's area, or twice
 // of that.
-constexpr double kNarrow = 0.01;
+constexpr double kNarrowPinhole = 0.01;
 constexpr std::size_t kFewEdges = 12, kSomeEdges = 80;
 constexpr double kWidestOfFewEdges = 0.08;
 constexpr std::size_t kMany = 6;
@@ -257,7 +271,7 @@ class BodyWalls {
       const bool is_of_mesh =
           rim.length >= kShortestEdge * mean_edge_ * static_cast<double>(rim.edges);
       const bool has_few = is_of_mesh && rim.edges <= kFewEdges && width <= kWidestOfFewEdges;
-      narrow += width <= kNarrow || has_few ? 1 : 0;
+      narrow += width <= kNarrowPinhole || has_few ? 1 : 0;
       of_some_edges += is_of_mesh && rim.edges <= kSomeEdges ? 1 : 0;
     }
     const auto count = static_cast<double>(rims.size());

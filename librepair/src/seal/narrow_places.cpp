@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include <check/nearest_triangle.h>
+#include <check/internal/nearest_triangle.h>
 
 namespace meshrepair::internal {
 namespace {

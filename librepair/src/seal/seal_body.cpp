@@ -7,8 +7,8 @@
 #include <base/error.h>
 #include <base/stage_meter.h>
 #include <extract/simplify_cuts.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 
 #include "again/second_repair.h"
 #include "arrange/chamber_surface.h"

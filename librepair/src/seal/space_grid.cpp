@@ -10,7 +10,7 @@
 
 #include <base/parallel.h>
 #include <check/box_tree.h>
-#include <check/nearest_triangle.h>
+#include <check/internal/nearest_triangle.h>
 
 #include "narrow_places.h"
 

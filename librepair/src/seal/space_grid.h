@@ -11,10 +11,10 @@
 #include <optional>
 #include <vector>
 
-#include <base/hash_index.h>
 #include <base/ids.h>
+#include <base/internal/hash_index.h>
 #include <base/progress.h>
-#include <check/nearest_triangle.h>
+#include <check/internal/nearest_triangle.h>
 #include <check/soup_rays.h>
 #include <mesh/soup.h>
 

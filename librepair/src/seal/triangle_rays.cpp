@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include <check/triangle_list.h>
+#include <check/internal/triangle_list.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <base/parallel.h>
-#include <check/nearest_triangle.h>
+#include <check/internal/nearest_triangle.h>
 #include <check/soup_rays.h>
 #include <mesh/mesh_parts.h>
 

@@ -1,3 +1,17 @@
+// Sewing brings open edges together that nearly meet, before holes are closed: corners near each
+// other become one in their middle, and a corner near an open edge splits it. How far is decided
+// once for the whole mesh. Each corner is asked how near the nearest strange edge is, one that no
+// triangle of its own has, as a share of the edges around it; of the distances that are small so,
+// the largest one before a wide gap is taken: distances that are meant lie far from those that
+// noise has made.
+//
+// Then all clusters are joined at once, and what turned out wrong is given up, round by round:
+// clusters of which a triangle was turned over, and those at which no open edge found a partner or
+// an edge of more than two triangles came up. What is given up stays as it was given, so each round
+// is sound, and there are few.
+//
+// Compare G. Barequet and S. Kumar, Repairing CAD models (1997), who match edges by a distance too,
+// and A. Gueziec et al., Cutting and stitching (2001).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +42,7 @@ constexpr double kNear = 0.25, kMove = 0.33;
 constexpr double kFarthest = 1.0 / 250;
 // Between distances that belong together.
 constexpr double kGap = 10;
-constexpr int kMostRounds = 8;
+constexpr int kMostSewings = 8;
 
 double diagonal_of(const TriangleSoup& soup, const OpenRims& rims) {
   Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -94,7 +108,7 @@ class Sewing {
     }
     check_.ask();
     if (!is_loose()) splits_ = find_splits(rims_, strangers_, clusters_, distance, kMove);
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostSewings; ++round) {
       check_.ask();
       SewnSoup sewn = make_soup();
       std::vector<char> given_up(soup_.points.size(), 0);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <base/ids.h>
+#include <bsp/clean_soup.h>
 #include <mesh/soup.h>
 
 #include "corner_clusters.h"
@@ -31,5 +33,18 @@ struct EdgeSplit {
 [[nodiscard]] std::vector<IndexTriangle> split_triangle(const IndexTriangle& triangle,
                                                         const EdgeSplit* first,
                                                         const EdgeSplit* last);
+
+struct TriangleInPieces {
+  TriangleId triangle;
+  std::size_t first_split = 0, end_split = 0;  // of the list
+  std::vector<IndexTriangle> corners;          // of each piece
+};
+
+// Of each triangle that a split is of. `splits` are sorted by sides, and along these.
+[[nodiscard]] std::vector<TriangleInPieces> split_triangles(const CleanSoup& soup,
+                                                            const std::vector<EdgeSplit>& splits);
+
+// Pieces take the places of their triangles.
+void put_in(CleanSoup& soup, const std::vector<TriangleInPieces>& split);
 
 }  // namespace meshrepair::internal

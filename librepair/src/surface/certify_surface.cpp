@@ -1,3 +1,15 @@
+// From the surface of the best attempt to one that passes the test, or comes as near to it as was
+// found. From the cheapest means to the dearest; each begins where the one before has left faults:
+//
+// 1. Points of the input come to lie where everything was decided, on the working grid, and what
+//    was cut is simplified anew.
+// 2. Place by place, points are moved and edges collapsed or flipped (mend_faults.h).
+// 3. What is left is divided into groups of parts that lie near each other. Each is repaired again
+//    by itself: as it is where few places are at fault, then with its points on a grid.
+// 4. The same for the whole, round by round on coarser grids, if need be by cells.
+//
+// Every result is tested again as it will be written, and the one with the fewest faults is kept:
+// no step can make it worse.
 #include "certify_surface.h"
 
 #include <cstddef>
@@ -146,7 +158,7 @@ void repair_groups(Certification& whole, const Grid& grid, const CertifyOptions&
   for (Surface& group : groups) {
     const double to =
         from + static_cast<double>(group.mesh.triangles.size()) / static_cast<double>(triangles);
-    PartOfStage part(whole.groups_progress(), from, to);
+    ShareOfStage part(whole.groups_progress(), from, to);
     from = to;
     CertifyReport report;
     Certification one(std::move(group), grid, certify, &part, report);

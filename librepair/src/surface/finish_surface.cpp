@@ -6,8 +6,8 @@
 #include <base/error.h>
 
 #include "certify_surface.h"
+#include "common/drop_thin_parts.h"
 #include "make_surface.h"
-#include "mend/drop_thin_parts.h"
 #include "report/describe_result.h"
 #include "simplify_surface.h"
 

@@ -12,7 +12,7 @@
 #include <extract/extract_surface.h>
 
 #include "arrange/chamber_surface.h"
-#include "sheets/fill_slits.h"
+#include "slits/fill_slits.h"
 #include "solid/find_solid.h"
 
 namespace meshrepair::internal {

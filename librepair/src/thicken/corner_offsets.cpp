@@ -1,3 +1,15 @@
+// A wall that is as thick everywhere has its corners where the offset planes of the triangles
+// around them meet. Of more than three planes no point is in all, so each corner gets the vector
+// that least squares find, each plane weighted by the angle of its triangle there, and drawn a
+// little to the mean normal in directions about which the planes say nothing. Where that leaves a
+// plane too far beside, its largest error is evened out over both sides of it; where that is too
+// much, as at sharp folds, each triangle goes along its own normal, and the gap is closed by other
+// walls (fold_walls.h).
+//
+// A narrow triangle is turned over by vectors that differ by little. So vectors near each other are
+// made more alike, the nearest most, as far as the planes allow, and at last vectors are halved
+// until no triangle is turned over; where that leaves a wall short of its thickness, the triangle
+// has one of its own (own_walls.h). Whether one is turned over, exact predicates decide.
 #include "corner_offsets.h"
 
 #include <algorithm>
@@ -32,10 +44,10 @@ constexpr double kTowardsMean = 1e-4;
 constexpr std::size_t kMostHalvings = 20;
 
 // Rounds of evening out; most of what it can do is done in a few.
-constexpr std::size_t kMostRounds = 24;
+constexpr std::size_t kMostEvenings = 24;
 
 // How far a vector goes towards what its neighbours say, as far as its triangles allow.
-constexpr std::array<double, 3> kWays = {1.0, 0.5, 0.25};
+constexpr std::array<double, 3> kWayShares = {1.0, 0.5, 0.25};
 
 // Points near each other are next to each other along it, and hardly ever all of a plane.
 const Vec3d kAcross = {1.0, 0.618, 0.382};
@@ -167,7 +179,7 @@ class OffsetFinder {
     std::vector<std::uint32_t> all(mesh_.triangles.size());
     std::iota(all.begin(), all.end(), 0u);
     std::vector<std::uint32_t> turned = turned_over(all);
-    for (std::size_t round = 0; round < kMostRounds && !turned.empty(); ++round) {
+    for (std::size_t round = 0; round < kMostEvenings && !turned.empty(); ++round) {
       std::vector<std::uint32_t> near;
       for (const std::uint32_t vector : vectors_of(turned)) {
         if (!go_with_neighbours(vector)) continue;
@@ -222,7 +234,7 @@ class OffsetFinder {
       }
     }
     Vec3d& now = result_.vectors[vector];
-    for (const double way : kWays) {
+    for (const double way : kWayShares) {
       const auto moved = fitting(corners, now + way * (sum / weights - now));
       if (!moved) continue;
       now = *moved;

@@ -1,15 +1,21 @@
-// Convex pieces of walls.
+// Convex pieces of walls, and the convex hulls that they are.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include <base/vec3.h>
 #include <repair/thicken_sheets.h>
 
 #include "sheet_mesh.h"
 
 namespace meshrepair::internal {
+
+// Triangles of indices into `points`, counter-clockwise seen from outside; none where all points
+// lie in one plane. Exact. Takes the number of points times that of triangles.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Vec3d> points);
 
 // Adds the hull of the points to the walls, each of its triangles with the source of that one of
 // `beside`, triangles of the mesh, which it is most nearly parallel to. Nothing where the points

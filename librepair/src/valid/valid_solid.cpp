@@ -10,14 +10,14 @@
 #include <check/edge_contacts.h>
 #include <check/part_orientation.h>
 #include <check/self_intersections.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <mesh/weld_points.h>
 #include <repair/valid_solid.h>
 
-#include "orient/surface_patches.h"
+#include "orient/surface_pieces.h"
 
 namespace meshrepair {
 namespace {

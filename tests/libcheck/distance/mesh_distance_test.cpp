@@ -6,8 +6,8 @@
 
 #include <base/error.h>
 #include <base/parallel.h>
+#include <check/internal/nearest_triangle.h>
 #include <check/mesh_distance.h>
-#include <check/nearest_triangle.h>
 
 #include "shapes.h"
 
@@ -178,7 +178,7 @@ TEST(MeshDistance, TimesAPowerOfTwoIsExactlyThat) {
   }
 }
 
-TEST(MeshDistance, OfAMeshThatIsFarSmallerThanTheOther) {
+TEST(MeshDistance, FarSmallerMeshHasTheRightDistance) {
   const MeshDistance d =
       mesh_distance(times_two_to(square(0), -600), square(0.25), with_bound(100));
   EXPECT_EQ(d.forth.samples, 100u);
@@ -186,7 +186,7 @@ TEST(MeshDistance, OfAMeshThatIsFarSmallerThanTheOther) {
   EXPECT_EQ(d.diagonal, std::ldexp(bounding_diagonal(square(0)), -600));
 }
 
-TEST(MeshDistance, ThatIsBeyondDoublesIsInfinite) {
+TEST(MeshDistance, DistanceBeyondDoublesIsInfinite) {
   const TriangleSoup low = {{{-1e308, 0, 0}, {-1e308, 1e308, 0}, {-1e308, 0, 1e308}},
                             {{{0, 1, 2}}}};
   const TriangleSoup high = testing::moved(low, {1e308, 0, 0});
@@ -235,7 +235,7 @@ TEST(NearestTriangle, AgreesWithTryingAll) {
   }
 }
 
-TEST(SquaredDistance, ToInsideSidesAndCorners) {
+TEST(SquaredDistance, DistancesToInsideSidesAndCornersAreExact) {
   const internal::Corners t = {Vec3d(0, 0, 0), Vec3d(4, 0, 0), Vec3d(0, 4, 0)};
   EXPECT_DOUBLE_EQ(internal::squared_distance({1, 1, 3}, t), 9);
   EXPECT_DOUBLE_EQ(internal::squared_distance({2, -3, 4}, t), 25);
@@ -245,7 +245,7 @@ TEST(SquaredDistance, ToInsideSidesAndCorners) {
                    25);
 }
 
-TEST(MeshDistance, OneWayAloneIsThatWay) {
+TEST(MeshDistance, OneWayAloneGivesThatDistance) {
   const TriangleSoup a = testing::sphere(500);
   const TriangleSoup b = testing::moved(testing::sphere(300, 1.1), {0.1, 0, 0});
   const MeshDistance both = mesh_distance(a, b);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <check/known_intersections.h>
+#include <check/internal/known_intersections.h>
 #include <check/self_intersections.h>
 
 #include "each_seed.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <check/nearby_intersections.h>
+#include <check/internal/nearby_intersections.h>
 #include <check/self_intersections.h>
 
 #include "each_seed.h"

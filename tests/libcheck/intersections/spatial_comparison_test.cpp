@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <check/internal/triangle_list.h>
 #include <check/self_intersections.h>
-#include <check/triangle_list.h>
 
 #include "degenerate_soups.h"
 #include "each_seed.h"

@@ -66,7 +66,7 @@ TEST(PartGroups, WhatIsNoNumberIsAlone) {
 }
 
 // By brute force over all pairs of boxes.
-TEST(PartGroups, AreThoseOfAllPairs) {
+TEST(PartGroups, GroupsAreThoseOfAllPairs) {
   testing::Random random(3);
   for (int round = 0; round < 30; ++round) {
     std::vector<TriangleSoup> parts;
@@ -98,7 +98,7 @@ TEST(PartGroups, AreThoseOfAllPairs) {
 }
 
 // Each box meets all others: a pair of each would take hours.
-TEST(PartGroups, OfManyPartsInEachOther) {
+TEST(PartGroups, ManyNestedPartsAreOneGroup) {
   constexpr std::uint32_t kParts = 300'000;
   TriangleSoup soup;
   for (std::uint32_t i = 0; i < kParts; ++i) {
@@ -110,7 +110,7 @@ TEST(PartGroups, OfManyPartsInEachOther) {
   EXPECT_EQ(find_groups(soup, 0).size(), 1u);
 }
 
-TEST(Blocks, HaveAtMostSoManyTriangles) {
+TEST(Blocks, EachBlockKeepsTheTriangleLimit) {
   std::vector<TriangleSoup> parts;
   for (int i = 0; i < 20; ++i) parts.push_back(box_at(3 * i));
   const PartGroups groups = find_groups(all_of(parts), 0);

@@ -47,7 +47,7 @@ TEST(CheckSurface, FindsNothingWrongWithSoundShapes) {
   }
 }
 
-TEST(CheckSurface, MeasuresIt) {
+TEST(CheckSurface, MeasuresVolumeAndArea) {
   const SurfaceCheck check = check_surface(nested_boxes(2));
   EXPECT_DOUBLE_EQ(check.volume, 8000 - 18 * 18 * 18);
   EXPECT_DOUBLE_EQ(check.area, 6 * (400 + 18 * 18));
@@ -174,7 +174,7 @@ TEST(CheckSurface, FindsHolesAndFlips) {
   }
 }
 
-TEST(CheckSurface, FindsWhatIsNotManifold) {
+TEST(CheckSurface, FindsEdgesAndPointsThatAreNotManifold) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {1, 1, 0}));  // shares an edge, once welded
   SurfaceCheck check = check_surface(soup);

@@ -12,7 +12,7 @@ using namespace testing;
 
 NearFacesFound near(const TriangleSoup& soup, double reach) {
   NearFacesOptions options;
-  options.reach = reach;
+  options.largest_distance = reach;
   return find_near_faces(soup, options);
 }
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <check/triangle_pair.h>
+#include <check/internal/triangle_pair.h>
 #include <exact/double_predicates.h>
 
 #include "random_geometry.h"
@@ -27,7 +27,7 @@ Meeting with_flat(const Places& other, const Corners& corner = {3, 4, 5}) {
   return meeting_of(make(kFlat, {0, 1, 2}), make(other, corner));
 }
 
-TEST(TrianglePair, WithoutSharedCorners) {
+TEST(TrianglePair, PairsWithoutSharedCornersAreDecided) {
   EXPECT_EQ(with_flat({Vec3d(1, 1, -1), {1, 1, 1}, {2, 1, 1}}), Meeting::crossing);
   EXPECT_EQ(with_flat({Vec3d(1, 1, 0), {1, 1, 1}, {2, 1, 1}}), Meeting::touching);
   EXPECT_EQ(with_flat({Vec3d(0, 0, 0), {0, 0, 1}, {1, 0, 1}}), Meeting::touching);
@@ -38,7 +38,7 @@ TEST(TrianglePair, WithoutSharedCorners) {
   EXPECT_EQ(with_flat({Vec3d(-1, 1, 0), {5, 1, 0}, {0, 1, 9}}), Meeting::touching);
 }
 
-TEST(TrianglePair, InOnePlane) {
+TEST(TrianglePair, PairsInOnePlaneAreDecided) {
   EXPECT_EQ(with_flat({Vec3d(1, 1, 0), {2, 1, 0}, {1, 2, 0}}), Meeting::coplanar);
   EXPECT_EQ(with_flat({Vec3d(-9, -9, 0), {99, -9, 0}, {-9, 99, 0}}), Meeting::coplanar);
   EXPECT_EQ(with_flat({Vec3d(2, 2, 0), {5, 2, 0}, {5, 5, 0}}), Meeting::coplanar);
@@ -46,7 +46,7 @@ TEST(TrianglePair, InOnePlane) {
   EXPECT_EQ(with_flat({Vec3d(-1, 2, 0), {5, 2, 0}, {5, 3, 0}}), Meeting::coplanar);
 }
 
-TEST(TrianglePair, AtASharedCorner) {
+TEST(TrianglePair, PairsWithASharedCornerAreDecided) {
   const Corners shared = {0, 4, 5};
   EXPECT_EQ(with_flat({Vec3d(0, 0, 0), {1, 1, 1}, {2, 1, 1}}, shared), Meeting::apart);
   EXPECT_EQ(with_flat({Vec3d(0, 0, 0), {1, 1, -1}, {1, 1, 1}}, shared), Meeting::crossing);
@@ -58,7 +58,7 @@ TEST(TrianglePair, AtASharedCorner) {
   EXPECT_EQ(with_flat({Vec3d(0, 0, 0), {0, 9, 0}, {-9, 9, 0}}, shared), Meeting::coplanar);
 }
 
-TEST(TrianglePair, AtASharedEdge) {
+TEST(TrianglePair, PairsWithASharedEdgeAreDecided) {
   EXPECT_EQ(with_flat({Vec3d(0, 0, 0), {4, 0, 0}, {0, 4, 1}}, {0, 1, 5}), Meeting::apart);
   EXPECT_EQ(with_flat({Vec3d(4, 0, 0), {0, 0, 0}, {0, -4, 0}}, {1, 0, 5}), Meeting::apart);
   EXPECT_EQ(with_flat({Vec3d(4, 0, 0), {0, 0, 0}, {9, 4, 0}}, {1, 0, 5}), Meeting::coplanar);

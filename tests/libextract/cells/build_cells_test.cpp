@@ -4,8 +4,8 @@
 
 #include <base/error.h>
 #include <extract/build_cells.h>
-#include <extract/check_complex.h>
 
+#include "cells/check_complex.h"
 #include "shapes.h"
 #include "share_of_cases.h"
 #include "trees.h"
@@ -38,7 +38,7 @@ TEST_P(BuildCells, CellsAreSpheresThatFillTheBox) {
   const CellComplex complex = build_cells(tree, {}, report);
   EXPECT_EQ(report.fallbacks(), 0u);
   EXPECT_EQ(complex.cells.size(), tree.leaves.size());
-  EXPECT_NO_THROW(check_complex(complex));
+  EXPECT_NO_THROW(internal::check_complex(complex));
   const double whole = box_volume(outer_box(tree.input));
   double sum = 0;
   for (CellId c(0u); c < complex.cells.end_id(); ++c.value) {
@@ -113,7 +113,7 @@ TEST(Clipper, TopologySurvivesWrongPredicates) {
     options.check_every_clip = true;
     ClipReport report;
     CellComplex complex = build_cells(tree, options, report);
-    EXPECT_NO_THROW(check_complex(complex));
+    EXPECT_NO_THROW(internal::check_complex(complex));
     EXPECT_EQ(complex.cells.size(), tree.leaves.size());
     total.several_groups += report.several_groups;
     total.region_floods += report.region_floods;

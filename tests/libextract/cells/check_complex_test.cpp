@@ -1,3 +1,5 @@
+#include "cells/check_complex.h"
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
-#include <extract/check_complex.h>
 
 #include "complexes.h"
 #include "degenerate_soups.h"
@@ -145,9 +146,9 @@ class CheckComplex : public ::testing::TestWithParam<Damage> {};
 TEST_P(CheckComplex, FindsDamage) {
   for (const TriangleSoup& soup : {cube(), random_soup(12, 3, 1)}) {
     Cells cells = cells_of(soup);
-    ASSERT_NO_THROW(check_complex(cells.complex));
+    ASSERT_NO_THROW(internal::check_complex(cells.complex));
     GetParam().inflict(cells.complex);
-    EXPECT_THROW(check_complex(cells.complex), InternalError);
+    EXPECT_THROW(internal::check_complex(cells.complex), InternalError);
   }
 }
 
@@ -157,14 +158,14 @@ INSTANTIATE_TEST_SUITE_P(Damages, CheckComplex, ::testing::ValuesIn(damages()),
 TEST(CheckComplex, ASingleBoxIsSound) {
   const CleanSoup soup;
   const CellComplex complex(soup, {{0, 0, 0}, {1, 1, 1}});
-  EXPECT_NO_THROW(check_complex(complex));
+  EXPECT_NO_THROW(internal::check_complex(complex));
 }
 
 TEST(CheckComplex, SoundComplexesPass) {
   for (const SoupFamily& family : degenerate_families()) {
     SCOPED_TRACE(family.name);
     const Cells cells = cells_of(family.make(2));
-    EXPECT_NO_THROW(check_complex(cells.complex));
+    EXPECT_NO_THROW(internal::check_complex(cells.complex));
   }
 }
 

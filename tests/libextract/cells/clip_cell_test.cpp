@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <extract/check_complex.h>
 #include <extract/clip_cell.h>
 
+#include "cells/check_complex.h"
 #include "complexes.h"
 
 namespace meshrepair {
@@ -28,7 +28,7 @@ class ClipCube : public ::testing::Test {
 
   CellId clip(PlaneId by, CellId cell = CellId(0u)) {
     const CellId below = clipper_.clip(cell, by);
-    EXPECT_NO_THROW(check_complex(complex_));
+    EXPECT_NO_THROW(internal::check_complex(complex_));
     return below;
   }
 
@@ -104,7 +104,7 @@ TEST_F(ClipCube, ThroughOneEdgeAndTwoFaces) {
   EXPECT_EQ(clipper_.report().fallbacks(), 0u);
 }
 
-TEST_F(ClipCube, ThePartAboveKeepsItsIdAndTheNewFacetPointsToIt) {
+TEST_F(ClipCube, PartAboveKeepsItsIdAndTheNewFacetPointsThere) {
   const PlaneId by = plane({0, 0, 1}, -1);
   const CellId below = clip(by);
   const FacetId lid(complex_.facets.size() - 1);
@@ -124,7 +124,7 @@ TEST_F(ClipCube, NeighboursGetTheNewVerticesToo) {
   EXPECT_EQ(clipper_.report().fallbacks(), 0u);
 }
 
-TEST_F(ClipCube, ManyPlanesThroughOneVertexAndOneEdge) {
+TEST_F(ClipCube, ManyPlanesThroughOneVertexAndOneEdgeKeepCellsSound) {
   std::vector<PlaneId> planes;
   for (std::int64_t k = 1; k < 8; ++k) {
     planes.push_back(plane({k, -8 + k, 0}, 0));      // all hold the edge x = y = 0
@@ -144,7 +144,7 @@ TEST_F(ClipCube, ManyPlanesThroughOneVertexAndOneEdge) {
       if (above > 0 && below > 0) (void)clipper_.clip(CellId(c), p);
     }
   }
-  check_complex(complex_);
+  internal::check_complex(complex_);
   expect_convex_cells(complex_);
   for (CellId c(0u); c < complex_.cells.end_id(); ++c.value) volume += cell_volume(complex_, c);
   EXPECT_NEAR(volume, 64, 1e-9);

@@ -24,7 +24,7 @@ class FloatSides : public ::testing::Test {
   PlaneTable planes_;
 };
 
-TEST_F(FloatSides, AreZeroWithinTheTolerance) {
+TEST_F(FloatSides, SidesWithinTheToleranceAreZero) {
   const PlaneId x = plane({1, 0, 0}, 0);
   FloatEngine engine(0.25);
   EXPECT_EQ(engine.side(loose_point({0.251, 7, 7}), x, planes_), 1);
@@ -42,7 +42,7 @@ TEST_F(FloatSides, WithoutAToleranceAreSignsOfDistances) {
   EXPECT_EQ(engine.side(loose_point({0, 0, 0}), x, planes_), 0);
 }
 
-TEST_F(FloatSides, AreThoseOfExactPredicatesFarFromThePlane) {
+TEST_F(FloatSides, SidesFarFromThePlaneAreExact) {
   Random random(1);
   FloatEngine engine(1);
   std::size_t near = 0;
@@ -99,7 +99,7 @@ TEST(Interpolate, IsWhereTheDistanceIsZero) {
   EXPECT_EQ(at.error, 0.5F);
 }
 
-TEST(Interpolate, IsTheMiddleWhereTheDistancesAreEqual) {
+TEST(Interpolate, EqualDistancesGiveTheMiddle) {
   const Plane x = make_plane({1, 0, 0}, -3);
   const Point at = interpolate(loose_point({5, 0, 4}), loose_point({5, 8, 0}), x);
   EXPECT_EQ(at.position, (std::array<double, 3>{5, 4, 2}));

@@ -7,14 +7,14 @@
 
 #include <gtest/gtest.h>
 
-#include <extract/check_complex.h>
 #include <extract/float_engine.h>
 
+#include "cells/check_complex.h"
 #include "complexes.h"
 #include "degenerate_soups.h"
 #include "each_seed.h"
-#include "facets/loose_regions.h"
 #include "share_of_cases.h"
+#include "surface/loose_regions.h"
 #include "unreliable_engine.h"
 
 namespace meshrepair {
@@ -79,10 +79,10 @@ void expect_sound(const TriangleSoup& soup, PredicateEngine* engine, std::uint64
   CellComplex complex = build_cells(tree, options, clip);
   EXPECT_TRUE(complex.loose);
   EXPECT_EQ(complex.cells.size(), tree.leaves.size());
-  ASSERT_NO_THROW(check_complex(complex));
+  ASSERT_NO_THROW(internal::check_complex(complex));
   CoverReport report;
   const auto cover = cover_facets(complex, own_windings(tree.input), report);
-  ASSERT_NO_THROW(check_complex(complex));
+  ASSERT_NO_THROW(internal::check_complex(complex));
   expect_finite(complex);
   expect_surfaces(complex, cover, seed, totals);
   add(totals, clip);

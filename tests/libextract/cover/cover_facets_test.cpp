@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <base/parallel.h>
-#include <extract/check_complex.h>
 #include <extract/cover_facets.h>
 #include <mesh/soup_io.h>
 
+#include "cells/check_complex.h"
 #include "complexes.h"
 #include "degenerate_soups.h"
 #include "large_polygons.h"
@@ -96,7 +96,7 @@ TEST(CoverFacets, FacetsOfEachTriangleAddUpToItsArea) {
       CoverReport report;
       const auto cover = cover_facets(cells.complex, own_windings(cells.tree->input), report);
       ASSERT_EQ(cover.size(), cells.complex.facets.size());
-      ASSERT_NO_THROW(check_complex(cells.complex));
+      ASSERT_NO_THROW(internal::check_complex(cells.complex));
       expect_facets_add_up(cells, cover);
       std::size_t opaque = 0;
       for (const Cover& c : cover) opaque += c.opaque();
@@ -106,7 +106,7 @@ TEST(CoverFacets, FacetsOfEachTriangleAddUpToItsArea) {
 }
 
 // Far more triangles on one facet than are looked at one by one.
-TEST(CoverFacets, ManyTrianglesInOnePlane) {
+TEST(CoverFacets, ManyTrianglesInOnePlaneCoverTheirArea) {
   Random random(1);
   TriangleSoup soup;
   for (int i = 0; i < 90; ++i) {
@@ -117,7 +117,7 @@ TEST(CoverFacets, ManyTrianglesInOnePlane) {
   }
   Cells cells = cells_of(soup);
   const auto cover = cover_of(cells);
-  check_complex(cells.complex);
+  internal::check_complex(cells.complex);
   expect_facets_add_up(cells, cover);
 }
 

@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <check/check_surface.h>
+#include <check/internal/star_distance.h>
 #include <check/mesh_distance.h>
 #include <check/self_intersections.h>
-#include <check/star_distance.h>
 #include <extract/simplify_cuts.h>
-#include <mesh/collapsible_mesh.h>
+#include <mesh/internal/collapsible_mesh.h>
 #include <mesh/topology.h>
 
 #include "each_seed.h"

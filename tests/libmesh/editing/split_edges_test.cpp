@@ -33,7 +33,7 @@ double area_of(const TriangleSoup& soup) {
   return area;
 }
 
-TEST(SplitEdges, LeavesNoneThatIsLonger) {
+TEST(SplitEdges, LeavesNoLongerEdge) {
   const TriangleSoup box = testing::box({0, 0, 0}, {1, 2, 7});
   for (const double length : {3.0, 0.5, 0.11}) {
     EXPECT_LE(longest_edge(split_edges(box, length, kMany)), length);

@@ -84,7 +84,7 @@ TEST_P(AttributesOf, FileIsTheSameAgain) {
   });
 }
 
-TEST_P(AttributesOf, AreNotReadUnlessAskedFor) {
+TEST_P(AttributesOf, AttributesAreNotReadUnlessAskedFor) {
   const TexturedSoup given = random_textured(1);
   const std::string bytes = format_soup(given.soup, GetParam(), {.attributes = &given.attributes});
   EXPECT_TRUE(read_soup(bytes, "mesh").attributes.empty());
@@ -140,7 +140,7 @@ TEST(CarriedNames, DoNotBecomeLinesOfTheirOwn) {
   }
 }
 
-TEST(StlColours, OfVisCamComeBack) {
+TEST(StlColours, ColoursOfVisCamComeBack) {
   for (unsigned colour = 0; colour < 0x8000; colour += 7) {
     const std::string bytes =
         coloured_stl("x", static_cast<std::uint16_t>(0x8000u | colour), 0x1234);
@@ -159,7 +159,7 @@ TEST(StlColours, OfVisCamComeBack) {
   EXPECT_EQ(red.values, (std::vector<double>{1, 0, 0}));
 }
 
-TEST(StlColours, OfMagicsComeBackWithTheirHeader) {
+TEST(StlColours, ColoursOfMagicsComeBackWithTheirHeader) {
   const std::string bytes = coloured_stl("COLOR=\x10\x20\x30\xFF,MATERIAL=abc", 0x001F, 0x8000);
   const ReadResult result = parse_with_attributes(bytes);
   EXPECT_EQ(result.attributes.corners.at(0).values, (std::vector<double>{1, 0, 0}));

@@ -187,7 +187,7 @@ void move_pictures_to(const fs::path& folder, Attributes& attributes) {
 
 class FormatPairs : public ::testing::TestWithParam<SoupFormat> {};
 
-TEST_P(FormatPairs, HoldWhatTheyCanBitForBit) {
+TEST_P(FormatPairs, EachPairKeepsWhatBothHoldBitForBit) {
   const TemporaryFolder folder;
   const unsigned seeds = share_of_cases(200u);
   std::map<SoupFormat, Kinds> compared;

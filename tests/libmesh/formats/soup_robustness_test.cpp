@@ -80,7 +80,7 @@ TEST_P(BrokenFiles, WholeFileIsRead) {
   EXPECT_TRUE(read_broken(GetParam().bytes, GetParam().extension));
 }
 
-TEST_P(BrokenFiles, CutAtEveryByte) {
+TEST_P(BrokenFiles, FilesCutAtAnyByteAreReadOrRefused) {
   const std::string& bytes = GetParam().bytes;
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     SCOPED_TRACE(size);
@@ -89,7 +89,7 @@ TEST_P(BrokenFiles, CutAtEveryByte) {
   }
 }
 
-TEST_P(BrokenFiles, RandomBytesReplaced) {
+TEST_P(BrokenFiles, FilesWithReplacedBytesAreReadOrRefused) {
   std::mt19937 random(20240607);
   for (int round = 0; round < 3000; ++round) {
     SCOPED_TRACE(round);
@@ -103,7 +103,7 @@ TEST_P(BrokenFiles, RandomBytesReplaced) {
 }
 
 // Digits, signs and separators do more harm to a text than bytes at random.
-TEST_P(BrokenFiles, RandomTextInsertedOrRemoved) {
+TEST_P(BrokenFiles, FilesWithChangedTextAreReadOrRefused) {
   constexpr std::string_view kAlphabet = "0123456789-+.e,/\\# \t\r\nfvnx";
   std::mt19937 random(19700101);
   for (int round = 0; round < 3000; ++round) {

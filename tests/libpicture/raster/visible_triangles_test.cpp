@@ -58,7 +58,7 @@ TEST(VisibleTriangles, ClosedSurfacesAreNeverSeenFromBehind) {
   }
 }
 
-TEST(VisibleTriangles, FlippedOnesAre) {
+TEST(VisibleTriangles, FlippedTrianglesAreSeenFromBehind) {
   const TriangleSoup soup = testing::flipped(testing::sphere(500));
   const Camera camera(*view_of("iso"), {50, 50}, {&soup});
   for (const std::uint32_t seen : look(soup, camera, 1)) {
@@ -66,7 +66,7 @@ TEST(VisibleTriangles, FlippedOnesAre) {
   }
 }
 
-TEST(VisibleTriangles, OfTwoInOnePlaceTheOneThatFacesUsIsSeen) {
+TEST(VisibleTriangles, FacingTriangleOfTwoInOnePlaceIsSeen) {
   const TriangleSoup sheet{{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 2}, {0, 1, 2}}};
   const Camera camera(*view_of("front"), {20, 20}, {&sheet});
   for (const std::uint32_t seen : look(sheet, camera, 1)) {

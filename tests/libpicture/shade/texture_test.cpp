@@ -14,7 +14,7 @@ constexpr Rgba kRed = {255, 0, 0, 255}, kGreen = {0, 255, 0, 255}, kBlue = {0, 0
 // Red and green above, blue and white below.
 Texture four() { return Texture({{2, 2}, {kRed, kGreen, kBlue, kWhitePixel}}); }
 
-TEST(Texture, ItsCornersAreWhereFormatsHaveThem) {
+TEST(Texture, CornersOfTexturesAreWhereFormatsHaveThem) {
   const Texture texture = four();
   EXPECT_EQ(texture.light(0.25, 0.75, 0), (Light{1, 0, 0}));
   EXPECT_EQ(texture.light(0.75, 0.75, 0), (Light{0, 1, 0}));

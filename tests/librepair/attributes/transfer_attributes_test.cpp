@@ -33,7 +33,7 @@ TexturedSurface repaired(const TexturedSoup& input, RepairOptions options = {}) 
   return result;
 }
 
-TEST(TransferAttributes, OfTwoSpheresThatOverlap) {
+TEST(TransferAttributes, OverlappingSpheresKeepTheirAttributes) {
   const TexturedSoup input = textured({sphere(2000), sphere(1500, 0.8, {0.7, 0.3, 0.1})});
   const TexturedSurface result = repaired(input);
   EXPECT_EQ(result.attributes.materials.names.size(), 2u);
@@ -41,7 +41,7 @@ TEST(TransferAttributes, OfTwoSpheresThatOverlap) {
   expect_whole_triangles_bit_for_bit(input, result);
 }
 
-TEST(TransferAttributes, WhereThereAreCells) {
+TEST(TransferAttributes, SurfacesFromCellsKeepTheirAttributes) {
   const TexturedSoup input = textured({sphere(500), sphere(400, 0.8, {0.7, 0.3, 0.1})});
   RepairOptions options;
   options.inside.rule = InsideRule::solidity;
@@ -51,7 +51,7 @@ TEST(TransferAttributes, WhereThereAreCells) {
 }
 
 // Sides in one plane: what is cut is not merged across materials and seams.
-TEST(TransferAttributes, OfBoxesWithSidesInOnePlane) {
+TEST(TransferAttributes, BoxesWithSidesInOnePlaneKeepTheirAttributes) {
   for (const InsideRule rule : {InsideRule::automatic, InsideRule::solidity}) {
     const TexturedSoup input = textured(
         {box({0, 0, 0}, {2, 2, 2}), box({1, 1, 0}, {3, 3, 2}), box({0.5, 0.5, 1}, {1.5, 1.25, 3})});
@@ -205,7 +205,7 @@ TEST(TransferAttributes, OfTrianglesInOnePlaceTheOneThatFacesOutwardsCounts) {
   }
 }
 
-TEST(TransferAttributes, OfMeshThatIsKeptAsItIs) {
+TEST(TransferAttributes, ValidMeshKeepsItsAttributes) {
   const TexturedSoup input = textured({sphere(300)});
   const TexturedSurface result = repaired(input);
   ASSERT_EQ(result.surface.mesh.triangles.size(), input.soup.triangles.size());

@@ -10,7 +10,7 @@
 #include <base/error.h>
 #include <check/check_surface.h>
 #include <check/self_intersections.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <mesh/soup_io.h>
 #include <repair/repair.h>
 
@@ -63,7 +63,7 @@ TEST(Certify, LeavesASoundSurfaceAsItIs) {
   EXPECT_EQ(result.mesh.points, soup.points);
 }
 
-TEST(Certify, SaysWhatItCannotMend) {
+TEST(Certify, SaysWhatCannotBeMended) {
   TriangleSoup soup = cube();
   append(soup, moved(cube(), {0.5, 0.25, 0.125}));
   CertifyReport report;

@@ -32,7 +32,7 @@ std::vector<Surface> taken(Surface& surface, std::span<const std::uint32_t> at_f
   return take_groups(surface, groups_apart(surface.mesh), at_fault);
 }
 
-TEST(FaultyGroups, AreTakenOneByOne) {
+TEST(FaultyGroups, GroupsAreTakenOneByOne) {
   Surface surface = as_surface(three_cubes());
   const auto groups = taken(surface, std::array{3 * size_of_cube(), 2 * size_of_cube() + 1});
   ASSERT_EQ(groups.size(), 2u);
@@ -44,7 +44,7 @@ TEST(FaultyGroups, AreTakenOneByOne) {
   EXPECT_EQ(surface.source.back(), 2 * size_of_cube() - 1);
 }
 
-TEST(FaultyGroups, HaveWhatLiesInThem) {
+TEST(FaultyGroups, GroupsIncludeWhatLiesInside) {
   Surface surface = as_surface(three_cubes());
   const auto groups = taken(surface, std::array{size_of_cube()});
   ASSERT_EQ(groups.size(), 1u);
@@ -52,7 +52,7 @@ TEST(FaultyGroups, HaveWhatLiesInThem) {
   EXPECT_EQ(groups[0].source.back(), 2 * size_of_cube() - 1);
 }
 
-TEST(FaultyGroups, MayBeAll) {
+TEST(FaultyGroups, AllGroupsMayBeFaulty) {
   Surface surface = as_surface(three_cubes());
   const auto groups = taken(surface, std::array{0u, 2 * size_of_cube(), 3 * size_of_cube()});
   EXPECT_EQ(groups.size(), 3u);

@@ -38,7 +38,7 @@ class FewPlaces : public ::testing::Test {
   CertifyReport report_;
 };
 
-TEST_F(FewPlaces, AreRepairedAgainWithPointsWhereTheyAre) {
+TEST_F(FewPlaces, PlacesAreRepairedWithoutMovingPoints) {
   internal::Certification few = certification(kSingle);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
@@ -54,7 +54,7 @@ TEST_F(FewPlaces, AreRepairedAgainWithPointsWhereTheyAre) {
   EXPECT_EQ(self_intersections(result.mesh).count, 0u);
 }
 
-TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
+TEST_F(FewPlaces, PlacesAreLeftWhereRepairWasInVain) {
   internal::Certification few = certification(kSingle);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
@@ -63,7 +63,7 @@ TEST_F(FewPlaces, AreLeftWhereThatWasInVain) {
   EXPECT_TRUE(few.may_go_on());
 }
 
-TEST_F(FewPlaces, GoOntoAGridWhereThatWasInVain) {
+TEST_F(FewPlaces, PlacesGoOntoAGridWhereRepairWasInVain) {
   internal::Certification few = certification(kSingle);
   few.mend_in_place();
   ASSERT_TRUE(few.are_few_places());
@@ -79,7 +79,7 @@ TEST_F(FewPlaces, GoOntoAGridWhereThatWasInVain) {
   EXPECT_EQ(self_intersections(result.mesh).count, 0u);
 }
 
-TEST_F(FewPlaces, AreLeftToRoundsWhereNoGridIsOfUse) {
+TEST_F(FewPlaces, PlacesAreLeftToRoundsWhereNoGridIsOfUse) {
   internal::Certification few = certification(kSingle);
   few.mend_in_place();
   std::size_t grids = 0;
@@ -92,7 +92,7 @@ TEST_F(FewPlaces, AreLeftToRoundsWhereNoGridIsOfUse) {
 }
 
 // As many as are too many elsewhere.
-TEST_F(FewPlaces, AreMoreInALargeMesh) {
+TEST_F(FewPlaces, LimitGrowsWithTheMesh) {
   TriangleSoup soup;
   for (int i = 0; i < 10; ++i) append(soup, moved(crossing(), {4.0 * i, 0, 0}));
   internal::Certification small(as_surface(soup), grid_, kSingle, nullptr, report_);
@@ -104,7 +104,7 @@ TEST_F(FewPlaces, AreMoreInALargeMesh) {
   EXPECT_TRUE(large.are_few_places());
 }
 
-TEST_F(FewPlaces, AreOfSinglePrecisionAlone) {
+TEST_F(FewPlaces, PlacesAreRepairedInSinglePrecisionAlone) {
   const CertifyOptions options;
   EXPECT_FALSE(certification(options).are_few_places());
 }
@@ -161,7 +161,7 @@ TEST_F(FaultyGroup, IsRepairedWithoutTheOthers) {
   for (const std::uint32_t source : result.source) EXPECT_LT(source, soup.triangles.size());
 }
 
-TEST_F(FaultyGroup, SpoilsNoOtherWhereItsRepairIsInVain) {
+TEST_F(FaultyGroup, RepairInVainSpoilsNoOtherGroup) {
   TriangleSoup soup = crossing();
   append(soup, moved(cube(), {-20, 0, 0}));
   append(soup, moved(crossing(), {20, 0, 0}));
@@ -189,7 +189,7 @@ TEST_F(FaultyGroup, LeavesWhatIsInsideOutElsewhereToBeFound) {
 }
 
 // The cubes of the group, moved into a sound one: now it is about the whole.
-TEST_F(FaultyGroup, MeetsAnotherWhereItMovesToIt) {
+TEST_F(FaultyGroup, MovedGroupIsTestedAgainstItsNeighbours) {
   TriangleSoup soup = moved(sphere(200), {20, 0, 0});
   append(soup, crossing());
   append(soup, moved(cube(), {-20, 0, 0}));
@@ -215,7 +215,7 @@ TEST_F(FaultyGroup, MeetsAnotherWhereItMovesToIt) {
   EXPECT_EQ(report_.pairs, self_intersections(result.mesh).count);
 }
 
-TEST_F(FaultyGroup, IsNoneWhereAllIsOneGroup) {
+TEST_F(FaultyGroup, SingleGroupIsNotTakenApart) {
   internal::Certification whole = certification(kSingle);
   whole.mend_in_place();
   EXPECT_TRUE(whole.take_faulty_groups().empty());

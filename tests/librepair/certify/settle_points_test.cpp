@@ -71,7 +71,7 @@ TEST(SettlePoints, MovesNothingWhereNothingIntersects) {
 }
 
 // Without a repair of the whole.
-TEST(SettlePoints, IsWhatCertificationTriesFirst) {
+TEST(SettlePoints, CertificationSettlesPointsFirst) {
   for_each_seed(10, [&](std::uint64_t seed) {
     RepairOptions options;
     options.simplify = seed % 2 == 0 ? 0 : kDefaultSimplify;

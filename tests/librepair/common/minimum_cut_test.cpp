@@ -70,7 +70,7 @@ Problem random_problem(Random& random, int nodes, int highest) {
   return problem;
 }
 
-TEST(MinimumCut, IsTheLeastSetOfLeastCost) {
+TEST(MinimumCut, SmallestSetOfLeastCostIsFound) {
   for_each_seed(3000, [&](std::uint64_t seed) {
     Random random(seed);
     const Problem problem = random_problem(random, random.integer(1, 9), seed % 2 == 0 ? 3 : 1000);
@@ -78,7 +78,7 @@ TEST(MinimumCut, IsTheLeastSetOfLeastCost) {
   });
 }
 
-TEST(MinimumCut, WhatIsForbiddenIsNot) {
+TEST(MinimumCut, ForbiddenEdgesAreNotCut) {
   for_each_seed(1000, [&](std::uint64_t seed) {
     Random random(seed);
     Problem problem = random_problem(random, 9, 10);

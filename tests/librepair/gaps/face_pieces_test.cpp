@@ -28,7 +28,7 @@ double area_of(const std::vector<IndexTriangle>& pieces) {
   return sum;
 }
 
-TEST(FacePieces, AreAllOfTheFace) {
+TEST(FacePieces, PiecesCoverTheFace) {
   FacePieces faces(kPoints);
   std::vector<IndexTriangle> pieces;
   EXPECT_TRUE(faces.cut(std::array{0u, 7u, 1u, 2u}, kSquare, {0, 0, 1}, pieces));

@@ -48,12 +48,12 @@ std::size_t count_marked(const TriangleSoup& soup) {
   return static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
 }
 
-TEST(Dividers, TheirEdgesAreNoRims) {
+TEST(Dividers, EdgesOfDividersAreNoRims) {
   // One open edge, and three at which three triangles meet: foot and ends.
   EXPECT_EQ(count_marked(box_with_divider()), 1u + 3 * 3);
 }
 
-TEST(Dividers, TheBoxIsClosedAtItsRim) {
+TEST(Dividers, BoxWithDividersIsClosedAtItsRim) {
   for (const bool is_turned : {false, true}) {
     TriangleSoup soup = box_with_divider();
     if (is_turned) std::swap(soup.triangles.back()[0], soup.triangles.back()[1]);
@@ -64,14 +64,14 @@ TEST(Dividers, TheBoxIsClosedAtItsRim) {
   }
 }
 
-TEST(Dividers, ABoxWithoutOneHasNone) {
+TEST(Dividers, BoxWithoutDividersHasNone) {
   TriangleSoup soup = box_with_divider();
   soup.triangles.resize(soup.triangles.size() - 2);
   EXPECT_EQ(count_marked(soup), 0u);
 }
 
 // Both of its faces look outside.
-TEST(Dividers, AFinOutsideIsNone) {
+TEST(Dividers, FinOutsideIsNoDivider) {
   TriangleSoup soup = box_with_divider();
   for (Vec3d& p : soup.points) p.z() += p.x() == 1 && p.z() == 1 ? 1 : 0;
   soup.points.emplace_back(3, 0.5, 0);

@@ -32,7 +32,7 @@ void expect_open(const TriangleSoup& broken, const TriangleSoup& meant, double s
   EXPECT_NEAR(result.report.output_volume, volume, share * volume);
 }
 
-TEST(FacingRims, OfTwoWallsAreJoinedHoweverSmallTheMouthIs) {
+TEST(FacingRims, RimsOfTwoWallsAreJoinedHoweverSmallTheMouthIs) {
   for (const double mouth : {0.2, 0.4, 0.7}) {
     SCOPED_TRACE(mouth);
     expect_open(ball_without_rim(mouth), pierced_shell(mouth, 0.1, kAroundMouth), 1e-9);
@@ -40,7 +40,7 @@ TEST(FacingRims, OfTwoWallsAreJoinedHoweverSmallTheMouthIs) {
 }
 
 // The walls are one piece, as the rim of the other mouth is there.
-TEST(FacingRims, OfOneOfTwoMouthsAreJoined) {
+TEST(FacingRims, RimsOfOneOfTwoMouthsAreJoined) {
   constexpr double kEnd = std::numbers::pi - 0.4;
   Profile profile = arc(1, 0.4, kEnd, 20);
   const Profile back = arc(0.9, kEnd, 0.4, 20);
@@ -68,7 +68,7 @@ TEST(FacingRims, StrayTrianglesHaveNoSay) {
 }
 
 // Two balls side by side whose holes face each other stay two.
-TEST(FacingRims, OfTwoBodiesAreClosed) {
+TEST(FacingRims, RimsOfTwoBodiesAreClosed) {
   TriangleSoup ball = revolved(arc(1, 0.3, std::numbers::pi, 20), kAroundMouth);
   const std::size_t count = ball.points.size(), triangles = ball.triangles.size();
   for (std::size_t p = 0; p < count; ++p) {
@@ -95,7 +95,7 @@ Rim ring_with_notch() {
   return rim;
 }
 
-TEST(Notches, AreFilledAndNothingElse) {
+TEST(Notches, OnlyNotchesAreFilled) {
   const FilledNotches filled = fill_notches(ring_with_notch());
   ASSERT_EQ(filled.triangles.size(), 1u);
   EXPECT_EQ(filled.triangles[0], (std::array<std::uint32_t, 3>{6, 7, 8}));

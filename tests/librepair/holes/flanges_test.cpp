@@ -47,7 +47,7 @@ TEST(Flanges, BeginWhereTheCupEnds) {
 }
 
 // What is flat around a hill has more area than the hill.
-TEST(Flanges, AreNoGround) {
+TEST(Flanges, FlangesAreNoGround) {
   EXPECT_TRUE(
       flanges_of(revolved({{3, 0}, {1, 0}, {1, 0.2}, {0, 0.2}}, kAround)).is_outer_rim.empty());
   EXPECT_TRUE(flanges_of(revolved({{1, 0}, {0.5, 0.2}, {0, 0.3}}, kAround)).is_outer_rim.empty());
@@ -55,7 +55,7 @@ TEST(Flanges, AreNoGround) {
 }
 
 // A hole in the flange that reaches the cup.
-TEST(Flanges, MayHaveHoles) {
+TEST(Flanges, FlangesMayHaveHoles) {
   TriangleSoup soup = cup_with_flange(0);
   const auto first = soup.triangles.begin() + 2 * (kAround + 5);
   soup.triangles.erase(first, first + 2);
@@ -63,7 +63,7 @@ TEST(Flanges, MayHaveHoles) {
   EXPECT_NEAR(repair(soup).report.output_volume, area_of_cup(), 1e-6);
 }
 
-TEST(Flanges, TheCupIsClosedAsIfTheyWereNotThere) {
+TEST(Flanges, CupIsClosedAsWithoutItsFlange) {
   for (const double waves : {0.0, 0.1, -0.15}) {
     SCOPED_TRACE(waves);
     const RepairResult result = repair(cup_with_flange(waves));

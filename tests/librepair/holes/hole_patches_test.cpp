@@ -185,7 +185,7 @@ TEST(PatchHoles, AnOpenSheetIsLeftOpen) {
   EXPECT_EQ(p.report.triangles, 0u);
 }
 
-TEST(PatchHoles, TheShareSaysWhichHolesAreClosed) {
+TEST(PatchHoles, LargestShareSaysWhichHolesAreClosed) {
   // The lid that is missing is a fifth of the area that is there.
   HoleOptions options;
   options.largest_share = options.largest_flat_share = 0.21;
@@ -224,7 +224,7 @@ TEST(PatchHoles, DegenerateSoupsKeepTheirInvariants) {
   }
 }
 
-TEST(PatchHoles, NoneClosesNothing) {
+TEST(PatchHoles, ModeNoneClosesNothing) {
   RepairOptions options;
   options.holes.mode = HoleMode::none;
   TriangleSoup soup = without(cube(), {3});

@@ -1,8 +1,8 @@
-#include "holes/large_openings.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "holes/sheet_rims.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -23,7 +23,7 @@ TEST(LargeOpenings, PatchesCountAsSurfaceForEachOther) {
             (Flags{1, 1}));
 }
 
-TEST(LargeOpenings, WhatIsLeftOpenIsNoSurface) {
+TEST(LargeOpenings, OpenHolesAddNoSurface) {
   // A flat sheet with holes in it: without its rim closed, only the small hole is small.
   const std::vector<Opening> openings = {{0, 0.5, 0.95}, {0, 10, 0.95}, {0, 6, 0.95}};
   EXPECT_EQ(find_large_openings(openings, {3.5}), (Flags{0, 1, 1}));

@@ -14,7 +14,7 @@ Link link_between(std::uint32_t below, std::uint32_t above, TriangleId triangle 
 
 // Space, a solid around a void, and in that a sheet with a way around it, which divides it in two
 // cells.
-TEST(Voids, AreVoidsWithALooseSheetInThem) {
+TEST(Voids, LooseSheetInsideLeavesAVoidAVoid) {
   const TriangleId outer(0u), wall(1u), sheet(2u);
   const CellGraph graph({link_between(0, 1, outer), link_between(1, 2, wall),
                          link_between(1, 3, wall), link_between(2, 3, sheet), link_between(2, 3)},
@@ -27,7 +27,7 @@ TEST(Voids, AreVoidsWithALooseSheetInThem) {
 }
 
 // Space, a wall around a void, and what no wall is left of.
-TEST(Voids, ThatAreFilledHaveWalls) {
+TEST(Voids, FilledVoidsHaveWalls) {
   const TriangleId outer(0u), wall(1u);
   const CellGraph graph({link_between(0, 1, outer), link_between(1, 2, wall)}, {}, {0, 1, 1, 0},
                         {1, 0, 0, 0});

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <check/check_surface.h>
-#include <repair/join_ends.h>
 
+#include "mend/mend_faults.h"
 #include "shapes.h"
 #include "surfaces.h"
 
@@ -32,17 +32,17 @@ TEST(JoinEnds, TwoInOnePlaceBecomeOne) {
   Surface surface = as_surface(house({0.5, 0.5, 2}, {0.5, 0.5, 2}));
   EXPECT_FALSE(check_surface(surface.mesh).valid_solid());
   surface.input_point[8] = 0;
-  EXPECT_EQ(join_ends(surface), 1u);
+  EXPECT_EQ(internal::join_ends(surface), 1u);
   EXPECT_EQ(surface.mesh.triangles.size(), 14u);
   EXPECT_EQ(surface.mesh.points.size(), 9u);
   EXPECT_EQ(surface.input_point, std::vector<char>(9, 1));
   EXPECT_TRUE(check_surface(surface.mesh).valid_solid());
 }
 
-TEST(JoinEnds, OthersStay) {
+TEST(JoinEnds, EdgesWithLengthStay) {
   const TriangleSoup soup = house({0.5, 0.25, 2}, {0.5, 0.75, 2});
   Surface surface = as_surface(soup);
-  EXPECT_EQ(join_ends(surface), 0u);
+  EXPECT_EQ(internal::join_ends(surface), 0u);
   EXPECT_EQ(surface.mesh.triangles, soup.triangles);
 }
 
@@ -51,7 +51,7 @@ TEST(JoinEnds, TheSmallestSolidStays) {
   soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
   soup.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   Surface surface = as_surface(soup);
-  EXPECT_EQ(join_ends(surface), 0u);
+  EXPECT_EQ(internal::join_ends(surface), 0u);
   EXPECT_EQ(surface.mesh.triangles.size(), 4u);
 }
 

@@ -1,3 +1,5 @@
+#include "mend/mend_faults.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -7,9 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <check/self_intersections.h>
-#include <mesh/editable_mesh.h>
+#include <mesh/internal/editable_mesh.h>
 #include <mesh/topology.h>
-#include <repair/mend_faults.h>
 
 #include "each_seed.h"
 #include "random_geometry.h"
@@ -28,10 +29,10 @@ using internal::TriangleCorners;
 
 constexpr double kStep = 1e-7;
 
-MendOptions mending(double step = kStep) {
-  MendOptions options;
+internal::MendOptions mending(double step = kStep) {
+  internal::MendOptions options;
   options.step = step;
-  options.reach = 16 * step;
+  options.within = 16 * step;
   options.rounded = [](const Vec3d& p) { return p; };
   return options;
 }
@@ -62,7 +63,7 @@ TEST(MendFaults, PutsAPointBackThatIsBeyondTheOppositeSheet) {
   const Surface before = surface;
   const SelfIntersections found = self_intersections(surface.mesh);
   ASSERT_GT(found.count, 0u);
-  EXPECT_GT(mend_faults(surface, found, mending()), 0u);
+  EXPECT_GT(internal::mend_faults(surface, found, mending()), 0u);
   EXPECT_EQ(self_intersections(surface.mesh).count, 0u);
   expect_sphere(surface.mesh);
   ASSERT_EQ(surface.mesh.triangles, before.mesh.triangles);
@@ -81,7 +82,7 @@ TEST(MendFaults, LeavesNoTriangleWithoutArea) {
   surface.mesh.points[a] = 0.5 * (surface.mesh.points[b] + surface.mesh.points[c]);
   const SelfIntersections found = self_intersections(surface.mesh);
   ASSERT_EQ(found.degenerate, 1u);
-  EXPECT_GT(mend_faults(surface, found, mending()), 0u);
+  EXPECT_GT(internal::mend_faults(surface, found, mending()), 0u);
   const SelfIntersections after = self_intersections(surface.mesh);
   EXPECT_EQ(after.count + after.degenerate, 0u);
   expect_sphere(surface.mesh);
@@ -91,7 +92,7 @@ TEST(MendFaults, LeavesNoTriangleWithoutArea) {
 
 TEST(MendFaults, DoesNothingWhereNothingIsWrong) {
   Surface surface = as_surface(lens());
-  EXPECT_EQ(mend_faults(surface, self_intersections(surface.mesh), mending()), 0u);
+  EXPECT_EQ(internal::mend_faults(surface, self_intersections(surface.mesh), mending()), 0u);
   EXPECT_EQ(surface.mesh.triangles, lens().triangles);
 }
 
@@ -106,9 +107,9 @@ TEST(MendFaults, LeavesFewerFaultsAndTheTopologyAsItWas) {
     for (Vec3d& p : soup.points) p = rounded(p);
     Surface surface = as_surface(soup);
     const SelfIntersections found = self_intersections(soup);
-    MendOptions options = mending(0x1p-22);
+    internal::MendOptions options = mending(0x1p-22);
     options.rounded = rounded;
-    mend_faults(surface, found, options);
+    internal::mend_faults(surface, found, options);
     const SelfIntersections after = self_intersections(surface.mesh);
     EXPECT_LE(after.count + after.degenerate, found.count + found.degenerate) << seed;
     faults += found.count + found.degenerate;

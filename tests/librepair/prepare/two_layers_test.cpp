@@ -47,7 +47,7 @@ class TwoLayers : public ::testing::TestWithParam<TriangleSoup> {};
 INSTANTIATE_TEST_SUITE_P(Bodies, TwoLayers,
                          ::testing::Values(torus(12, 7), box({0, 0, 0}, {1, 2, 3})));
 
-TEST_P(TwoLayers, CutAlongOtherDiagonalsAreTheBody) {
+TEST_P(TwoLayers, LayersCutAlongOtherDiagonalsAreTheBody) {
   for_each_seed(4, [&](std::uint64_t seed) {
     const TriangleSoup body = placed(GetParam(), seed);
     const RepairResult result = repair(together(body, cut_otherwise(body)));
@@ -56,7 +56,7 @@ TEST_P(TwoLayers, CutAlongOtherDiagonalsAreTheBody) {
   });
 }
 
-TEST_P(TwoLayers, ApartByRoundingAreTheBody) {
+TEST_P(TwoLayers, LayersApartByRoundingAreTheBody) {
   for_each_seed(6, [&](std::uint64_t seed) {
     const TriangleSoup body = placed(GetParam(), seed);
     Random random(seed);
@@ -76,7 +76,7 @@ TEST_P(TwoLayers, ApartByRoundingAreTheBody) {
   });
 }
 
-TEST_P(TwoLayers, WithSomeFacesMissingAreTheBody) {
+TEST_P(TwoLayers, LayersWithMissingFacesAreTheBody) {
   for_each_seed(4, [&](std::uint64_t seed) {
     const TriangleSoup body = placed(GetParam(), seed);
     for (const double share : {0.1, 0.5, 0.9}) {
@@ -88,7 +88,7 @@ TEST_P(TwoLayers, WithSomeFacesMissingAreTheBody) {
   });
 }
 
-TEST_P(TwoLayers, BesideAPlainBodyChangeNothingOfIt) {
+TEST_P(TwoLayers, LayersBesideAPlainBodyLeaveTheBody) {
   for_each_seed(4, [&](std::uint64_t seed) {
     const TriangleSoup plain = placed(torus(9, 5), seed);
     const TriangleSoup body = moved(placed(GetParam(), seed), {30, 0, 0});
@@ -98,7 +98,7 @@ TEST_P(TwoLayers, BesideAPlainBodyChangeNothingOfIt) {
   });
 }
 
-TEST(TwoLayersOfSheets, EncloseNothing) {
+TEST(TwoLayersOfSheets, LayersOfSheetsEncloseNothing) {
   for_each_seed(6, [&](std::uint64_t seed) {
     const TriangleSoup sheet = placed(wavy_sheet(5), seed);
     EXPECT_THROW((void)repair(together(sheet, flipped(sheet))), NoSolidError);

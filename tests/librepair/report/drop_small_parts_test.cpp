@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <repair/drop_small_parts.h>
+#include <repair/keep_parts.h>
 #include <repair/repair.h>
 
 #include "shapes.h"
@@ -8,7 +8,7 @@
 namespace meshrepair {
 namespace {
 
-TEST(DropSmallParts, ThoseOfFewTrianglesGo) {
+TEST(DropSmallParts, DropsPartsWithFewTriangles) {
   TriangleSoup soup = testing::sphere(500);
   testing::append(soup, testing::moved(testing::cube(), {5, 0, 0}));
   RepairResult result = repair(soup);
@@ -21,7 +21,7 @@ TEST(DropSmallParts, ThoseOfFewTrianglesGo) {
   EXPECT_EQ(result.surface.input_point.size(), result.surface.mesh.points.size());
 }
 
-TEST(DropSmallParts, TheOnlyPartStays) {
+TEST(DropSmallParts, KeepsTheOnlyPart) {
   RepairResult result = repair(testing::cube());
   EXPECT_EQ(drop_small_parts(result.surface, 20, result.report), 0U);
   EXPECT_EQ(result.surface.mesh.triangles.size(), 12U);

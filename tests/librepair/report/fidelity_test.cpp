@@ -120,7 +120,7 @@ class Impatient : public ProgressObserver {
   bool impatient = false;
 };
 
-TEST(Fidelity, IsOneStageThatCanBeCancelled) {
+TEST(Fidelity, MeasuringIsOneStageThatCanBeCancelled) {
   Surface surface;
   surface.mesh = sphere(20000);
   for (std::uint32_t t = 0; t < surface.mesh.triangles.size(); ++t) surface.source.push_back(t);

@@ -64,7 +64,7 @@ TEST(KeepParts, VoidsAreFilledWithAllThatIsInThem) {
   EXPECT_DOUBLE_EQ(removed[1].volume, 64);
 }
 
-TEST(KeepParts, TheLargestKeepsItsVoid) {
+TEST(KeepParts, LargestSolidKeepsItsVoid) {
   const RepairResult result = kept(nested_blocks(), {.most = 1});
   EXPECT_DOUBLE_EQ(result.report.output_volume, 512 - 64);
   EXPECT_EQ(result.report.keep.removed.size(), 3u);

@@ -110,7 +110,7 @@ std::vector<TriangleSoup> soups() {
   return all;
 }
 
-TEST(SavedStates, ARunGoesOnFromEachOfThem) {
+TEST(SavedStates, RunsGoOnFromEachState) {
   std::set<std::string> loaded;
   for (const TriangleSoup& soup : soups()) {
     const Outcome whole = outcome_of(soup, options_with(nullptr));

@@ -27,7 +27,7 @@ TriangleSoup hollow_box(double wall) {
 }
 
 // However rounding turns their walls by a hair.
-TEST(NarrowPlaces, AreNotAlongEdgesWithRightAngles) {
+TEST(NarrowPlaces, RightAnglesAreNotNarrow) {
   for (const double angle : {0.0, 0.3, 0.7, 1.1, 1.3}) {
     Eigen::Matrix3d turn;
     turn = Eigen::AngleAxisd(angle, Vec3d(1, 2, 3).normalized());
@@ -35,7 +35,7 @@ TEST(NarrowPlaces, AreNotAlongEdgesWithRightAngles) {
   }
 }
 
-TEST(NarrowPlaces, AreInNarrowSlits) {
+TEST(NarrowPlaces, NarrowSlitsAreFound) {
   const auto slit = [](double width) {
     TriangleSoup soup = box({-1, -1, -1}, {-width / 2, 1, 1});
     append(soup, box({width / 2, -1, -1}, {1, 1, 1}));

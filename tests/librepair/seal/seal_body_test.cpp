@@ -23,7 +23,7 @@ RepairOptions sealing_with_repair(double size) {
   return options;
 }
 
-TEST(SealBody, StaysAsItIsWhereNoSolidComesOfIt) {
+TEST(SealBody, BodyStaysWhereSealingGivesNoSolid) {
   const Surface body = as_surface(pierced_shell(0.1, 0.1, 48));
   const RepairOptions options = sealing_with_repair(0.27);
   std::size_t repaired = 0;
@@ -40,7 +40,7 @@ TEST(SealBody, StaysAsItIsWhereNoSolidComesOfIt) {
   EXPECT_FALSE(report.stages.empty());
 }
 
-TEST(SealBody, TakesWhatAnotherRepairMakesOfIt) {
+TEST(SealBody, SealedBodyIsRepairedAgain) {
   const Surface body = as_surface(pierced_shell(0.1, 0.1, 48));
   const RepairOptions options = sealing_with_repair(0.27);
   RepairReport report;

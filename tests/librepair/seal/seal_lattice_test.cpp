@@ -29,7 +29,7 @@ double beside_multiple(double x, double step) {
 
 // A ray from the uppermost corner of a marker tells in which chamber it is, but not where it meets
 // an edge: the faces above are divided along their diagonals.
-TEST(SealLattice, NoMarkerEndsBelowAnEdgeOfIt) {
+TEST(SealLattice, MarkersEndAboveTheEdgesOfTheLattice) {
   double step = 0;
   const SealLattice lattice = lattice_of(testing::pierced_shell(0.1, 0.1, 48), 0.27, step);
   const std::vector<Vec3d>& points = lattice.soup.points;

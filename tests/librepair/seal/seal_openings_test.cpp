@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <mesh/internal/triangle_measures.h>
 #include <mesh/topology.h>
-#include <mesh/triangle_measures.h>
 #include <repair/repair.h>
 #include <repair/seal_openings.h>
 
@@ -188,7 +188,7 @@ TEST(SealOpenings, SeveralHolesAreClosedOneByOne) {
   EXPECT_NEAR(signed_volume(both.surface.mesh) / kBall, 2, 0.02);
 }
 
-TEST(SealOpenings, OfASoupThatIsNoSolidYet) {
+TEST(SealOpenings, SoupIsRepairedBeforeItIsSealed) {
   TriangleSoup shell = pierced_shell(0.05, 0.1, 48);
   append(shell, moved(sphere(500, 0.3), {1, 0, 0}));
   shell = with_some_flipped(std::move(shell), 0.1, 3);
@@ -290,7 +290,7 @@ TEST(SealOpenings, SizesAreFoundForAllThatStandTogether) {
   EXPECT_NEAR(signed_volume(full.surface.mesh) - mug, 2 * kBall, 0.02 * kBall);
 }
 
-TEST(SealOpenings, WhatIsTooSmallIsRefusedWithASizeThatIsNot) {
+TEST(SealOpenings, TooSmallSizesAreRefusedWithOneThatIsNot) {
   RepairOptions options;
   options.seal = {.size = 1e-5, .most_cubes = 1 << 18};
   const TriangleSoup shell = pierced_shell(0.01, 0.1, 48);

@@ -22,7 +22,7 @@ TEST(WideSpaces, LieBehindPinholes) {
   }
 }
 
-TEST(WideSpaces, AreNotWhereABallPasses) {
+TEST(WideSpaces, PassableOpeningsHaveNoWideSpaceBehind) {
   EXPECT_FALSE(any_behind(pierced_shell(0.3, 0.1, 64), 0.3));
 }
 
@@ -34,7 +34,7 @@ TEST(WideSpaces, AreWiderThanTheBall) {
   EXPECT_FALSE(any_behind(small, 0.3));
 }
 
-TEST(WideSpaces, AreNeitherVoidsNorSolids) {
+TEST(WideSpaces, VoidsAndSolidsAreNoWideSpaces) {
   TriangleSoup hollow = sphere(2000);
   EXPECT_FALSE(any_behind(hollow, 0.1));
   append(hollow, flipped(scaled(sphere(2000), 0.8)));

@@ -1,3 +1,5 @@
+#include "sew/close_slits.h"
+
 #include <algorithm>
 #include <random>
 #include <vector>
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <mesh/topology.h>
-#include <repair/close_slits.h>
 #include <repair/orient_parts.h>
 #include <repair/repair.h>
 
@@ -59,14 +60,14 @@ TEST(CloseSlits, GivesTheNeighbourOfADroppedTriangleItsCorner) {
   CleanSoup clean = cleaned(soup);
   ASSERT_EQ(clean.triangles.size(), 13u);
   ASSERT_EQ(topology_of(clean).open_edges, 3u);
-  EXPECT_EQ(close_slits(clean), 1u);
+  EXPECT_EQ(internal::close_slits(clean), 1u);
   EXPECT_EQ(clean.triangles.size(), 14u);
   EXPECT_TRUE(topology_of(clean).closed());
   EXPECT_TRUE(topology_of(clean).oriented());
   EXPECT_NEAR(volume_of(clean), 1, 1e-12);
 }
 
-TEST(CloseSlits, ClosesThoseWithOtherCornersOnBothSides) {
+TEST(CloseSlits, ClosesSlitsWithOtherCornersOnBothSides) {
   TriangleSoup soup = coarse_sphere(200);
   std::mt19937 random(7);
   for (std::uint64_t seed = 0; seed < share_of_cases(20u); ++seed) {
@@ -82,7 +83,7 @@ TEST(CloseSlits, ClosesThoseWithOtherCornersOnBothSides) {
     }
     CleanSoup clean = cleaned(torn);
     ASSERT_GT(topology_of(clean).open_edges, 0u);
-    EXPECT_GT(close_slits(clean), 0u);
+    EXPECT_GT(internal::close_slits(clean), 0u);
     EXPECT_TRUE(topology_of(clean).closed());
     EXPECT_TRUE(topology_of(clean).manifold());
     EXPECT_TRUE(topology_of(clean).oriented());
@@ -98,18 +99,18 @@ TEST(CloseSlits, LeavesHoles) {
   TriangleSoup soup = coarse_sphere(200);
   soup.triangles.erase(soup.triangles.begin() + 100);
   CleanSoup clean = cleaned(soup);
-  EXPECT_EQ(close_slits(clean), 0u);
+  EXPECT_EQ(internal::close_slits(clean), 0u);
   EXPECT_EQ(clean.triangles.size(), soup.triangles.size());
   EXPECT_EQ(topology_of(clean).open_edges, 3u);
 }
 
-TEST(CloseSlits, LeavesThoseThatArePartOfAHole) {
+TEST(CloseSlits, LeavesSlitsThatArePartOfAHole) {
   TriangleSoup soup = cube();
   split(soup, 0, {0.25, 0.5});
   soup.triangles.pop_back();
   CleanSoup clean = cleaned(soup);
   const Topology before = topology_of(clean);
-  EXPECT_EQ(close_slits(clean), 0u);
+  EXPECT_EQ(internal::close_slits(clean), 0u);
   EXPECT_EQ(topology_of(clean).open_edges, before.open_edges);
 }
 
@@ -130,7 +131,7 @@ TEST(CloseSlits, LeavesSheetsOnARim) {
   soup.triangles.push_back({first, a, first + 1});
   soup.triangles.push_back({first, first + 1, first + 2});
   CleanSoup clean = cleaned(soup);
-  EXPECT_EQ(close_slits(clean), 0u);
+  EXPECT_EQ(internal::close_slits(clean), 0u);
 }
 
 // A piece of the first triangle is there already: the second one. Nothing else is open.
@@ -139,7 +140,7 @@ TEST(CloseSlits, MakesNoTriangleTwice) {
                              {{{0, 1, 3}}, {{1, 2, 3}}, {{0, 2, 4}}, {{2, 3, 4}}, {{3, 0, 4}}}};
   CleanSoup clean = cleaned(soup);
   ASSERT_EQ(topology_of(clean).open_edges, 3u);
-  EXPECT_EQ(close_slits(clean), 0u);
+  EXPECT_EQ(internal::close_slits(clean), 0u);
   EXPECT_EQ(clean.triangles.size(), soup.triangles.size());
 }
 
@@ -155,14 +156,14 @@ CleanSoup tetrahedra_along_a_line(std::uint32_t count) {
   return cleaned(soup);
 }
 
-TEST(CloseSlits, LeavesThoseThatTakeVeryManyPieces) {
+TEST(CloseSlits, LeavesSlitsThatTakeVeryManyPieces) {
   CleanSoup few = tetrahedra_along_a_line(3);
   ASSERT_EQ(topology_of(few).open_edges, 9u);
-  EXPECT_EQ(close_slits(few), 1u);
+  EXPECT_EQ(internal::close_slits(few), 1u);
   EXPECT_TRUE(topology_of(few).closed());
   CleanSoup many = tetrahedra_along_a_line(200);
   const std::size_t before = many.triangles.size();
-  EXPECT_EQ(close_slits(many), 0u);
+  EXPECT_EQ(internal::close_slits(many), 0u);
   EXPECT_EQ(many.triangles.size(), before);
 }
 

@@ -1,5 +1,3 @@
-#include "sew/drop_cancelled.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 #include <repair/repair_report.h>
 
 #include "prepare/prepare.h"
+#include "sew/close_slits.h"
 #include "shapes.h"
 
 namespace meshrepair {
@@ -51,7 +50,7 @@ TEST(DropCancelled, TakesAWallWithoutInsideAndItsPoints) {
   }
 }
 
-TEST(DropCancelled, LeavesWhatHasMoreCopiesOneWay) {
+TEST(DropCancelled, LeavesTrianglesWithMoreCopiesOneWay) {
   TriangleSoup soup = cube();
   append_fin({0.5, -1, 0.25}, soup);
   append(soup, moved(cube(), {0, 0, 1}));  // cubes with a face in common

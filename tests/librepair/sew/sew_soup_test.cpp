@@ -121,7 +121,7 @@ TEST(SewSoup, NothingIsSewnOfWhatIsClosed) {
   EXPECT_EQ(report.open_edges, 0u);
 }
 
-TEST(SewSoup, NotWhereOneDoesNotWantIt) {
+TEST(SewSoup, ModeNoneSewsNothing) {
   SewReport report;
   EXPECT_FALSE(sew_soup(torn(sphere(500), 1e-4, 1), {SewMode::none, 0, false, nullptr}, report));
   EXPECT_FALSE(
@@ -177,7 +177,7 @@ TEST(SewSoup, TrianglesThatAreNotFiniteDoNotKeepOthersFromBeingSewn) {
 }
 
 // All corners are within such a distance of all others: not one pair after the other is looked at.
-TEST(SewSoup, NotOverDistancesThatHoldEverything) {
+TEST(SewSoup, RefusesDistancesThatHoldEverything) {
   SewReport report;
   EXPECT_FALSE(
       sew_soup(torn(sphere(20000), 1e-4, 1), {SewMode::distance, 100, false, nullptr}, report));
@@ -201,7 +201,7 @@ TEST(SewSoup, AHeapOfTrianglesAsksOftenWhetherToGoOn) {
 }
 
 // A soup of points anywhere, also where there are none to be had.
-TEST(SewSoup, AnySoupIsSewnOrNot) {
+TEST(SewSoup, RandomSoupsAreSewnOrLeft) {
   for_each_seed(200, [&](std::uint64_t seed) {
     TriangleSoup soup = random_soup(1 + seed % 40, 3 + static_cast<std::int32_t>(seed % 5), seed);
     if (seed % 3 == 0) soup = torn(soup, 0.01, seed);

@@ -45,7 +45,7 @@ TEST(ClosedParts, StayAsTheyAreBesideOpenOnes) {
   });
 }
 
-TEST(ClosedParts, AreThoseWhoseOwnOpeningIsClosed) {
+TEST(ClosedParts, PartWithItsOwnOpeningClosedIsClosed) {
   for (const double width : {2.0, 20.0, 200.0}) {
     TriangleSoup scene = moved(cube(), {-0.5, -0.5, 0.5});
     // The face at the top.

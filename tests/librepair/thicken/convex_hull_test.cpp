@@ -1,5 +1,3 @@
-#include "thicken/convex_hull.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 
 #include "complexes.h"
 #include "random_geometry.h"
+#include "thicken/hull_walls.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -28,7 +27,7 @@ void expect_hull(const std::vector<Vec3d>& points) {
   }
 }
 
-TEST(ConvexHull, OfRandomPoints) {
+TEST(ConvexHull, HullOfRandomPointsIsConvexAndClosed) {
   Random random(1);
   for (int i = 0; i < 50; ++i) {
     std::vector<Vec3d> points;
@@ -40,7 +39,7 @@ TEST(ConvexHull, OfRandomPoints) {
 }
 
 // Many in one plane, in one line, and in one place.
-TEST(ConvexHull, OfPointsOfASmallGrid) {
+TEST(ConvexHull, HullOfASmallGridIsConvexAndClosed) {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
     std::vector<Vec3d> points;
@@ -51,7 +50,7 @@ TEST(ConvexHull, OfPointsOfASmallGrid) {
   }
 }
 
-TEST(ConvexHull, OfPointsInAPlaneIsNothing) {
+TEST(ConvexHull, PointsInAPlaneHaveNoHull) {
   EXPECT_TRUE(convex_hull({}).empty());
   EXPECT_TRUE(hull_of({{1, 2, 3}, {1, 2, 3}}).triangles.empty());
   EXPECT_TRUE(hull_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}).triangles.empty());

@@ -95,7 +95,7 @@ TEST(ThickenSheets, OneTriangleIsAPrism) {
   EXPECT_NEAR(result.report.output_volume, 0.1 * surface_area(pages(1)), 1e-9);
 }
 
-TEST(ThickenSheets, SeveralMeetAtAnEdge) {
+TEST(ThickenSheets, WallsMeetAtCrowdedEdges) {
   for (const std::uint32_t count : {2u, 3u, 5u, 7u}) {
     for (const ThickenSide side : {ThickenSide::middle, ThickenSide::outside}) {
       const TriangleSoup book = pages(count);
@@ -115,7 +115,7 @@ TEST(ThickenSheets, AMoebiusStripHasASeam) {
   expect_solid(strip, walls_of(0.05, ThickenSide::outside));
 }
 
-TEST(ThickenSheets, WhatEnclosesNothingIsAnotherThing) {
+TEST(ThickenSheets, OpenSurfacesOfAnyKindBecomeSolids) {
   for (const OpenSurface& surface : open_surfaces()) {
     SCOPED_TRACE(surface.name);
     for (const double flips : {0.0, 0.4}) {
@@ -259,7 +259,7 @@ TEST(ThickenSheets, WhereNothingIsSolidAThicknessIsNamed) {
   EXPECT_EQ(report.thicken.fitting, 0);
 }
 
-TEST(ThickenSheets, AFittingThicknessWhereMostIsSheet) {
+TEST(ThickenSheets, FittingThicknessIsTakenWhereMostIsSheet) {
   RepairOptions options;
   options.thicken.automatic = true;
   TriangleSoup soup = cube();
@@ -278,7 +278,7 @@ TEST(ThickenSheets, AFittingThicknessWhereMostIsSheet) {
   EXPECT_TRUE(mostly_sheet.report.certify.passed());
 }
 
-TEST(ThickenSheets, TheSameForSinglePrecision) {
+TEST(ThickenSheets, SheetsBecomeSolidsInSinglePrecision) {
   Random random(7);
   RepairOptions options = walls_of(0.02);
   options.certify.precision = Precision::float32;

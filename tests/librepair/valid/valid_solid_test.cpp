@@ -5,7 +5,7 @@
 
 #include <base/error.h>
 #include <check/check_surface.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 #include <repair/repair.h>
 #include <repair/valid_solid.h>
 
@@ -48,7 +48,7 @@ RepairOptions keeping_valid() {
   return options;
 }
 
-TEST(ValidSolid, ComesOutAsItIs) {
+TEST(ValidSolid, ValidSoupComesOutUnchanged) {
   const TriangleSoup soup = transformed(sphere(300), Eigen::Matrix3d::Identity() / 3);
   const auto kept = valid_solid(soup, {}, nullptr);
   ASSERT_TRUE(kept);
@@ -66,7 +66,7 @@ TEST(ValidSolid, MayHaveCavitiesAndSolidsInThem) {
   EXPECT_TRUE(is_valid(soup));
 }
 
-TEST(ValidSolid, IsNoneThatIsWrong) {
+TEST(ValidSolid, RejectsOpenCrossingAndInsideOutSurfaces) {
   TriangleSoup open = cube();
   open.triangles.pop_back();
   EXPECT_FALSE(is_valid(open));
@@ -87,7 +87,7 @@ TEST(ValidSolid, IsNoneThatIsWrong) {
   EXPECT_FALSE(is_valid({}));
 }
 
-TEST(ValidSolid, IsNoneOfHostileNumbers) {
+TEST(ValidSolid, HostileNumbersAreInvalid) {
   TriangleSoup soup = cube();
   soup.triangles[3][1] = 1000;
   EXPECT_FALSE(is_valid(soup));
@@ -100,7 +100,7 @@ TEST(ValidSolid, IsNoneOfHostileNumbers) {
 }
 
 // A triangle without area closes the edges around it.
-TEST(ValidSolid, HasNoTriangleWithoutArea) {
+TEST(ValidSolid, TriangleWithoutAreaIsInvalid) {
   TriangleSoup soup = cube();
   const auto [a, b, c] = soup.triangles[0];
   const auto middle = static_cast<std::uint32_t>(soup.points.size());
@@ -166,7 +166,7 @@ TriangleSoup inside_out_in_a_place() {
   return soup;
 }
 
-TEST(ValidSolid, IsNotInsideOutInPlaces) {
+TEST(ValidSolid, PlacesInsideOutAreInvalid) {
   const TriangleSoup soup = inside_out_in_a_place();
   EXPECT_FALSE(is_valid(soup));
   const SurfaceCheck check = check_surface(soup);
@@ -178,7 +178,7 @@ TEST(ValidSolid, IsNotInsideOutInPlaces) {
   EXPECT_NEAR(result.report.output_volume, 0.5, 1e-9);
 }
 
-TEST(ValidSolid, IsLookedAtAsItWillBeWritten) {
+TEST(ValidSolid, CoordinatesAreTestedAsWritten) {
   TriangleSoup soup = cube();
   soup.points[0] -= Vec3d::Constant(1e-12);
   const auto kept = valid_solid(soup, single_precision(), nullptr);
@@ -191,7 +191,7 @@ TEST(ValidSolid, IsLookedAtAsItWillBeWritten) {
   EXPECT_FALSE(is_valid(two, single_precision()));
 }
 
-TEST(ValidSolid, IsReportedLikeARepair) {
+TEST(ValidSolid, ReportIsThatOfARepair) {
   const TriangleSoup soup = sphere(300);
   const RepairResult result = repair(soup, keeping_valid());
   EXPECT_TRUE(result.report.kept_valid);
@@ -208,7 +208,7 @@ TEST(ValidSolid, IsReportedLikeARepair) {
   EXPECT_DOUBLE_EQ(result.report.input_area, whole.report.input_area);
 }
 
-TEST(ValidSolid, GivesWayToOptionsThatAskForMore) {
+TEST(ValidSolid, OptionsThatAskForMoreTakeAnotherWay) {
   TriangleSoup hollow = box({0, 0, 0}, {9, 9, 9});
   append(hollow, flipped(box({1, 1, 1}, {8, 8, 8})));
   RepairOptions options = keeping_valid();
@@ -258,7 +258,7 @@ TEST(ValidSolid, VoidsThatTouchTheOutsideAreFilledToo) {
 }
 
 // What a repair gives needs none, and comes out of a second one as it is.
-TEST(ValidSolid, IsWhatARepairMakes) {
+TEST(ValidSolid, ResultsOfRepairsAreValid) {
   std::size_t kept = 0;
   for (const SoupFamily& family : degenerate_families()) {
     for (std::uint64_t seed = 1; seed <= share_of_cases(12u); ++seed) {

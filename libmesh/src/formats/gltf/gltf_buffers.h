@@ -1,4 +1,5 @@
-// The bytes that a glTF file's buffer views stand for.
+// The bytes that a glTF file's buffer views stand for, also where EXT_meshopt_compression packs
+// them.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +8,22 @@
 #include <string_view>
 #include <unordered_map>
 
+#include <mesh/mesh_source.h>
+
 #include "gltf_document.h"
 
 namespace meshrepair {
+
+struct MeshoptLayout {
+  std::size_t count = 0;
+  std::size_t stride = 0;  // bytes of each
+  std::string mode;        // ATTRIBUTES, TRIANGLES or INDICES
+  std::string filter;      // NONE or nothing, OCTAHEDRAL, QUATERNION or EXPONENTIAL
+};
+
+// `count` times `stride` bytes. Throws InputError if they are not what the bytes stand for.
+[[nodiscard]] std::string decode_meshopt(const MeshSource& source, std::string_view bytes,
+                                         const MeshoptLayout& layout);
 
 // Buffers are read when a view of theirs is asked for: the binary chunk, data URIs, and files in
 // the folder of the source or below it. Whatever is not there throws InputError.

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <mesh/named_files.h>
-#include <mesh/srgb.h>
 
 #include "formats/common/uri.h"
+#include "formats/gltf/common/srgb.h"
 
 namespace meshrepair {
 namespace {

@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <base/error.h>
-#include <mesh/float32.h>
+#include <mesh/precision.h>
 
 namespace meshrepair {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 #include <mesh/attributes.h>
 
 #include "gltf_keepsake.h"

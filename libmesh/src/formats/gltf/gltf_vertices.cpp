@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <base/error.h>
-#include <base/hash_index.h>
+#include <base/internal/hash_index.h>
 
 #include "formats/common/written_float.h"
 

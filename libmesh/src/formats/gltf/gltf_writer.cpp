@@ -8,14 +8,13 @@
 #include <utility>
 
 #include <mesh/named_files.h>
-#include <mesh/srgb.h>
 
 #include "formats/common/uri.h"
+#include "formats/gltf/common/srgb.h"
 #include "gltf_builder.h"
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
 #include "gltf_materials.h"
-#include "gltf_nodes.h"
 #include "gltf_vertices.h"
 
 namespace meshrepair {

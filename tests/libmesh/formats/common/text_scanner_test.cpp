@@ -66,7 +66,7 @@ TEST(ReadReal, WordsAreNoNumbersAndAreLeftWhole) {
   }
 }
 
-TEST(ReadInteger, WithTail) {
+TEST(ReadInteger, ReadsIntegersBeforeOtherText) {
   const std::string text = "12/3/4 +5//6 7x -8 3.0 99999999999999999999";
   TextScanner scanner(text);
   std::int64_t value = 0;

@@ -85,7 +85,7 @@ TEST_F(ObjLibraries, AreWrittenBesideTheMeshWithNamesOfPicturesFromThere) {
       "newmtl steel plate\nmap_Bump -bm 0.5 ../../in/lib/bump.png\n");
 }
 
-TEST_F(ObjLibraries, OfTheInputAreNotWrittenOver) {
+TEST_F(ObjLibraries, LibrariesOfTheInputAreNotWrittenOver) {
   const std::string library = "newmtl wood\n";
   write("in/other.mtl", library);
   write("in/mesh.obj", "mtllib other.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
@@ -273,7 +273,7 @@ TEST_F(ObjLibraries, PicturesAreFoundThroughLinksToFolders) {
             "newmtl wood\nmap_Kd ../../in/lib/grain.png\n");
 }
 
-TEST_F(ObjLibraries, OneLineNamesSeveral) {
+TEST_F(ObjLibraries, OneLineMayNameSeveralLibraries) {
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\nusemtl tin\nf 1 3 2\n";
   write("in/a b.mtl", "newmtl wood\nKd 1 0 0\n");
   write("in/c.mtl", "newmtl tin\nKd 0 1 0\n");

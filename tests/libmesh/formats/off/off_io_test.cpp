@@ -57,7 +57,7 @@ TEST(ReadOff, HeadersAsTheyOccur) {
   }
 }
 
-TEST(ReadOff, AllOnOneLine) {
+TEST(ReadOff, ReadsFilesOfOneLine) {
   expect_both_triangles(replaced("OFF\n" + kCounts + kPoints + kFaces, "\n", " "));
   expect_both_triangles(
       replaced(replaced("OFF\n" + kCounts + kPoints + kFaces, "\n", " "), " ", "\n"));
@@ -76,7 +76,7 @@ TEST(ReadOff, HomogeneousCoordinatesAreDivided) {
   expect_both_triangles("4OFF\n" + kCounts + "0 0 0 1\n2 0 0 2\n0 0.5 0 0.5\n" + kFaces);
 }
 
-TEST(ReadOff, OnlyThreeDimensions) {
+TEST(ReadOff, RefusesOtherDimensions) {
   EXPECT_THAT(refusal_of("nOFF\n5\n3 2 0\n" + kPoints + kFaces, "a.off"),
               HasSubstr("three coordinates"));
 }

@@ -59,7 +59,7 @@ const std::vector<Vec3d> kTwo = {{1, 2, 3}, {4, 5, 6.5}};
 const std::string kColumns = bytes_of(1.0F) + bytes_of(4.0F) + bytes_of(2.0F) + bytes_of(5.0F) +
                              std::string(4, '\7') + bytes_of(3.0F) + bytes_of(6.5F);
 
-TEST(PcdPoints, OfAllEncodingsAreTheSame) {
+TEST(PcdPoints, AllEncodingsGiveTheSamePoints) {
   const PointReadResult ascii = read(header(2, "ascii") + "1 2 9 3\n4 5 9 6.5\n");
   EXPECT_EQ(ascii.cloud.points, kTwo);
   EXPECT_EQ(ascii.report.format, PointFormat::pcd_ascii);

@@ -145,7 +145,7 @@ TEST(ReadPly, WhatALineHoldsBeyondItsItemIsIgnored) {
                         "3 0 1 2 255 0 0\n3 2 1 0 0 0 0\n");
 }
 
-TEST(ReadPly, AllOnOneLine) {
+TEST(ReadPly, ReadsAsciiOfOneLine) {
   expect_both_triangles(kHeader + replaced(kPoints + kFaces, "\n", " "));
 }
 

@@ -25,7 +25,7 @@ TriangleSoup soup_of(const std::string& resources, const std::string& items) {
   return read_bytes(package_of(model_of(resources, items))).soup;
 }
 
-TEST(ReadThreemf, ObjectAsItIs) {
+TEST(ReadThreemf, ReadsAnObjectWithoutTransform) {
   const ReadResult result = read_bytes(package_of(model_of(tetrahedron_object(1), item_of(1))));
   EXPECT_EQ(result.soup.points, tetrahedron().points);
   EXPECT_EQ(result.soup.triangles, tetrahedron().triangles);
@@ -75,7 +75,7 @@ TEST(ReadThreemf, TwoMirrorsTurnNothing) {
   EXPECT_EQ(soup.points, tetrahedron().points);
 }
 
-TEST(ReadThreemf, WithoutItemsAllObjectsThatAreNoComponents) {
+TEST(ReadThreemf, FileWithoutItemsGivesAllObjectsThatAreNoComponents) {
   const TriangleSoup soup =
       soup_of(tetrahedron_object(1) + tetrahedron_object(2) + assembly_of(3, component_of(1)), "");
   EXPECT_EQ(soup.triangles.size(), 8u);

@@ -60,7 +60,7 @@ TEST(XyzPoints, ThreeMoreIntegersAreColours) {
   EXPECT_EQ(with_both.cloud.normals, (std::vector<Vec3d>{{0, -1, 0}, {1, 0, 0}}));
 }
 
-TEST(XyzPoints, OfPtsBeginWithACountAndHaveAnIntensity) {
+TEST(XyzPoints, PtsBeginsWithACountAndHasIntensities) {
   const PointReadResult result = read("2\n1 2 3 -1200 255 0 1\n-4.5 5e-3 6 7 1 2 3\n", "a.pts");
   EXPECT_EQ(result.report.format, PointFormat::pts);
   EXPECT_EQ(result.report.declared_points, 2U);
@@ -68,7 +68,7 @@ TEST(XyzPoints, OfPtsBeginWithACountAndHaveAnIntensity) {
   EXPECT_EQ(result.cloud.colours[1][2], 3);
 }
 
-TEST(XyzPoints, OfPwnMayComeBeforeAllNormals) {
+TEST(XyzPoints, PwnMayHaveAllPointsBeforeAllNormals) {
   const PointReadResult result = read("2\n1 2 3\n-4.5 5e-3 6\n0 0 1\n0 1 0\n", "a.pwn");
   EXPECT_EQ(result.cloud.points, kTwo);
   EXPECT_EQ(result.cloud.normals, (std::vector<Vec3d>{{0, 0, 1}, {0, 1, 0}}));
