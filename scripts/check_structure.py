@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Checks the structure of the code: which library and which room includes which.
+"""Checks the structure of the code: which library, which room and which module uses which.
 
 A library is a folder libNAME with a CMakeLists.txt; a room is a folder in its src. What lies
 directly in src is the library's own room, which may use all others. Fails where
 
 - a library includes one that its CMakeLists.txt does not link, or libraries link in a circle;
-- the rooms of a library include each other in a circle;
+- the rooms of a library, or the folders of apps, include each other in a circle;
+- a source of apps, capi, python or web/wasm includes what is neither beside it nor in apps, nor in a library;
+- modules of python, scripts and web import each other in a circle;
 - a room has more than one private header that other rooms include: its door (a room named `common`
   is a box of tools, all of which are for others);
 - a folder holds more than 15 sources;
@@ -26,6 +28,11 @@ MOST_SOURCES = 15
 TOOLS = "common"
 ROOT = Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]', re.MULTILINE)
+APPS = ROOT / "apps"
+ABOVE_APPS = ("capi", "python", "web/wasm")
+MODULES = ("bench/", "integrations/", "python/", "scripts/", "web/")
+JS_IMPORT = re.compile(r"""^(?:import|export)\b[^;"']*["'](\.[^"']+)["']""", re.MULTILINE)
+PY_IMPORT = re.compile(r"^(?:from|import) +([\w.]+)(?: +import +\(?([^)\n]*))?", re.MULTILINE)
 TBB_DOOR = ROOT / "libbase/src/parallel.cpp"
 TBB_NAME = re.compile(r"\b(tbb|oneapi)(/|::)")
 LIBRARY_CALL = re.compile(r"meshrepair_library\((.*?)\)\n", re.DOTALL)
@@ -182,6 +189,68 @@ def check_tools(libraries: dict[str, Library], faults: list[str]) -> None:
         faults += [f"{tool} does not know lib{name}" for name in sorted(set(libraries) - known)]
 
 
+def room_in_apps(path: Path) -> str:
+    """A source in apps itself is a program, which may use all rooms."""
+    return "" if path.parent == APPS else path.parent.name
+
+
+def check_programs(faults: list[str]) -> tuple[dict[str, list[Path]], dict[str, set[str]]]:
+    """The rooms of the programs, and the arrows between them and from what is built on them."""
+    rooms: dict[str, list[Path]] = defaultdict(list)
+    for path in sorted(p for p in APPS.rglob("*") if p.suffix in (".h", ".cpp")):
+        rooms[room_in_apps(path)].append(path)
+    arrows: dict[str, set[str]] = {room: set() for room in rooms}
+    above = [p for name in ABOVE_APPS for p in sorted((ROOT / name).rglob("*")) if p.suffix in (".h", ".cpp")]
+    for path in [p for paths in rooms.values() for p in paths] + above:
+        room = str(path.parent.relative_to(ROOT)) if path in above else room_in_apps(path)
+        for kind, target in includes_of(path):
+            header = APPS / target
+            if kind != '"' or (path.parent / target).exists():
+                continue
+            if not header.exists():
+                faults.append(f"{path.relative_to(ROOT)} includes {target}, which is neither beside it nor in apps")
+            elif header.parent.name != room:
+                arrows.setdefault(room, set()).add(header.parent.name)
+    faults += [f"apps/{room}: includes itself, in a circle" for room in circles(arrows)]
+    for room, paths in rooms.items():
+        sources = sum(p.suffix == ".cpp" for p in paths)
+        if sources > MOST_SOURCES:
+            faults.append(f"apps/{room}: {sources} sources, more than {MOST_SOURCES}")
+    return rooms, arrows
+
+
+def module_of(path: Path, name: str, modules: set[Path]) -> Path | None:
+    """The file of the project that an import of this name means, if it is one."""
+    if path.suffix == ".js":
+        found = [(path.parent / name).resolve()]
+    else:
+        dots = len(name) - len(name.lstrip("."))
+        folder = path.parents[max(dots - 1, 0)]
+        stem = folder.joinpath(*name.lstrip(".").split(".")) if name.strip(".") else folder
+        found = [stem.with_suffix(".py"), stem / "__init__.py"]
+    return next((f for f in found if f in modules), None)
+
+
+def imports_of(path: Path, modules: set[Path]) -> set[Path]:
+    names: list[str] = []
+    for match in (JS_IMPORT if path.suffix == ".js" else PY_IMPORT).finditer(path.read_text()):
+        name = match.group(1)
+        names += [name] if name.strip(".") else [name + part.strip() for part in match.group(2).split(",")]
+    return {m for m in (module_of(path, name, modules) for name in names) if m is not None and m != path}
+
+
+def check_modules(faults: list[str]) -> dict[str, list[Path]]:
+    """The modules of Python and JavaScript, by folder; they import each other in no circle."""
+    listed = subprocess.run(["git", "ls-files", "-z", "*.py", "*.js"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    modules = {ROOT / name for name in listed.split("\0") if name.startswith(MODULES) and (ROOT / name).exists()}
+    links = {str(m): {str(i) for i in imports_of(m, modules)} for m in modules}
+    faults += [f"{Path(m).relative_to(ROOT)}: imports itself, in a circle" for m in sorted(circles(links))]
+    folders: dict[str, list[Path]] = defaultdict(list)
+    for module in sorted(modules):
+        folders[str(module.parent.relative_to(ROOT))].append(module)
+    return folders
+
+
 def lines_of(paths: list[Path]) -> int:
     return sum(path.read_text().count("\n") for path in paths)
 
@@ -198,6 +267,16 @@ def print_rooms(library: Library, arrows: dict[str, set[str]]) -> None:
         print(f"  {name:<18}{sources:>3} sources {lines_of(by_room[room]):>6} lines" + (f"   -> {uses}" if uses else ""))
 
 
+def print_programs(rooms: dict[str, list[Path]], arrows: dict[str, set[str]]) -> None:
+    print(f"\napps: {lines_of([p for paths in rooms.values() for p in paths])} lines")
+    for room in sorted(arrows, key=lambda r: (len(closure(arrows)[r]), r)):
+        paths = rooms.get(room, [])
+        sources = sum(p.suffix == ".cpp" for p in paths)
+        size = f"{sources:>3} sources {lines_of(paths):>6} lines" if paths else " " * 24
+        uses = ", ".join(sorted(arrows[room]))
+        print(f"  {room or '(programs)':<18}{size}" + (f"   -> {uses}" if uses else ""))
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-q", "--quiet", action="store_true", help="print faults only")
@@ -210,6 +289,8 @@ def main() -> int:
     for library in libraries.values():
         check_sizes(library, faults)
         check_tests(library, faults)
+    programs, program_arrows = check_programs(faults)
+    folders = check_modules(faults)
     check_tbb(faults)
     check_tools(libraries, faults)
     if not options.quiet:
@@ -218,6 +299,10 @@ def main() -> int:
             print(f"lib{name:<9}" + (f" -> {uses}" if uses else ""))
         for name in sorted(libraries, key=lambda n: (len(closure(arrows)[n]), n)):
             print_rooms(libraries[name], rooms[name])
+        print_programs(programs, program_arrows)
+        print("\nmodules of Python and JavaScript")
+        for folder, paths in folders.items():
+            print(f"  {folder:<28}{len(paths):>3} files {lines_of(paths):>6} lines")
     for fault in faults:
         print(f"check_structure.py: {fault}", file=sys.stderr)
     return 1 if faults else 0
