@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // bspbool A B ... --op OPERATION -o OUT: Boolean operations on solids.
 #include <filesystem>
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 
 #include "options/file_kinds.h"
 #include "options/repair_options.h"

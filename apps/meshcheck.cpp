@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshcheck IN: what is wrong with a mesh, and whether it is the boundary of a solid.
 #include "options/file_kinds.h"
 #include "steps/check_command.h"

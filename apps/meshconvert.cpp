@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshconvert IN OUT: a mesh in another format, as it is.
 #include <utility>
 

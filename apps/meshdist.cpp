@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshdist A B: how far two meshes are apart.
 #include <iostream>
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshrepair-blocks plan | run | join: a mesh repaired block by block, on many machines.
 #include <array>
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshrepair IN OUT: any triangle mesh or point cloud to the boundary of a solid, the whole way in
 // one process.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // pointmesh POINTS -o SOUP: the local triangulation of a point cloud, for a repair to make a solid
 // of.
 #include "options/file_kinds.h"

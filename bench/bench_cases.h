@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The inputs that all benchmarks share, and how they measure.
 #pragma once
 

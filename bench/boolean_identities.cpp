@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // boolean_identities [PAIRS]: Boolean operations on so many random pairs of solids (1,000), of
 // which half share faces, edges or corners. Do the volumes add up, and is everything certified?
 // Prints how far they are apart at most, as a share of what goes in; exit code 1 if beyond 1e-7, or

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // calibration: a fixed work of about a second, whose CPU time says how fast the machine is at this
 // moment. bench/compare.py runs it between the runs that it records.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cells_bench [MESH...]: how long does clipping all cells take, and how long finding what covers
 // their facets? cells_bench --check [MESH...]: proves the invariants of the cells after each cut,
 // with exact predicates and with floating ones.

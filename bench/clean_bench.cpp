@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long does bringing a soup onto the grid take?
 #include <string>
 

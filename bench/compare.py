@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs our programs beside others on the inputs that make_models makes, and prints what each costs.
 
 Rounds go through all programs in turn, and the least of all rounds counts, so that what else the machine does falls on all

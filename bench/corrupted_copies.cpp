@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How well does each inside rule stand what happens to meshes on their way? Takes closed meshes,
 // corrupts copies of them in known ways, and prints the volume by each rule relative to that of the
 // mesh itself by `auto`. At the end: in how many cases `auto` comes within a hundredth, and the

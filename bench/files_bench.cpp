@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long do writing and reading take, in every format?
 #include <string>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Inputs made by code, each from a seed, so that they are the same everywhere. Whatever their size,
 // each triangle has about as many neighbours and crosses about as many others: what grows faster
 // than the input is the program's own doing.

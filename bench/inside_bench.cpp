@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long does each inside rule take? With --missing as first argument, one triangle in twenty is
 // left out, so that the optimisation has to run.
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What does each inside rule make of damaged input? Volumes, next to the truth where it is known.
 // Any mesh files given are flipped at random and added as rows.
 #include <cstdio>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes a mesh of many millions of broken triangles, strip by strip, so that it needs little memory.
 
     bench/large_meshes.py scan 20000000 scan.ply     a surface as a scan gives it

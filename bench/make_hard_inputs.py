@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Makes hard inputs of which the meaning is known: what a repair should give is written beside each.
 
 NAME.off is the broken mesh, NAME_true.off the solid that was meant (of sheets there is none), and NAME.json the truth:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // make_models FOLDER [KIND:N...]: writes the models of the tables as OFF files, or the generated
 // inputs of these names.
 #include <cstdio>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Measures what repair_folder.py costs beside the repairs, where a folder holds very many small meshes.
 
 Usage: many_files.py MESHREPAIR FOLDER [--files N] [--jobs N] [--script PATH] [--archive NAME] [-- OPTIONS OF repair_folder.py]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Does meshrepair give what was meant? Repairs hard inputs of which that is known (make_hard_inputs.py), and prints tables.
 
   walls     double walls with pinholes: does --seal fill them, and nothing below its size? Also turned at random

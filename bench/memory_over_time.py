@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Repairs a mesh with several limits of memory, and draws how much memory was used, and when.
 
     bench/memory_over_time.py build/release/bin/meshrepair city.ply memory.svg 500M 1G 2G

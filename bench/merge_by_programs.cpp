@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // merge_by_programs A B OPERATION: how many seconds does it take to merge the trees of two solids
 // where linear programs tell which regions there are, as in the paper, and not the cells of these?
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Models made by code, of the kinds and sizes that Wang and Manocha's tables name: where theirs are
 // scans and drawings, these are as much like them as a few lines allow.
 #pragma once

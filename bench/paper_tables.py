@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs the benchmarks that stand beside the tables of Wang and Manocha, and prints the results as Markdown.
 
 What is compared with other libraries is left out where the programs of bench/others were not built. All times of a line are of one

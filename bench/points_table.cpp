@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How well are solids found again from samples of their surface? Markdown, one row for each cloud.
 //
 //   points_table [--sizes 2000,20000] [--only SOLID] [--clouds FOLDER] [--votes N] [--agree 0|1]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Measures what a call from Python costs beside the work itself, in time and in memory.
 
 Usage: python_overhead.py PACKAGES [TRIANGLES...]

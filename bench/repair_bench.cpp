@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long does a whole repair take, stage by stage? CPU microseconds, and the peak of the
 // process's resident memory, per input triangle.
 #include <cstdio>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """How long a huge mesh takes in blocks on many machines, from what blocks of a smaller one took.
 
     bench/simulate_blocks.py REPORTS --triangles 1000000000 --nodes 1 10 100 1000

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // strands_held ship|harp MESH: how many of the model's thin parts are in the solid that the mesh
 // bounds. Prints the number.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long does building the tree take, and how large does it get?
 #include <string>
 

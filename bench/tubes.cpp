@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tubes.h"
 
 #include <array>

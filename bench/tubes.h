@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Round bars along lines, and a lattice of square ones.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How much would more cores bring? This is `meshrepair` itself, with a door to threads of its own
 // that runs each task by itself, one after the other, and takes its time. Work is all CPU time;
 // span is the longest chain, which no number of cores makes shorter: what runs outside of tasks,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Builds the wheel of the Python package: the PEP 517 backend that pyproject.toml names.
 
 The package is a part of a project that CMake builds, so this drives CMake and packs what it installs. It is a page of

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Puts the shared libraries that programs and extension modules need beside them, with their licences.
 
 Then they run where none of these is installed. What every Linux has stays outside: the libraries of the C and the C++ compiler.

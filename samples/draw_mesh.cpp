@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Draws a mesh as a picture, with its colours and textures.
 //
 //   draw_mesh IN OUT.png

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Says what is wrong with a mesh and which of its triangles the repair kept.
 //
 //   inspect_report IN

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hands a mesh to OpenMesh, improves it there and takes it back.
 //
 //   openmesh_roundtrip IN OUT

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Repairs a mesh file: the shortest useful program.
 //
 //   repair_file IN OUT

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes a solid of a point cloud.
 //
 //   solid_of_points IN OUT

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Unites shapes that overlap and hands the result to OpenMesh.
 //
 //   unite_shapes OUT IN...

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # What .ci/run checks, at length: all cases, all sources alone, one thread and many, new inputs for the fuzz targets.
 set -euo pipefail
 

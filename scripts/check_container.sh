@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds the image of packaging/container, and tries it.
 set -euo pipefail
 

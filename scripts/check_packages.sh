@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Installs packages into a bare Debian 12, and tries them there.
 set -euo pipefail
 

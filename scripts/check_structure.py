@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Checks the structure of the code: which library, which room and which module uses which.
 
 A library is a folder libNAME with a CMakeLists.txt; a room is a folder in its src. What lies
@@ -13,6 +14,7 @@ directly in src is the library's own room, which may use all others. Fails where
 - a folder holds more than 15 sources;
 - a file other than the door to oneTBB, libbase/src/parallel.cpp, includes or names what is oneTBB's;
 - a test of a source of its name stands in another room;
+- a source does not begin with its licence;
 - .clang-format or .clang-tidy does not know a library.
 """
 
@@ -33,6 +35,8 @@ ABOVE_APPS = ("capi", "python", "web/wasm")
 MODULES = ("bench/", "integrations/", "python/", "scripts/", "web/")
 JS_IMPORT = re.compile(r"""^(?:import|export)\b[^;"']*["'](\.[^"']+)["']""", re.MULTILINE)
 PY_IMPORT = re.compile(r"^(?:from|import) +([\w.]+)(?: +import +\(?([^)\n]*))?", re.MULTILINE)
+LICENCE = "SPDX-License-Identifier: MIT"
+SOURCES = ("*.h", "*.cpp", "*.c", "*.js", "*.mjs", "*.py", "*.rs", "*.sh")
 TBB_DOOR = ROOT / "libbase/src/parallel.cpp"
 TBB_NAME = re.compile(r"\b(tbb|oneapi)(/|::)")
 LIBRARY_CALL = re.compile(r"meshrepair_library\((.*?)\)\n", re.DOTALL)
@@ -235,7 +239,9 @@ def imports_of(path: Path, modules: set[Path]) -> set[Path]:
     names: list[str] = []
     for match in (JS_IMPORT if path.suffix == ".js" else PY_IMPORT).finditer(path.read_text()):
         name = match.group(1)
-        names += [name] if name.strip(".") else [name + part.strip() for part in match.group(2).split(",")]
+        parts = [part.split(" as ")[0].strip() for part in (match.group(2) or "").split(",")] if path.suffix == ".py" else []
+        names += [name] if name.strip(".") or not parts else []  # what "from . import x" names is x
+        names += [f"{name.rstrip('.')}.{part}" if name.strip(".") else name + part for part in parts if part]
     return {m for m in (module_of(path, name, modules) for name in names) if m is not None and m != path}
 
 
@@ -249,6 +255,13 @@ def check_modules(faults: list[str]) -> dict[str, list[Path]]:
     for module in sorted(modules):
         folders[str(module.parent.relative_to(ROOT))].append(module)
     return folders
+
+
+def check_licences(faults: list[str]) -> None:
+    listed = subprocess.run(["git", "ls-files", "-z", *SOURCES], stdout=subprocess.PIPE, text=True, check=True).stdout
+    for name in filter(None, listed.split("\0")):
+        if "/dist/" not in name and Path(name).exists() and LICENCE not in Path(name).read_text()[:100]:
+            faults.append(f"{name}: does not begin with '{LICENCE}'")
 
 
 def lines_of(paths: list[Path]) -> int:
@@ -291,6 +304,7 @@ def main() -> int:
         check_tests(library, faults)
     programs, program_arrows = check_programs(faults)
     folders = check_modules(faults)
+    check_licences(faults)
     check_tbb(faults)
     check_tools(libraries, faults)
     if not options.quiet:

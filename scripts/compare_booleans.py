@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Boolean operations on pairs of solids, by bspbool and by CGAL's corefinement: do they agree?
 
 The second solid of each pair is turned at random, brought to the size of the first and placed so that the two cross. Prints a

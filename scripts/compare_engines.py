@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Compares meshrepair's two engines, exact predicates and floating ones, over a folder of meshes.
 
 Prints a Markdown table, a row for each mesh, and totals. The exit code is 1 if a run crashed: ended by a signal or by

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds meshrepair and repairs the broken sample meshes with it.
 set -euo pipefail
 

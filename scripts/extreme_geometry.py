@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Repairs shapes of extreme geometry, each made for it, and prints what comes of them and how long it takes.
 
 The exit code is 0 if each ended as documented, and what was certified is a valid solid to meshcheck.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the version of a release, and the hashes of its source archive, into the recipes of packaging/.
 
 Usage: fill_recipes.py ARCHIVE

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws the libraries, their rooms and what links what, as docs/pictures/architecture.svg.
 
 All of it comes from the CMakeLists.txt of the libraries and from their folders.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Makes the tables of docs/options.md and docs/report.md, and docs/python-reference.md.
 
 The tables of options are made from what the programs print with --help, the tables of keys from the descriptions in

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Makes the files in tests/fuzz/seeds: small inputs that the fuzz targets start from, a folder for each
 target. Between them they show every dialect of a format and every command of a decoder once.
 

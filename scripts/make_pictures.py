@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws the pictures of README.md: a broken mesh, and what meshrepair makes of it.
 
 A small rasteriser with a depth buffer, shading by the angle to the light, and supersampling. Back faces are red,

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Makes the meshes in samples/meshes: small shapes, each with the defects that its name tells.
 
 The same files come out on every machine: coordinates are rounded to six decimals before anything is

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Makes the manual as a site: README.md, docs/*.md and the references of the C++ and Python interfaces.
 
 The pages are those of the tree. What they link to, such as samples, becomes a page as well. Needs mkdocs, its theme

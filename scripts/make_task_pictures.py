@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws the pictures of the pages for those who print, scan, simulate, or use what a generator made.
 
 meshrepair --picture draws a mesh before and after. Of two it also draws what is inside: halves of the mesh and of the result.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws the pictures of docs/attributes.md: meshes with textures and defects, and what meshrepair makes of them.
 
 The meshes are made, and repaired in their own format; meshrepair --picture draws both.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes web/viewer/dist/viewer.html, the page that --html writes, of web/viewer/src and three.js. The same sources give the same bytes.
 #
 # Usage: scripts/make_viewer.sh [--check]

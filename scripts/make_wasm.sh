@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds the module of WebAssembly, and of it the package of npm in build/wasm/package, and of that the page in build/wasm/page.
 #
 # Usage: scripts/make_wasm.sh [PARALLEL]

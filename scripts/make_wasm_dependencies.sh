@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds what the project links, for WebAssembly: Debian's sources with Debian's patches, in the versions that Debian has as libraries, so
 # that a file has the same bytes. They come with apt from the same mirrors as packages do. What is there already is left as it is.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Shrinks a mesh that a program fails on, to one of few triangles that it fails on as well.
 
 Runs COMMAND on smaller and smaller meshes, {} standing for the name of the mesh, and keeps what leaves the

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs meshrepair on damaged copies of meshes and looks whether it ends as it should.
 
 Each copy is cut, has bits flipped, or is spliced with itself or another mesh; of 3MF packages also one of the

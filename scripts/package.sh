@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes what users install without compiling: Debian packages, an archive that runs from any folder, and a wheel.
 set -euo pipefail
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds the benchmarks that stand beside the tables of the basis paper, runs them, and writes bench/RESULTS.md.
 set -euo pipefail
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Repairs all meshes in a folder and its sub-folders, or in an archive, with meshrepair, several at a time.
 
 What holds at every moment, also when this script, its workers or the machine are killed:

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Installs the packages that the project needs, Debian's and npm's. This is the only place that names Debian's; those
 # of npm stand in tests/node/package.json and web/viewer/package.json.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Starts a small Slurm cluster on this machine: one controller and two nodes, all in a folder of their own.
 set -euo pipefail
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Sets up, builds the release and runs all tests but those that take long.
 set -euo pipefail
 

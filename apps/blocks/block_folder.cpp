@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "blocks/block_folder.h"
 
 #include <fstream>

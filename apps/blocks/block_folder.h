@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh in blocks: what is in their folder, and what is known of them.
 //
 //   plan.json            what the blocks are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshrepair-blocks plan, run and join: a mesh repaired block by block, on many machines.
 #pragma once
 

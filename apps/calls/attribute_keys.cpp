@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "calls/attribute_keys.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What attributes of corners are called where they stand in one list.
 #pragma once
 

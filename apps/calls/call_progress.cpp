@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "calls/call_progress.h"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The observer of a call: what the work tells is kept for the thread that waits for it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "calls/file_calls.h"
 
 #include <utility>

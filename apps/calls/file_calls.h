@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of meshes and points as calls: they are read and written as they are, nothing is repaired.
 #pragma once
 

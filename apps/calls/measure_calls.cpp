@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "calls/measure_calls.h"
 
 #include <utility>

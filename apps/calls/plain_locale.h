@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers have a point, wherever the process that calls lives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "calls/repair_calls.h"
 
 #include <functional>

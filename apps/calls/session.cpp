@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "calls/session.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The frame of a call from another language: what Program is for a command line. Options have the
 // names and values of the programs' long ones, and come out of the same tables.
 #pragma once

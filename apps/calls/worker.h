@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A thread for the work of a call, while the one that called looks after its caller.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In place of worker.cpp where there are no threads: the work lets its caller look.
 #include <chrono>
 #include <exception>

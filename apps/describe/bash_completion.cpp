@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names of options end where they are whole words, so -S adds nothing; lists of names go on behind
 // their last comma. _init_completion splits --option=value, and _filedir offers folders as well.
 #include <spdlog/fmt/fmt.h>

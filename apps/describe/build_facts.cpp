@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "describe/build_facts.h"
 
 #include <boost/version.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a program is built of, and what it knows: for reports of faults, and for packagers.
 #pragma once
 

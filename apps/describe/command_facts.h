@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the options of a program say of themselves, apart from CLI11: manual pages and completions
 // are made of it, so that they say the same as --help.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What completes the command line of a program, in the words of each shell: its options, and where
 // a value is one of a few names or a file, these.
 #pragma once

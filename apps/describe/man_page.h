@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The manual page of a program, in the macros of man(7).
 #pragma once
 

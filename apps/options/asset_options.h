@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of an input comes along besides its triangles: options of the programs, and what they do.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An option of the command line whose value is one of a few names.
 #pragma once
 

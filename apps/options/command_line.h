@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line of a program: its arguments and options, and what help says of them. CLI11
 // parses it, which command_line.cpp alone knows, as its headers take seconds to compile.
 //

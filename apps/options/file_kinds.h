@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What kind of file an option or argument names, for whoever completes command lines.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers of the command line. CLI11 takes them as C does, so that 0x10 is sixteen, 010 eight, and
 // -1 a very large count; here they are decimal.
 #pragma once

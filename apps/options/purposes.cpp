@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "options/purposes.h"
 
 #include <algorithm>

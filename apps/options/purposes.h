@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // --for: options that belong together for what a solid is to be used for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options that programs had once, and what does their work.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "options/repair_options.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The options that several programs have, beyond those that every program has.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a command line says of pictures, and of pages for browsers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/boolean_page.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // --html of bspbool: the operands, and what was made of them.
 #pragma once
 

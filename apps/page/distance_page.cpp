@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/distance_page.h"
 
 #include <algorithm>

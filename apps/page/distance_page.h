@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // --html of meshdist: how far two meshes are apart, as colours on both.
 #pragma once
 

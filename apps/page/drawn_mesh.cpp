@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/drawn_mesh.h"
 
 #include <algorithm>

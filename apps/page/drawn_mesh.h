@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of a mesh a page draws.
 #pragma once
 

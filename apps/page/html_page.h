@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page of a report: the viewer, and what it shows, in one file that needs no other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/html_report.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // --html: what was wrong with a mesh, and what became of it, as a page for browsers.
 #pragma once
 

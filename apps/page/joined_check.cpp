@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/joined_check.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks of meshes that stand beside each other, as one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/mesh_facts.h"
 
 #include <algorithm>

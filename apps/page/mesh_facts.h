@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a page says of one mesh, beside its triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/pack_looks.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a mesh looks, as few characters. web/viewer/src/looks.js reads it.
 //
 // The text is as that of pack_mesh.h. The lists are:

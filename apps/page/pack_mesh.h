@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh as few characters, for a page of HTML. web/viewer/src/decode.js reads it.
 //
 // The text is base64 of gzip of numbers without a sign, each as bytes of seven bits, the lowest

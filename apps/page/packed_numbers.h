@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers as few bytes, for what a page has of a mesh: see pack_mesh.h.
 #pragma once
 

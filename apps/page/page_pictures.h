@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The pictures that a page embeds, as they are in their files.
 #pragma once
 

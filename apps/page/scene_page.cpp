@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "page/scene_page.h"
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // --html with --scene each: the meshes of a scene where they stand, each checked by itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page that the viewer is, as scripts/make_viewer.sh makes it, with one place for what it
 // shows.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "pictures/explanation_file.h"
 
 #include <algorithm>

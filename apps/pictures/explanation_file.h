@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // --explain: what was read and what was made of it beside each other, each triangle in the colour
 // of what became of it, or of where it comes from.
 #pragma once

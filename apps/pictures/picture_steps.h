@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // --picture: a mesh, or what it was and what was made of it, as a picture.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "process/exit_code.h"
 
 #include <cerrno>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exit codes of every program, and the one place where exceptions become exit codes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "process/file_checksum.h"
 
 #include <cstddef>

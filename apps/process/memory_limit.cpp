@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The limit is the system's own on private memory (RLIMIT_DATA). It counts what is reserved, not
 // what is used, so what is reserved but unused at the start (stacks, and the shadow memory of
 // sanitizers) is added, and what the limit does not see (the program's code) is taken off.

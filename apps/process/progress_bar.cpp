@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "process/progress_bar.h"
 
 #include <algorithm>

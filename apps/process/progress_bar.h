@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The observer of every program: times the stages, draws them, and passes on signals and limits.
 #pragma once
 

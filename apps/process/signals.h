@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How programs end when they are asked to: politely first, at once if asked twice.
 #pragma once
 

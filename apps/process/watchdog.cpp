@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "process/watchdog.h"
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sees to it that a program ends in time when it has to, even where the work does not ask whether
 // to go on.
 #pragma once

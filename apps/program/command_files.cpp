@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "program/command_files.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What can be said of the files of a command before hours of work: whether they can be written, and
 // whether two names lead to one file.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "program/common_options.h"
 
 #include <algorithm>

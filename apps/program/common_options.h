@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The options that every program has, and how its command line is parsed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The frame of every program: command line, logging, signals, threads, report and exit code.
 //
 //   int main(int argc, char** argv) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "report/attribute_report.h"
 
 #include <array>

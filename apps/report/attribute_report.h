@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What triangles carry, for people and for reports.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What meshcheck has found, for people, for scripts and for the eye.
 #pragma once
 

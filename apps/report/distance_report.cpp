@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "report/distance_report.h"
 
 #include <cmath>

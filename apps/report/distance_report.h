@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far meshes are apart, for people and for scripts.
 #pragma once
 

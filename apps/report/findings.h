@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // All that is known of a run: what was read, what was found, and what was written.
 #pragma once
 

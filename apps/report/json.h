@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A value of JSON: what reports and pages are made of. It is written and read by nlohmann/json,
 // which one source knows, as each that knows it takes seconds to compile; members have its names.
 //

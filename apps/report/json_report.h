@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The JSON report of a run: one object, the same frame for every program, written on failure too.
 //
 //   program       name

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sections that findings make in the JSON report (docs/report.schema.json).
 #pragma once
 

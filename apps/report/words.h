@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers, units and names as people read them, in tables, summaries and messages.
 #pragma once
 

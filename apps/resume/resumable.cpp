@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "resume/resumable.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs that go on from where an earlier one was interrupted.
 #pragma once
 

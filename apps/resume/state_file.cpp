@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "resume/state_file.h"
 
 #include <algorithm>

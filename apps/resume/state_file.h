@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The file of one state: a key, the bytes, and a checksum of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "resume/state_folder.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // States of a run in a folder, so that a run after this one can go on from them.
 #pragma once
 

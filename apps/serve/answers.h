@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What each address answers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "serve/child_process.h"
 
 #include <array>

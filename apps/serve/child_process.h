@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A program of ours as another process, which tells how far it is.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Who may ask: the page that this process serves, and nobody else in the same browser.
 //
 // Other pages may send requests here, too: to the loopback address itself, or by a name of theirs

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One connection of the server: one request after the other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A server of HTTP/1.1 on the loopback address.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "serve/own_folder.h"
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A folder for this process alone, which stays the same one whatever becomes of its name.
 //
 // The folder that lies above it, /tmp, belongs to all users. Somebody may clear it, and somebody

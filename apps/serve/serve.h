@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshrepair --serve: a page on this machine that hands meshes to the programs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page that hands in meshes and shows what came of them, with its script and style.
 #pragma once
 

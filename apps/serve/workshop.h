@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The meshes that were handed in, and what is done with them: one piece of work after the other,
 // each by a program of ours as a process of its own.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The memory of all containers in a program: large blocks come from its source of blocks. Linked
 // into programs alone, as a process has one operator new.
 #include <cstdlib>

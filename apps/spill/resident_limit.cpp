@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "spill/resident_limit.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keeps a process that uses a SpillFile within its memory.
 #pragma once
 

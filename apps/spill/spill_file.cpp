@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "spill/spill_file.h"
 
 #include <algorithm>

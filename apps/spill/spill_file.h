@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Large arrays in a file, so that the system need not keep them in memory.
 #pragma once
 

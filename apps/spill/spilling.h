@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a program does where its large arrays would take more memory than it may have.
 #pragma once
 

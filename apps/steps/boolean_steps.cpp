@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "steps/boolean_steps.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What bspbool is asked for, and the steps from meshes to the result: for files, and in memory.
 #pragma once
 

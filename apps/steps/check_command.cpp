@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "steps/check_command.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The program meshcheck as a step: for its command line, and for calls from other languages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What meshcheck is asked, beside the mesh, and what it looks for.
 #pragma once
 

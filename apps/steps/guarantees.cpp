@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "steps/guarantees.h"
 
 #include <spdlog/fmt/fmt.h>

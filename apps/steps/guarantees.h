@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which guarantees the written file holds, and the exit code that says so.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading, measuring and writing as stages of a run: messages name the file, and findings keep what
 // was found.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "steps/point_steps.h"
 
 #include <algorithm>

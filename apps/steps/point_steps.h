@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Point clouds as input: their options, and the steps from their file to the soup that is repaired.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "steps/repair_command.h"
 
 #include <array>

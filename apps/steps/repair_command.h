@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What meshrepair is asked for, and how it is done: from file to file, and in memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "steps/run_steps.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a program that repairs runs: files are checked first, findings are reported whatever happens,
 // and the summary comes last.
 #pragma once

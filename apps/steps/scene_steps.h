@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scenes whose meshes are taken one by one: what --scene each does.
 #pragma once
 

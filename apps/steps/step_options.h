@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the command line of a program that repairs says; not every program has all of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What became of the triangles of the input, as a bar of characters.
 #pragma once
 

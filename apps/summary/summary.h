@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a program did, in a few lines for people.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "summary/warnings.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Warnings on standard error: what users should know, though it is no error.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a program says on stderr besides its one error line. Standard output is for data alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the terminal was lies in a place that signal handlers find: first it is noted, then the
 // terminal is changed, and it is forgotten only once the terminal is as before. So each moment in
 // between restores it, some twice, which does no harm.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The terminal itself, whatever the standard streams are, for questions to it.
 #pragma once
 

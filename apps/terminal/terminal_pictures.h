@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which pictures the terminal of this process can draw.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What all parts of compare.py share: exit codes, how it speaks, and files that are there whole or not at all."""
 
 import errno

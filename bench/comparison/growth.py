@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """How fast time and memory grow with the input: the exponent e between two sizes, cost ~ size^e."""
 
 import math

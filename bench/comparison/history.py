@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """bench/history.csv: what each commit cost, and whether the latest costs more than those before.
 
 A row is one input and size, at one commit, on one kind of machine. Its CPU time is told beside that of the program

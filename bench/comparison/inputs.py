@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The inputs, which the program make_models makes: kinds, sizes, files."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Whether a result is the boundary of a solid, as a checker says."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Runs a program and measures it."""
 
 import contextlib

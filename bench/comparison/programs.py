@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The programs that are compared, and how each is called."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Runs all programs on an input, in rounds, so that what disturbs one disturbs the others as much."""
 
 import json

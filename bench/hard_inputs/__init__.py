@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Families of hard inputs of which the meaning is known: see make_hard_inputs.py."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Assemblies: bodies that are to touch, but for noise in their corners. What was meant is one part."""
 
 import numpy as np

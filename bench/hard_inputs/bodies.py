@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Closed bodies, from which broken ones are made."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Car bodies of panels: each panel is a sheet by itself, a little above or below its neighbours, and reaches over their
 rims. What was meant is the body."""
 

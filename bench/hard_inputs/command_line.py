@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the command lines of the programs on hard inputs have in common."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Hollow bodies: by mistake, as a generator's double wall with pinholes, or on purpose, as bottles and balls with drain holes.
 What was meant of the former is the full body, of the latter the solid as it is."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Two-sided bodies, as game engines have them: each face is there twice, and the copy faces inward. What was meant is the
 body. A two-sided sheet encloses nothing."""
 

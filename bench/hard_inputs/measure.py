@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Runs meshrepair on cases, and compares what it gives with what was meant."""
 
 import json

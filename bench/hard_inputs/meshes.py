@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A mesh, what can be said of it, and how it is written."""
 
 import json

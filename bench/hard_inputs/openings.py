@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Bodies whose openings are hard to read: walls of vessels that have lost the rim between them, cups with a flange, limbs cut off
 somewhere, and rings around a hub. What was meant is the body, with the opening closed as a person would."""
 

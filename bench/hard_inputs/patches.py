@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Patches of CAD models, each divided into triangles by itself: at each seam, the two sides have other points. What was
 meant is the body with seams that fit."""
 

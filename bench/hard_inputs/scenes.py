@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Scenes: bodies by the ground, which is an open sheet. What was meant are the bodies, an opening of their own closed."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Open sheets: trees of leaf cards, garments. They enclose nothing; what was meant is a wall of some thickness, whose
 volume is about its area times that."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Noisy soups: triangles that share no points, each corner moved by noise. What was meant is the body without it."""
 
 from .bodies import HoledPlate, knot, torus

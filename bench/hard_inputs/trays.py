@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Trays: open boxes of single sheets with dividers. What was meant is the box, closed flat at its rim."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Double walls with pinholes: a hollow body whose inner wall is joined to the outer one by tubes, as image-to-3D
 generators make them. What was meant is the full body."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cgal_booleans A B OPERATION OUT [corefinement|nef]: the same as bspbool, by CGAL, for comparison.
 // Prints a line of JSON; exit code 1 where CGAL gives no result.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // cgal_points CLOUD.xyz OUT front|poisson: a surface through points by CGAL, for comparison. Prints
 // a line of JSON; exit code 1 where CGAL gives no surface.
 #include <CGAL/Advancing_front_surface_reconstruction.h>

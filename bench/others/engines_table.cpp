@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // engines_table MODEL: from a labelled tree to the mesh with three engines of predicates: ours, the
 // paper's floating one, and the paper's exact one (a filter, then GMP). Prints a line of JSON.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exact predicate as Wang and Manocha describe it (section 5): a determinant in doubles, and
 // where it is smaller than 1e-10, in the arithmetic of GMP. For comparison only.
 #pragma once

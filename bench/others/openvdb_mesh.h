@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Between meshes and OpenVDB's level sets.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // openvdb_remesh ship|harp VOXELS: a model with thin parts to a volume of so many voxels across and
 // back to a mesh, by OpenVDB, for comparison. Prints a line of JSON.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wrap_others alpha|openvdb IN OUT SHARE: a closed surface around a mesh by CGAL's alpha wrap or by
 // OpenVDB, for comparison. SHARE of the diagonal is alpha, and 30 times the offset; or the side of
 // a voxel. Prints the seconds that it took without reading and writing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* meshrepair for C, and for whatever can call C: turns any triangle mesh into the boundary of a
  * solid.
  *

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What meshes of the C interface carry.
 #include <algorithm>
 #include <array>

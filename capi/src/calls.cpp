@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The calls of the C interface that work, their options and results.
 #include <limits>
 #include <string>

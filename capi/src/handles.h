@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is behind the handles of the C interface, and how its functions fail.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes of the C interface: points and triangles.
 #include <algorithm>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Options of the C interface: kept as they are said; the calls know which there are.
 #include <algorithm>
 #include <string>

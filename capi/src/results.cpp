@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What results of the C interface say. The result of a call for which memory ran out is null.
 #include <string>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The steps: a temporary file with a random name in the folder of the target, all bytes, fsync,
 // rename, fsync of the folder. The name is registered before the file is made and forgotten after
 // it is gone, so that a signal handler finds it at any time in between; one file is written at a

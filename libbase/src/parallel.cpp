@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One thread works without oneTBB. That would try to start a second one all the same when the
 // limit ends, and would end the process where the system gives none.
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In place of parallel.cpp where oneTBB is not wanted: one thread does it all, in order.
 #include <base/parallel.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What decimal.h needs where the standard library lacks it, by fast_float and fmt. In a header, so
 // that a test holds it against a standard library that has it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Waiting for a file, a pipe or a device in such a way that it can be ended.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "boolean_chambers.h"
 
 #include <algorithm>

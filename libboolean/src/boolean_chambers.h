@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Set operations without trees.
 #pragma once
 

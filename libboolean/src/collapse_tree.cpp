@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "collapse_tree.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Trees without needless nodes.
 #pragma once
 

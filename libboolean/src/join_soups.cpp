@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "join_soups.h"
 
 #include <base/error.h>

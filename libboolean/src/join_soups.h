@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two clean soups on one grid as one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "label_beside_triangles.h"
 
 #include <array>

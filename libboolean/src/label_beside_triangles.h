@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Labels for the tree of a surface that bounds a solid, without making its cells.
 #pragma once
 

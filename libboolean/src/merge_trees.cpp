@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Insertion of one tree into another.
 //
 // Idea: walk down the first tree with the triangles of the second, parting them at each plane, as a

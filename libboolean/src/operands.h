@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is done with solids before they are combined: those that touch but for small gaps are
 // joined, and each comes onto the grid of all.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The regions of a tree as it grows: on which sides of a plane are they?
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <boolean/set_operation.h>
 
 namespace meshrepair {

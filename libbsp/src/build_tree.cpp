@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Building the tree.
 //
 // Idea: the first nodes are the planes of the input's bounding box, so that what lies beside it is

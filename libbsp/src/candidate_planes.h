@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Choosing the plane of one of the fragments as a node's plane.
 #pragma once
 

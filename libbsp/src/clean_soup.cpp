@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From triangles in doubles to triangles on the working grid, the numbers of which all predicates
 // are exact. Points are rounded once, here; those that come to one place are one point. Triangles
 // that have no area there go, and the report says of how many rounding alone is to blame.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How many layers of surface the copies of a triangle are.
 #pragma once
 

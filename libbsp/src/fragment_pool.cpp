@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "fragment_pool.h"
 
 #include <algorithm>

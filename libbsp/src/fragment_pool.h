@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The convex pieces into which the tree's planes cut the input triangles while the tree is built.
 #pragma once
 

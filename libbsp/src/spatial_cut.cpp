@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "spatial_cut.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Axis-parallel cuts of many fragments by a binned surface-area heuristic.
 #pragma once
 

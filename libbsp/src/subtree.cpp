@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Building a part of the tree.
 //
 // Regions that have become much smaller than the one that was begun with are put off: each is then

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A part of the tree that is built on its own: what else is built does not matter to it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sections of a .bsp file: writing items one by one, and reading them against what is there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Integers of up to 6,600 bits, for determinants of doubles of any magnitude. Boost's cpp_int of a
 // fixed size gives the same signs in about twice the time: to check a mesh with rounding noise
 // beside the axes takes 1.4 times as long.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Each predicate is a ladder: the filter in doubles (in the header, to be inlined), then
 // fixed-width integers where the differences of the coordinates allow them, which they nearly
 // always do, for orientation() a filter in numbers of two doubles, and last integers as long as it

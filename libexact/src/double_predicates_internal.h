@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exact stages of the predicates on doubles, one by one, for the predicates and their own test.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points as intersections of planes, and the side of a point.
 //
 // Sizes: coordinates differ by at most 2^26, so a normal's component is below 2^53 + 2^53 = 2^54

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stages of the exact predicates, one by one, for the predicates and for their own test.
 #pragma once
 

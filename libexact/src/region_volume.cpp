@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Seidel's incremental linear programming, for a point instead of an optimum.
 //
 // Idea: hold a point that is on the inner side of all planes so far, a vertex of three of them. If

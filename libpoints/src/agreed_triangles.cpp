@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "agreed_triangles.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Of the triangles that stars want, those that lie beside each other.
 //
 // Where stars disagree, on the diagonal of four points for one, triangles lie on each other. Around

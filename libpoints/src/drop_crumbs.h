@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small pieces of surface that have come off.
 #pragma once
 

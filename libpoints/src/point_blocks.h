@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Work on the points of a cloud, block by block in parallel.
 #pragma once
 

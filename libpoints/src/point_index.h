@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which points are near a place: a k-d tree over points, to be asked from many threads at once.
 #pragma once
 

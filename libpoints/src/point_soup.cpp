@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Each point finds its tangent plane and, in it, its Delaunay star: the triangles that it wants.
 // Where the sampling is good, all three corners of a triangle want it, and the triangles are a
 // closed surface. Where four neighbours are nearly on one circle, the stars may disagree on the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles that the points of a cloud want, each for itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Smoothing of noisy points: each onto the surface that its neighbours suggest.
 #pragma once
 

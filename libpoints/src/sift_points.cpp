@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sift_points.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is left of a cloud once points that say nothing are dropped, and the nearest neighbours of
 // every point of it, in one flat array.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points at which pieces of surface only touch.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The plane that a surface has at one of its samples, as the points around tell.
 #pragma once
 

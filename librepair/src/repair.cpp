@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The whole way, and the table of its contents.
 //
 // A soup becomes a solid by the first of four ways that applies. They are tried from the cheapest

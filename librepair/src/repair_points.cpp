@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points with much noise want triangles that pass each other, so the sheet between them has holes
 // all over, and encloses nothing. Smoothing needs neighbours enough to even out the noise, and few
 // enough to leave the shape as it is: they are doubled until the points agree. That is seen before

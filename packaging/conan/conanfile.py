@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """meshrepair for Conan 2: the programs and the static libraries."""
 
 from conan import ConanFile

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Turns any triangle mesh, or a point cloud, into the boundary of a solid.
 
 >>> import meshrepair

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """``python -m meshrepair``: the program, in place of this process."""
 
 import os

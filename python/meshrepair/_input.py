@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What callers give as a mesh, made arrays: pairs, and objects of other packages, known by what they have."""
 
 from __future__ import annotations

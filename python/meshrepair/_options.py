@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Keywords to what the command line says, and outcomes to exceptions."""
 
 from __future__ import annotations

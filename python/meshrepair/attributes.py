@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What triangles carry besides their corners: a dict of arrays."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The exceptions of the package: one family, a class for each exit code of the programs."""
 
 from __future__ import annotations

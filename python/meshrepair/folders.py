@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Folders of meshes."""
 
 from __future__ import annotations

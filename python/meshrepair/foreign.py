@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Objects of other packages from arrays. None of them is imported: an object of its type shows how."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What is wrong with a mesh, and how far two are apart."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What Jupyter shows of a mesh: a view that can be turned, and a table."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Where the program of the package is."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What ``progress=`` takes: a callable, or True for a bar."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Repairs of meshes, points and files."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the functions return."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Between arrays of numpy and meshes. What comes in is copied once, whatever its layout, as the
 // libraries own what they work on; what goes out is a view of their memory, without a copy.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "attribute_arrays.h"
 
 #include <algorithm>

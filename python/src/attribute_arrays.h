@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What triangles carry, as a dict of arrays: the texture coordinates, colours and so on of corners,
 // and the numbers of names of triangles beside the names.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the extension module offers. Each function returns a dict: "code", "error", "report" and
 // "warnings" of the outcome, and where it went well the arrays that are named beside it. The Python
 // files of the package check arguments before, and raise exceptions after.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of meshes and points, as they are: nothing is repaired.
 #include <optional>
 #include <pybind11/stl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The extension module meshrepair._core: the libraries, for the Python files of the package.
 #include <exception>
 #include <new>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Repairs: of a mesh or points in memory, of a file, and of several meshes as one.
 #include <pybind11/stl.h>
 #include <string>

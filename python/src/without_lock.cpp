@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "without_lock.h"
 
 #include <atomic>

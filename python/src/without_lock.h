@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a call from Python works without Python's lock, and can be interrupted.
 #pragma once
 

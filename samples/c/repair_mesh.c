@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* Repairs a mesh that is in memory, and says how far it is: repair_mesh IN OUT */
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where libmeshrepair.so is, unless it is where the linker looks anyway: MESHREPAIR_LIB_DIR.
 fn main() {
     println!("cargo:rerun-if-env-changed=MESHREPAIR_LIB_DIR");

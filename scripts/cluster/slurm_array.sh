@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 #SBATCH --job-name=meshrepair
 #SBATCH --requeue
 #SBATCH --signal=B:TERM@60

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Repairs one mesh block by block on a Slurm cluster: a job array over its blocks, and a job that joins them.
 set -euo pipefail
 

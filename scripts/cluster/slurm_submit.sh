@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Repairs a folder on a Slurm cluster: a job array over shares of its files, and a job that sums up.
 set -euo pipefail
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """An archive of meshes: ZIP, and tar, which may be packed. What is in it, and how one member gets out of it.
 
 Nothing here believes an archive: names that lead elsewhere are left out, links and devices are never made, and no more is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The meshes of an archive that is IN_DIR, as if it had been unpacked, and how those that are at work are."""
 
 import errno

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What all parts of repair_folder.py share: exit codes, the columns of the summary, and how it speaks."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A run: everything between the first look at IN_DIR and the summary.
 
 One thread does it all: it starts workers, and sleeps until one says something or ends, a signal comes, or a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The gallery of a run: index.html in OUT_DIR, and for each mesh a picture and a page of its own.
 
 They lie in OUT_DIR/index.files, under the name of the input with .png and .html behind it. index.html holds a line for each

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What there is to do: the mesh files of a folder, and the names of their outputs."""
 
 import collections

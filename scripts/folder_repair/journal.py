@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The journal of a run: what is finished, and need not be done again."""
 
 import collections

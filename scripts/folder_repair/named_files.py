@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Names of other files in a mesh, found without its reader: what has to be unpacked beside it.
 
 They may be too many, never mind: only those count that there are. What is missed is told by the report of meshrepair, once

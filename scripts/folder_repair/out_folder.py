@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """OUT_DIR: its lock, its journal, and how files get into it."""
 
 import errno

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Names in OUT_DIR that are of what is made there for the whole run: no output gets one, nor a folder of outputs."""
 
 from .gallery import INDEX

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Pictures that lie beside meshes: which of them come along, and where to."""
 
 import os

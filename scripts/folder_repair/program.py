@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The meshrepair to use, and what it can do."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A share of the files, for one of several runs that work on one OUT_DIR at the same time."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """How a worker is started, so that it dies with this script, and before it when memory runs out.
 
 What a process is to get from its parent's death it can only ask for itself. The way by setpriv and sh takes half a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What a run tells: its progress, and the summary at the end."""
 
 import collections

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """One meshrepair process: how it is started, kept within its limits, and judged."""
 
 import json

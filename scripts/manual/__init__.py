@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: MIT
 """Parts of scripts/make_site.py."""

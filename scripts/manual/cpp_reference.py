@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The reference of the C++ interface, by doxygen from the public headers."""
 
 import pathlib

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Prints a header as doxygen wants it: plain comments become those that it reads, in the group of the library.
 
 Usage: doxygen_filter.py HEADER

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The pages of the site: those of the tree, in the folders where they are, so that links between them go on working."""
 
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The reference of the Python package, from its docstrings: docs/python-reference.md. Reads the code, and runs none of it."""
 
 import ast

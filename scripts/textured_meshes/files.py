@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Meshes with textures as files, written without the programs that are to read them."""
 
 import io

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Shapes whose corners have places in textures, and what is broken about them.
 
 Coordinates are rounded to six digits, so that the same come out everywhere.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Pictures in docs/pictures: written, or compared with what is there; and the command line of the scripts that draw them."""
 
 import argparse

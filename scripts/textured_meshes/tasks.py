@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Meshes as people have them who want to print, to simulate, or to use what a generator made; and a scan."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Pictures made by rules: lists of rows from the top, of (red, green, blue).
 
 Noise is of whole numbers, so that the same comes out everywhere.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Puts the package of npm together in build/wasm/package, of web/package and the module in build/wasm. The same in, the same out.
 
 Usage: make_package.py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes a list of sources for apt into a folder: for each of this machine's sources of Debian's packages the one of its sources.
 
 Usage: source_lists.py FOLDER

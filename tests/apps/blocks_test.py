@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Repairs a mesh in blocks, as many machines would, by meshrepair-blocks.
 
 Usage: blocks_test.py PROGRAMS

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "describe/command_facts.h"
 
 #include <array>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of what the programs print for packages: manual pages, completions of three shells, and facts of the build.
 
 Usage: descriptions_test.py FOLDER_OF_PROGRAMS FOLDER_OF_DESCRIPTIONS [OPTIONS OF UNITTEST]

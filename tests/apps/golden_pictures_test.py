@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """What --picture-colours draws: a picture of each kind of defect, and of what became of triangles, pixel by pixel.
 
 Usage: golden_pictures_test.py PROGRAMS [--update]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """What programs write with --html: one page that needs nothing else, whatever is in names and meshes.
 
 Usage: html_test.py PROGRAMS

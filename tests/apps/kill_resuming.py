@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Kills meshrepair --resume at random moments, again and again, until it ends by itself.
 
 Usage: kill_resuming.py MESHREPAIR MESH LIMIT [KILLS [SEED]]   (default: 200 kills, seed 1)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Kills meshrepair at random moments while its arrays lie in a file, and fills the disk under it.
 
 Usage: kill_spilling.py MESHREPAIR MESH LIMIT [KILLS [FULL_DISKS [SEED]]]   (default: 200 kills, 50 full disks, seed 1)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Makes the inputs that the tests of the programs need and that are not worth keeping.
 
 Usage: make_cli_inputs.py BSPBUILD MESH FOLDER   (trees are made of MESH by the program BSPBUILD)

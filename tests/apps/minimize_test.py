@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Shrinks meshes with a known smallest one, by scripts/minimize.py.
 
 Usage: minimize_test.py MINIMIZE_PY [CASE]; the cases are the functions called test_...

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Meshes come out the same with and without --picture, byte for byte, in all formats.
 
 Usage: picture_test.py PROGRAMS

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A program that does nothing but end in one of the ways in which programs end: what is tested with
 // it is the frame that all programs share.
 #include <chrono>

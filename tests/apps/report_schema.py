@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Holds reports of the programs against docs/report.schema.json.
 
 Usage: report_schema.py REPORT...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which options are part of what a run that is resumed has to have in common with the first one.
 #include "resume/resumable.h"
 

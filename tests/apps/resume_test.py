@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Interrupts runs of meshrepair --resume, and lets others go on from what they left.
 
 Usage: resume_test.py PROGRAMS

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs a program in a folder of its own and compares what it did with what was expected.
 
 Called by the CMake function cli_test (cmake/CliTest.cmake), which says what the options mean. Each report that

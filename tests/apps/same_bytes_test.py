@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs the programs twice, in two ways that must give the same bytes.
 
 Usage: same_bytes_test.py PROGRAMS WAY MESH [RULE [OPTION...]]

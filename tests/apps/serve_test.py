@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """meshrepair --serve: what it answers, and to whom. Requests as other pages and broken programs send them.
 
 Usage: serve_test.py PROGRAMS [OPTIONS OF UNITTEST]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the tests of meshrepair --serve have in common: a server, requests to it, and meshes."""
 
 import http.client

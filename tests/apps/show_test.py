@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """--show: pictures in terminals that can draw them, which are asked, and a bar in others.
 
 Usage: show_test.py PROGRAMS

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Forces even small arrays into the file, and lets no page of it stay in memory: the results are the same bytes.
 
 Usage: small_blocks_test.py PROGRAMS WRITE_SOUPS [SOUPS [FOLDER]]

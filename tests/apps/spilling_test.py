@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs programs with less memory than they would take: they give the same bytes, by a file.
 
 Usage: spilling_test.py PROGRAMS

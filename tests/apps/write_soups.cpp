@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes degenerate random soups as OFF files: those that the property tests are made of.
 //
 // Usage: write_soups COUNT FOLDER

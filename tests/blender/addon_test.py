@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Tests of the add-on, inside Blender.
 
 Usage: blender --background --factory-startup --python-exit-code 1 --python addon_test.py -- PROGRAMS

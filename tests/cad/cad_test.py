@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """What meshrepair makes is of use in OpenSCAD and FreeCAD.
 
 Usage: cad_test.py PROGRAMS CLASS

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Runs the macro inside FreeCAD, on the mesh that MESHREPAIR_MESH names, and says "fine" at the end: FreeCAD's exit code tells
 nothing."""
 

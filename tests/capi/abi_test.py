@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Checks the interface of libmeshrepair.so: abi_test.py LIBRARY WORK [--update]
 
 - The library shows the functions that meshrepair.h declares, and no other symbol.

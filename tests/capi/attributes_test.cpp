@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What meshes of the C interface carry, into repairs and out of them, and into files.
 #include <string>
 #include <vector>

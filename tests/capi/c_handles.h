@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Handles of the C interface that free themselves, and calls as tests write them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the calls of the C interface do, where all is well.
 #include <cmath>
 #include <cstdlib>

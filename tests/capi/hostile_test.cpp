@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Calls of the C interface that make no sense: each says so, and nothing is thrown or lost.
 #include <array>
 #include <clocale>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs the samples of the C interface: samples_test.py c SAMPLE MESHREPAIR | rust FOLDER_OF_LIBRARY WORK
 
 Ends with 77 where there is no cargo.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What stands in the documents: blocks of commands and code, links, headings."""
 
 import dataclasses

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs every command in README.md and docs/*.md, and compares what is said there with what is so.
 
 Usage: documents_test.py PROGRAMS [CLASS]

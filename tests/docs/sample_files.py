@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The files that commands in the documents name."""
 
 import gzip

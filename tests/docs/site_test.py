@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Builds the manual as a site, and checks what is in it.
 
 Usage: site_test.py

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What holds for every file that is read with all that triangles carry, and mesh by mesh.
 #pragma once
 

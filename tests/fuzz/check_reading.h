@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What holds for every file that a reader of meshes takes, and for every soup that a writer gets.
 #pragma once
 

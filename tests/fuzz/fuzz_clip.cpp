@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The clipper: a box, planes of the input's choice, cells of its choice. The first byte says who
 // answers the clipper's questions: exact predicates, which are asked for cuts that are some, exact
 // ones for planes that may miss the cell, the input, whose answers contradict each other, or

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "check_attributes.h"
 #include "check_reading.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bytes of a fuzzer read as numbers, and how a target says that something does not hold.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "check_reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The reader of OpenMesh's own format takes a file: here one in memory.
 #include <string>
 #include <sys/mman.h>

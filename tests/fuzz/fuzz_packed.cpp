@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packed files: any bytes are a mesh, or one line that says why not; and what is packed comes out
 // as it was.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The readers of points, and the local triangulation of what they read.
 #include <array>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The whole way: any soup is refused by one of the exceptions that are meant for it, or becomes a
 // surface that is what the report says, by an examination that shares nothing with the repair.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bytes to soups in the positions that break programs: small integers, so that coplanar, collinear
 // and coincident is the rule, points a hair beside others, closed shapes, copies, turned triangles.
 #pragma once

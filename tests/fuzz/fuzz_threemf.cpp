@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Inputs that begin as archives do are read as they are, others as the model of a package.
 #include <string>
 

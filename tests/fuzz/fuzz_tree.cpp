@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The reader of .bsp files, and what the programs do with a tree that it lets pass.
 //
 // The sections carry checksums, which no mutation of bytes hits. So a mutation here is one of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What fuzz_repair does with its bytes.
 #pragma once
 

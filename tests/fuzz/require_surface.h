@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Demands on the surfaces that come out, held against check_surface().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Says what an input of fuzz_repair asks for, and writes its soup to a file: for a look at a
 // finding with other programs.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What stands in for numbers of floating point in <charconv> does as they do.
 #include <gtest/gtest.h>
 

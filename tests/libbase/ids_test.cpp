@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Arrays do not grow beyond what their ids tell.
 #include <cstddef>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // These hold in any build and for any number of threads.
 #include <algorithm>
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lists that several threads make: what comes out is what one thread would have made.
 #include <algorithm>
 #include <cstdint>

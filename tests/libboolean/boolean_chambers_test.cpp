@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Without trees the result is that of merged trees.
 #include "boolean_chambers.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Three textured solids of three materials are read from files of their own and combined: what is
 // on the surface of the file that is written is what theirs had there.
 #include <string>

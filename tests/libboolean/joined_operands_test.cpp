@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Operands that touch but for small gaps.
 #include <cstdint>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soups behind each other, and in other units.
 #include <array>
 #include <cmath>

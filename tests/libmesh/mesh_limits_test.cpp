@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is larger than its numbers tell is refused before it is touched.
 #include <cstdint>
 #include <span>

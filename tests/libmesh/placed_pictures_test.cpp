@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures lie where the first set of texture coordinates says, whatever the materials said.
 #include <array>
 #include <cmath>

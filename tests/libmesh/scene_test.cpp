@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes one by one.
 #include <algorithm>
 #include <gmock/gmock.h>

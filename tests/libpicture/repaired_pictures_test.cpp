@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures of textured meshes before and after their repair differ only where something was
 // repaired. The meshes are those of scripts/make_textured_pictures.py.
 

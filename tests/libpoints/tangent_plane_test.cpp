@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tangent_plane.h"
 
 #include <cmath>

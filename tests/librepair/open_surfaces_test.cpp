@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What bounds nothing gives a solid, or none and a reason: never anything between.
 #include "open_surfaces.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Closed surfaces that overlap, or lie on each other, with faces in common.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles of a terrain stay as they are on walls and a floor.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What tests of pages in a browser share: pages are made and opened, looked at, and compared with the report.
 import {spawnSync} from 'node:child_process';
 import {existsSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Draws the pictures of docs/showing.md#pages-for-browsers: pages of --html in a browser.
 //
 // Usage: node picture_pages.mjs PROGRAMS MESHES FOLDER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares what the package of npm makes of files with what the program makes of them, byte by byte, and how long both take.
 //
 // Usage: node same_bytes.mjs PACKAGE PROGRAM FORMAT[,FORMAT...] FILE... [-- OPTION=VALUE...]

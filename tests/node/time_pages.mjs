@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How large pages of --html are, how soon they are ready, and how fast they draw, without a graphics card.
 //
 // Usage: node time_pages.mjs PROGRAM TRIANGLES...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Uses the package of npm in node as its callers do.
 //
 // Usage: node use_package.mjs PACKAGE MESHES

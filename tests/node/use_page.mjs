@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Opens the page that repairs in a browser, without a network once it is loaded: what it gives back has the bytes of the program.
 //
 // Usage: node use_page.mjs PAGE PROGRAM MESH...

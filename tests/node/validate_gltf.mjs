@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs Khronos' glTF validator on all files of a folder, in one process.
 //
 // Usage: node validate_gltf.mjs FOLDER

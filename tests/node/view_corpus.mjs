@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Opens pages of meshes from elsewhere in a browser, as view_html.mjs does.
 //
 // Usage: node view_corpus.mjs PROGRAMS CORPUS

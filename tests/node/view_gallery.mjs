@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Opens the gallery of repair_folder.py --html in a browser: it shows what the summary says, and stays quick with 10,000 rows.
 //
 // Usage: node view_gallery.mjs MESHREPAIR MESHES

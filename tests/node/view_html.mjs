@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Opens pages of --html in a browser: what they show is what the reports say.
 //
 // Usage: node view_html.mjs PROGRAMS MESHES

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Uses the page of meshrepair --serve in a browser, as somebody who has a broken mesh does.
 //
 // Usage: node view_serve.mjs PROGRAMS MESHES [SCREENSHOT]

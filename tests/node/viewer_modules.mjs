@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the modules of the viewer compute, without a browser.
 //
 // Usage: node --test viewer_modules.mjs

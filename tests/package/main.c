@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* Uses the installed C interface: repairs a cube, which changes nothing about it. */
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Uses the installed libraries: repairs a cube, which changes nothing about it, takes it through
 // OpenMesh, and draws it.
 #include <cmath>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tries the Python package that is installed: the examples of the README, the program, and a folder.
 
 Usage: try_python.py README MESH REPAIRED

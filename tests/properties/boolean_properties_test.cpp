@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Boolean operations on random pairs of solids, of which half share faces, edges or corners.
 #include <algorithm>
 #include <cmath>

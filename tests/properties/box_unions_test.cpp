@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Unions of boxes with integer corners, whose volume is known exactly.
 #include <array>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What holds for every soup, tried on many.
 #include <cmath>
 #include <string>

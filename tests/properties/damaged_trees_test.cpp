@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tree files that are damaged under a right checksum, through the rest of the pipeline.
 #include <array>
 #include <string>

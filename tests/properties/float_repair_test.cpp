@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What holds for every soup with floating predicates, whatever their tolerance.
 #include <array>
 #include <optional>

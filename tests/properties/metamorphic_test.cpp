@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a change of the input must do to the output.
 #include <algorithm>
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random sheets as walls: certified, of the right volume, and everywhere as far from the sheet as
 // was asked for.
 #include <cstdint>

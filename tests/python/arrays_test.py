@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of the Python package: what arrays a mesh may come in, and what comes back.
 
 Usage: arrays_test.py PACKAGES [CLASS]

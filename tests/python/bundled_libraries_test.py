@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of python/bundled_libraries.py.
 
 Usage: bundled_libraries_test.py PROGRAM [CLASS]

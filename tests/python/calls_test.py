@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of the Python package: options, failures, results, and what happens while a call works.
 
 Usage: calls_test.py PACKAGES [CLASS]

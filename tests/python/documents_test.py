@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs the Python in README.md and docs/*.md: blocks that look like a session of Python, one after the other.
 
 Usage: documents_test.py PACKAGES

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of the Python package: files and folders, and running the program.
 
 Usage: files_test.py PACKAGES [CLASS]

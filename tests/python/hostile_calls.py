@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Calls the Python package with arguments that make no sense: each ends well, or with an exception of the package's own.
 
 Usage: hostile_calls.py PACKAGES CALLS [SEED]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Calls repair() many times from four threads: results are the same each time, and memory does not grow.
 
 Usage: many_calls.py PACKAGES CALLS

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Checks the types of the package, as mypy --strict sees them from a script of a user, and runs that script.
 
 Usage: mypy_test.py PACKAGES

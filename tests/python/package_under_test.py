@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Finds the package that a script of tests is called with, and has the meshes that several of them use."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Compares what the Python package makes of files with what the program makes of them, byte by byte.
 
 Usage: same_bytes.py PACKAGES FILE... [-- OPTION=VALUE...]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of the Python package: what is shown: views in notebooks, docstrings.
 
 Usage: showing_test.py PACKAGES [CLASS]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What a user of the package may write: mypy --strict has to find nothing in it. It is run, too."""
 
 from __future__ import annotations

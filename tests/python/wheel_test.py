@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """pip makes wheels of a build, without a network, and what it installs works: for this machine, and with libraries inside.
 
 Usage: wheel_test.py BUILD

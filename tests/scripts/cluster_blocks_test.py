@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/cluster: one mesh repaired in blocks by Slurm and by Snakemake, as this machine does it alone.
 
 Usage: cluster_blocks_test.py MESHREPAIR_BLOCKS [OPTIONS OF UNITTEST]

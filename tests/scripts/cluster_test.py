@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/cluster: a folder repaired by Slurm and by Snakemake, as one run does it.
 
 Usage: cluster_test.py MESHREPAIR [OPTIONS OF UNITTEST]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of bench/compare.py.
 
 Usage: compare_test.py PROGRAMS [OPTIONS OF UNITTEST]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Hard inputs are what they say, and meant.py finds what is not as meant.
 
 Run as: hard_inputs_test.py FOLDER_OF_PROGRAMS [test]

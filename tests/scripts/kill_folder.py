@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Kills repair_folder.py and its workers at random moments, and shows that nothing is lost or half done.
 
 Usage: kill_folder.py MESHREPAIR IN_DIR [KILLS [SEED]]   (default: 200 kills, seed 1)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of the recipes in packaging/, as far as they go without the package managers, and of scripts/fill_recipes.py.
 
 Usage: recipes_test.py BUILD [CLASS]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/repair_folder.py: archives that stand for a folder, and what is hostile in them.
 
 Usage: repair_folder_archives_test.py MESHREPAIR [OPTIONS OF UNITTEST]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/repair_folder.py: files beside the meshes, as libraries, pictures and buffers.
 
 Usage: repair_folder_beside_test.py MESHREPAIR [OPTIONS OF UNITTEST]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the tests of scripts/repair_folder.py share: folders, meshes, and a false meshrepair that fails in all manners."""
 
 import csv

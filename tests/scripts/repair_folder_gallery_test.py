@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/repair_folder.py --html: the gallery, its pictures and pages.
 
 Usage: repair_folder_gallery_test.py MESHREPAIR [OPTIONS OF UNITTEST]

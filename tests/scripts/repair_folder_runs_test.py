@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/repair_folder.py: programs that fail, runs that end early, and what is done again.
 
 Most of them use a false program, which does what the name of its input says.

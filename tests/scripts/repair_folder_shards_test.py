@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/repair_folder.py: lists of files, and shards that work on one folder at the same time.
 
 Usage: repair_folder_shards_test.py MESHREPAIR [OPTIONS OF UNITTEST]

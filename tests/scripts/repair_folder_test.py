@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/repair_folder.py: what comes out, and which files it takes and makes.
 
 What it makes of meshes is tested with the program MESHREPAIR.

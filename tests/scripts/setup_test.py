@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Tests of scripts/setup.sh: what it makes of an npm that fails. Nothing is installed: all programs are false ones."""
 
 import os

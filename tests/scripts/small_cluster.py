@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """For tests: what they need or are skipped without, and a cluster of Slurm on this machine."""
 
 import os

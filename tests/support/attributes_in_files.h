@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Textured solids that are written to files and read, and what has to hold of what was made of
 // them.
 #pragma once

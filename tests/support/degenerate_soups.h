@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soups with the positions that break programs: coplanar, coincident, folded, nearly parallel,
 // touching, thin. All coordinates are integers, all from a seed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The cases of a test of a property at random.
 #pragma once
 

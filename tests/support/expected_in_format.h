@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What has to come back of a soup from a file, as docs/attributes.md says it: written down once
 // more, to compare the readers and writers with.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // glTF files for tests, put together piece by piece, right or wrong.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soups brought to cell graphs, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Polygons of very many corners, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random soups with attributes of all kinds and places, in numbers that every format holds.
 #pragma once
 

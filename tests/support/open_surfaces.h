@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces that bound nothing, or have no two sides.
 #pragma once
 

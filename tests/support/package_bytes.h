@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // 3MF packages and ZIP archives of all kinds, made in code.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files packed by gzip and Zstandard, made by hand where no program would make them.
 #pragma once
 

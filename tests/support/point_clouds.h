@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Samples of closed surfaces, for tests and benchmarks. All from a seed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random and degenerate shapes for property tests, all from a seed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random solids, and pairs of them, for Boolean operations.
 #pragma once
 

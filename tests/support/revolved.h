@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Solids of revolution around the z axis.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes for tests and benchmarks: closed, counter-clockwise seen from outside, unless their name
 // says otherwise. All deterministic.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How many cases a test of a property at random tries.
 #pragma once
 

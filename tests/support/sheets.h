@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random open sheets, and measures of what became of them as walls.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures that every program can read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small soups and the means to read and compare them, for the tests of the file formats.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces of soups, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A folder of its own for each test that needs files, removed at the end.
 #pragma once
 

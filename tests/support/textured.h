@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soups with attributes, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soups with all kinds of attributes, and the means to compare them.
 #pragma once
 

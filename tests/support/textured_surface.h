@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces with attributes, compared with the soup that they were made of.
 #pragma once
 

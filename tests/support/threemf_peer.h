@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // lib3mf, the library of those who make 3MF, for tests of what is written.
 #pragma once
 

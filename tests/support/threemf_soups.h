@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soups with materials, colours and coordinates in textures, as 3MF can hold them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bytes of a .bsp file taken apart, to damage them with a purpose.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soups brought to trees, for tests.
 #pragma once
 

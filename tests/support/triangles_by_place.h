@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes as sets of triangles in space, whatever their indices and their order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An engine whose answers are worth nothing, for tests of what has to hold all the same.
 #pragma once
 

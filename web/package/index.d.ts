@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshrepair: turns any triangle mesh into the boundary of a solid.
 
 /** Bytes of a file: STL, OBJ, OFF, PLY, glTF or 3MF, optionally compressed (.gz, .zst, .zip). */

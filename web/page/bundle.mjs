@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the page, static files, of src/ and the package of npm.
 //
 // Usage: node bundle.mjs PACKAGE VIEWER FOLDER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hands a mesh to the program that serves this page, and shows what it says.
 'use strict';
 (() => {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the page that reports are written with: all of src/ and three.js in one file.
 //
 // Usage: node bundle.mjs FILE

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Repairs, checks and combines meshes with meshrepair, from the sidebar of the 3D view."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What does the work: the Python package meshrepair if Blender's Python has it, else the programs."""
 
 import json

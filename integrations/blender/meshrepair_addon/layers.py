@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What a mesh of Blender carries beside its shape: taken from it, brought onto other triangles, and put back."""
 
 import numpy as np

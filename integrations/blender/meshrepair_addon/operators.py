@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the add-on does."""
 
 import bpy

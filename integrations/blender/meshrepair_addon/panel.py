@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Where the operators are found: the sidebar of the 3D view, beside those of the 3D-Print Toolbox."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Triangles to binary PLY, and back: all that goes between Blender and the programs."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Assertion for our own invariants: active in every build, throws InternalError. Never for input.
 #pragma once
 

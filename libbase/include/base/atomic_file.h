@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writing a file so that it is there in full or not at all.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bytes as text, and back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the memory of large arrays comes from: the system, or what a program puts in its place.
 #pragma once
 

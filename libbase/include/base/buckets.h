@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Entries by buckets, as in the first pass of a radix sort.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers out of binary files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers in decimal, in any locale: std::from_chars and std::to_chars, also where the standard
 // library has these for integers alone. Either way the number that is read is the nearest, and what
 // is written are the fewest digits that are read back as the same bits, laid out alike.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Union-find over 0 ... n - 1. The lowest member stands for its set.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exceptions of the project: one small family, each with a message that a user can act on.
 #pragma once
 

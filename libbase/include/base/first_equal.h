@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which items of a list are equal.
 #pragma once
 

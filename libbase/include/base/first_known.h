@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where new items already are in a long list.
 #pragma once
 

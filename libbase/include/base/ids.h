@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Typed 32-bit ids and vectors that are indexed by them.
 //
 // An id is a position in one particular array. Making each kind its own type lets the compiler

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Work on several threads. This is the only door to oneTBB: nothing else names it. A build with
 // MESHREPAIR_PARALLEL=OFF has the same functions as plain loops, and needs no oneTBB.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a long computation tells its caller where it is, and how the caller stops it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A std::vector whose resize() leaves new items without a value: for those that several threads
 // fill in.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Giving back memory early.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One observer for several threads.
 #pragma once
 

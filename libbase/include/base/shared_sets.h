@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Union-find over 0 ... n - 1 by several threads at once. The lowest member stands for its set, so
 // what comes out does not depend on who comes first.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Seconds and peak memory of each stage.
 #pragma once
 

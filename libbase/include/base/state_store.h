@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where long work keeps what is done, so that another process can go on from there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A growing array of trivially copyable values that is moved by the system's page tables, not by
 // copying.
 //

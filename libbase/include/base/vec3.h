@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The vector type: points, differences and normals.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Union, intersection, difference and symmetric difference of solids (WM 6.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One labelled tree from two (Naylor, Amanatides and Thibault 1990; Lysenko, D'Souza and Shene
 // 2008).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What can be done with two solids as sets of points.
 #pragma once
 

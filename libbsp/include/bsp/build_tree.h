@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a clean soup to its tree (Thibault and Naylor 1987, with spatial cuts near the root).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A soup brought onto the working grid: the exact input of everything that follows.
 #pragma once
 

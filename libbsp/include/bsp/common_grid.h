@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Several soups on one grid, so that what is made of them can be compared exactly.
 #pragma once
 

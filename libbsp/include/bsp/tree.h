@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The binary space partition: planes at the inner nodes, convex regions at the leaves.
 #pragma once
 

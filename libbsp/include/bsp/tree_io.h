@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The .bsp file: a tree with everything that labelling and extracting need.
 //
 // Layout, all numbers little-endian, no padding:

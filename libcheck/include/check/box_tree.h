@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A tree of axis-parallel boxes over any items: which items are near a place, without looking at
 // all.
 #pragma once

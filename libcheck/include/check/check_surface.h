@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Everything that is wrong with a mesh as the boundary of a solid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a surface touches itself along edges.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far are two meshes apart, as surfaces?
 #pragma once
 

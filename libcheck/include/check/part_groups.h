@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which parts of a mesh may have to do with each other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which parts of a closed surface face the wrong way? Exactly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far each of many points is from a mesh: for colours that say so.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles of a mesh meet where they should not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Winding numbers at single places, where no cells tell them.
 #pragma once
 

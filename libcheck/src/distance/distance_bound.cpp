@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The distance to one triangle t of the other mesh is a convex function of the point, so over a
 // piece of a triangle it is largest in a corner of the piece, and the distance to the other mesh is
 // nowhere larger than the largest of the three corners' distances to t. Any t gives a bound; good

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An upper bound on the distance of any point of one mesh from another.
 #pragma once
 

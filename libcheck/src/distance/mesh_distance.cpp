@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points are spread over the first mesh in proportion to area, one in each of as many equal shares
 // of it, and the nearest point of the second is looked up in a tree of its triangles. What is
 // random about a point depends on its number alone, and sums are taken in a fixed order, so that

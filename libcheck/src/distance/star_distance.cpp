@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Both stars have the link as their border, and cover what is inside the border once, seen along
 // the normal. So each point of the new star has one of the old star above or below it, and where
 // edges of neither pass between, the distance along the normal changes linearly. What is left to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "clipped_triangle.h"
 
 #include <algorithm>

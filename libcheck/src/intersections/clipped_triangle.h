@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The part of a triangle in a box and beyond walls, rounded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Boxes around a common corner always meet, so triangles that share one are compared by their
 // directions from it.
 #include "compare_triangles.h"

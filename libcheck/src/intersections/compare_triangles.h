@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Comparisons of the triangles of a soup: all with all, or some with all.
 //
 // The triangles' boxes are put into a tree, and the tree is compared with itself. With a list of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Idea: going round the edge one meets both triangles of each sheet. Two sheets cross if and only
 // if they are met by turns, so brackets tell whether any two do.
 #include "crossing_sheets.h"

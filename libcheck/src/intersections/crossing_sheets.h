@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sheets that pass through one another along an edge that both have.
 #pragma once
 

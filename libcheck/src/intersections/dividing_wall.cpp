@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "dividing_wall.h"
 
 #include <algorithm>

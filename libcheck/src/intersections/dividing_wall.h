@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A plane along a triangle, to tell thin triangles apart that no axis-parallel plane divides.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What comparisons of triangles have found, and how it is put together.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "nearby_part.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of a soup is near some of its triangles, as a soup of its own.
 #pragma once
 

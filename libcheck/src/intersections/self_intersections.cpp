@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <check/internal/triangle_list.h>
 #include <check/self_intersections.h>
 

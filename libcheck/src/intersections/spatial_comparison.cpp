@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Long thin triangles, as those between the tip of a cone and its rim, have boxes that meet nearly
 // all others. So space is cut in halves instead, along one of the triangles where they lie askew,
 // and each half gets the parts of triangles in it, with boxes of these parts alone, until few

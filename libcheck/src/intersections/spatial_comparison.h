@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles meet, where their boxes tell them apart badly?
 #pragma once
 

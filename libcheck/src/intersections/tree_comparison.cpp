@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tree is compared with itself: two nodes whose boxes meet, then their children, down to pairs
 // of triangles, which are tested exactly. The upper part of that walk becomes a list of tasks.
 #include "tree_comparison.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles in a tree of their boxes, compared with each other or with others.
 #pragma once
 

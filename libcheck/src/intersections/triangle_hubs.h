@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vertices and edges with very many triangles, around which boxes tell nothing apart.
 #pragma once
 

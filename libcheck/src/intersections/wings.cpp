@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "wings.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles around edges at which several sheets of a surface meet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "column_ray.h"
 
 #include <exact/double_predicates.h>

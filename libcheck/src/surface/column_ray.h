@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rays that run up the z axis, and which triangles they pass: exactly, and never along an edge.
 //
 // A ray that starts at a corner of a triangle starts beside it instead, by four steps, each smaller

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles face each other across a small distance: gaps between bodies, and walls that are
 // thin. A tree of boxes gives the pairs. Of two that are nearly parallel the overlap is found in
 // the plane of the larger one, by clipping the other against its three sides as Sutherland and

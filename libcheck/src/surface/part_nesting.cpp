@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A point is inside a closed part if a ray from it passes the part an odd number of times. The rays
 // run along the z axis, each from a corner of a triangle of the part in question.
 // Other parts may touch that corner, where inside and outside meet: see column_ray.h.

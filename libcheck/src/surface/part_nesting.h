@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which closed parts of a surface lie inside which others? Exactly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // By the number of corners that the two share:
 //
 //   0  Different planes: if the triangles meet they do so in a segment or a point, each end of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Exact orientation predicates on points whose coordinates are any finite doubles.
 //
 // Properties: swapping two points turns the sign; moving all points by the same exact offset, or

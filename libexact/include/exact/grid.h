@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The working grid: integers of 26 bits over the bounding box of the input.
 //
 // The unit is a power of two and the origin a multiple of it where doubles allow, so that

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Planes with integer coefficients over the working grid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // All planes of a tree, each once.
 #pragma once
 

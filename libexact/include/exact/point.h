@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points in grid coordinates: exactly known, with an approximation for speed.
 #pragma once
 

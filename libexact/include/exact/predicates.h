@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exact predicates: on which side of a plane does a point lie, and which way do three points of
 // it turn?
 //

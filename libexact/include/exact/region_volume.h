@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Does a set of half-spaces have a volume in common? By linear programming in three variables.
 #pragma once
 

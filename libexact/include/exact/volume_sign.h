@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Does a closed surface face outward? Exactly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Signed integers of 128 bits and more, as far as the exact predicates need them.
 //
 // Int128 is the compiler's own. WideInt is two's complement in 64-bit words, lowest first; all its

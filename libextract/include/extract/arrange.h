@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How triangles divide space, without cells: only the triangles are cut.
 //
 // Where all surfaces are closed, space need not be cut to find out what they enclose. Each triangle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The facets between solid and empty cells, as polygons (WM Procedure 1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a tree to its cell complex (WM Procedures 1 and 2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The cell complex: convex cells, the facets between them, their edges and vertices.
 //
 // Notation: every facet lies in a plane and is a simple loop of uses. A use is one facet's passage

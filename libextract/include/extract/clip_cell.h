@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cutting one cell of a complex by a plane (WM 4.2), with a topology that cannot fail.
 #pragma once
 

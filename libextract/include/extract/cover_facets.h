@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which facets are covered by input triangles, exactly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which corners of boundary polygons are one vertex of the output (Gueziec et al. 2001; WM 4.4).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a labelled complex to the mesh of its boundary.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Predicates in floating point with a tolerance (WM 4.2.1), for comparison with the exact ones.
 //
 // The sign of a plane's rounded distance, 0 within a tolerance. A new point is interpolated along

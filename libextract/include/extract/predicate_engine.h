@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the clipper asks about geometry: the only door through which numbers reach the topology.
 #pragma once
 

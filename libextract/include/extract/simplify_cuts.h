@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fewer triangles where cutting left slivers and crumbs, within a bound that holds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The repaired mesh.
 #pragma once
 

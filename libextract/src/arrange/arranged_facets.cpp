@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In this order, each step over all triangles at once:
 //
 //   1  Each pair tells its points and segments.

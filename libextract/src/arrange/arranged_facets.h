@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The facets into which triangles cut each other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "arranged_points.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The points in which triangles meet, each once.
 //
 // A point is named by what it lies on: a corner of the input, an edge and the inside of a triangle,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A chamber is a connected region that no facet divides. Idea: each facet has two sides, and each
 // side lies in one chamber, so chambers are classes of sides. Sides are joined across edges with
 // two facets, and around the other edges, where what is after a facet and before the next one is

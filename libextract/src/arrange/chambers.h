@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Into which connected regions the sheets divide space.
 #pragma once
 

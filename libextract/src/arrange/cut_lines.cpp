@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut_lines.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The segments in which one triangle meets others, and where they meet each other.
 #pragma once
 

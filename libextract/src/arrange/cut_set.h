@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles of a soup that meet others, with their edges and planes.
 #pragma once
 

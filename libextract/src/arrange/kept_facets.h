@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which facets bound the solid, and how they are joined at edges.
 #pragma once
 

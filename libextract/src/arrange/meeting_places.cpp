@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Not coplanar: what they have in common lies in the line of the two planes, and each end of it is
 // a corner of one in the other, or where a side of one, not in the other's plane, passes the other.
 #include "meeting_places.h"

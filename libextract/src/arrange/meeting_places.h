@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where exactly two triangles meet, told by the corners, sides and insides of both.
 #pragma once
 

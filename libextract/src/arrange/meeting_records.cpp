@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "meeting_records.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What pairs of triangles tell about the points and segments in which they meet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sheet_edges.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // All facets of a soup whose triangles were cut, and in which order they lie around their edges.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which of the kept facets may become one region, and which points its outline needs.
 #pragma once
 

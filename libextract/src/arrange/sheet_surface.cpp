@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the kept facets of an arrangement to the triangles of the result. Facets of one region,
 // which lie in one triangle of the input or in several of one plane, become one planar mesh:
 // vertices inside the region and inside straight lines go, and what is left is made constrained

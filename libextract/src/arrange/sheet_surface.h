@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the facets that are kept to triangles, as few as their outlines allow.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A piece is what is connected in one triangle. Pieces that lie in one place share all edges.
 #include "stacks.h"
 

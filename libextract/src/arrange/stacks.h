@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pieces of triangles that lie in one place.
 #pragma once
 

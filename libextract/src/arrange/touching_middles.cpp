@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "touching_middles.h"
 
 #include <algorithm>

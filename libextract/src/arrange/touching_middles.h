@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Middle vertices of edges along which a solid touches itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The invariants of a cell complex, as code: used by tests and by the debug mode of build_cells().
 #pragma once
 

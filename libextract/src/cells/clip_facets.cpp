@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Facet clipping (WM 4.2.2): every facet with vertices on both sides is divided along vertices on
 // the plane.
 #include <algorithm>

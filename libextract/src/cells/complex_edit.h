@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The only functions that change the topology of a complex. Each leaves all its invariants intact.
 #pragma once
 

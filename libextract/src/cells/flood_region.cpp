@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Region flooding and region processing (WM 4.2.3, Procedure 3), for when the signs are not those
 // of a plane and a convex cell.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cell separation (WM 4.2.3).
 //
 // After facet clipping no edge joins the two sides. With right answers each facet is on one side,

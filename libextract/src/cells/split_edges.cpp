@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edge splitting (WM 4.2.1): the only step in which numbers decide.
 #include <extract/clip_cell.h>
 

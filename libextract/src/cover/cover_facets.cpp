@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coverage of facets.
 //
 // Idea: the triangles of a node ride on the facets that the node's plane made, so each facet has a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "facet_judge.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the triangles of a facet cover of it, and where to cut it if that is a part. Changes
 // nothing, so that many facets can be judged at once.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cutting at singular edges and vertices.
 //
 // Steps: pair the sides of polygons along each edge of the complex (two sides: with each other;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Merging of facets.
 //
 // Why a vertex between two regions may go: the edges on both sides of it lie in the planes of both

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which boundary facets become one polygon of the output, and which vertices go.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cut_simplifier.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Moves points of a mesh onto neighbours, the nearest first, within a bound.
 #pragma once
 

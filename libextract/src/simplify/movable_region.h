@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What moving points of a mesh can change, and what has to be looked at for it.
 #pragma once
 

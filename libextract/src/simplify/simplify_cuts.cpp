@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where surfaces cross at a small angle, cutting leaves slivers that exact merging does not take
 // away. Edges are collapsed onto one of their ends within a bound on the distance of the two
 // surfaces (J. Cohen, D. Manocha and M. Olano: Simplifying polygonal models using successive

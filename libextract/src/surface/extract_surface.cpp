@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mesh of a solid given by its cells (WM 4.4). The paper takes every facet between a solid and
 // an empty cell. Here such facets are merged again into the polygons that the input's triangles
 // left (merge_facets.h), singular edges and vertices are cut apart (cut_nonmanifold.h), and each

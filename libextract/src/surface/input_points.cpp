@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "input_points.h"
 
 #include <cmath>

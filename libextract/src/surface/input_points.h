@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finding the place of a complex vertex in the input's own coordinates.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "loose_regions.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Regions that are no polygons, as there are where predicates were wrong: found before and after
 // they are triangulated.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From one merged region of the boundary to its triangles.
 #pragma once
 

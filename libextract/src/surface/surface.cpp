@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <base/ids.h>
 #include <extract/surface.h>
 #include <mesh/append_soup.h>

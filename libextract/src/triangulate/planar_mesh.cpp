@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Taking vertices out of a planar triangulation.
 //
 // The triangles around a vertex v fill a polygon P that is star-shaped from v; v is inside it or,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A triangulated region of a plane to which vertices and edges can be added, and from which
 // vertices can be taken away, exactly.
 #pragma once

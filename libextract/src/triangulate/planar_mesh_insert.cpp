@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Adding vertices and edges to a planar triangulation.
 //
 // A vertex splits the triangle or the edge that it lies in. An edge is made by flipping those that

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Puts soups behind each other.
 #pragma once
 

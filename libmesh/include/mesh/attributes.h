@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What triangles carry besides the places of their corners: texture coordinates, normals, colours,
 // materials, groups.
 #pragma once

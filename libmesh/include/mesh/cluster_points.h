@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fewer triangles that look alike from afar: for pictures, not for solids.
 #pragma once
 

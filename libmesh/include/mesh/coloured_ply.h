@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh with a colour on each triangle, to be looked at.
 #pragma once
 

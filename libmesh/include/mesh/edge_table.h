@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles meet at which edge.
 #pragma once
 

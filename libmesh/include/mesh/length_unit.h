@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a length of 1 is in a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of attributes a file has no place for: words for people.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The largest meshes and point clouds: points, and the sides of triangles, three to each, are
 // numbered in 32 bits, and one number stands for none.
 #pragma once

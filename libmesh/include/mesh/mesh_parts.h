@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parts of a closed mesh, and how large each is.
 #pragma once
 

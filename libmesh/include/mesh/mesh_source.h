@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bytes of an input file together with the name that messages use, and the words of messages.
 #pragma once
 

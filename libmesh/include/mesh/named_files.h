@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files that a mesh file names: buffers, libraries of materials, pictures.
 #pragma once
 

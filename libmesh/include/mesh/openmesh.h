@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Adaptor between soups and OpenMesh's half-edge mesh, for programs that use OpenMesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What files are packed in, beside the formats of meshes: gzip (.gz) and Zstandard (.zst), and ZIP
 // archives, of which one mesh is read.
 #pragma once

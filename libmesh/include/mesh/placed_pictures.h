@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the pictures of materials lie on triangles.
 #pragma once
 

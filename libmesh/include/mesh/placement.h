@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where an instance of a mesh stands.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The point cloud: what the readers of points return and the local triangulation takes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading of point clouds: XYZ, PTS, PWN, PCD, and the points of PLY, OBJ, OFF and STL.
 //
 // As with meshes (soup_io.h), the content tells the format first, then the extension; the bytes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What readers of point clouds are asked, and what they return.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the numbers in a file can hold.
 #pragma once
 

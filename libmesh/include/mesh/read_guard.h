@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a reader asks as it goes: whether it may go on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which mesh format a file is in.
 #pragma once
 

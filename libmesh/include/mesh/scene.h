@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The meshes of a file one by one, and where they stand.
 #pragma once
 

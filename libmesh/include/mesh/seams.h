@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where what triangles carry breaks off.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangle soup: what every reader returns and every writer takes.
 #pragma once
 

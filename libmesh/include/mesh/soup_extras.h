@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is written of a soup besides points and triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The formats of triangle soups, and what each can hold.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading and writing of triangle soups: STL, OBJ, OFF and PLY in all their dialects, glTF, 3MF.
 //
 // Reading: the format is told by content first, then by extension. Coordinates are kept in double.

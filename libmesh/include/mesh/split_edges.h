@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // More triangles, for values that are known at corners alone.
 #pragma once
 

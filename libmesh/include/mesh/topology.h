@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What an indexed triangle mesh is as a surface: the one oracle for input, output and tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cuts a polygon in space into triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Welding: equal points become one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How many triangles a size of cell leaves is found by trying: about two for each cell that the
 // surface passes, so their number falls with the square of the size.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In rounds: each halves all edges that are longer than a limit, which falls to the length that is
 // asked for. A triangle with one, two or three such edges becomes two, three or four.
 #include <algorithm>

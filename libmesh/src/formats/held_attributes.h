@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Attributes as a format has them.
 #pragma once
 

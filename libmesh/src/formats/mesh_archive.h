@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A ZIP archive that holds one mesh, and the files that the mesh names.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mesh_readers.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which mesh format a source is in, and the reader that it needs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "opened_file.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A file that is to be read: its bytes, unpacked if they are packed, and where they come from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The facade: tells point clouds from meshes, calls the reader of a format, and judges what it
 // found.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The facade: calls the reader or writer of a format.
 #include <algorithm>
 #include <system_error>

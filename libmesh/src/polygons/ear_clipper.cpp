@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ear clipping.
 //
 // Idea: go around the polygon; a corner that turns to the left and has no reflex corner in its

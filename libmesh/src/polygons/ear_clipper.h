@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cuts a polygon in the plane into triangles, ear by ear.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sides are put into buckets by the lower end of their edges, some thousand ends to each; in one
 // bucket they are counted by that end, of which each has three on average, and those of one are
 // sorted by the other end.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From places in space to places in a picture.
 #pragma once
 

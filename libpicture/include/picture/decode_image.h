@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures that others made, from the bytes of their files.
 #pragma once
 

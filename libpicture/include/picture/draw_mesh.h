@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh as a picture.
 //
 // Rays are parallel, all surfaces are dull and opaque, and light comes from the upper left of

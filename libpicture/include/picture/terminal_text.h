@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures as control sequences, which some terminals draw between lines of text.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A picture that is spread over a surface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The pictures that the materials of a mesh have.
 #pragma once
 

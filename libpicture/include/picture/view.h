@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From where a mesh is looked at.
 #pragma once
 

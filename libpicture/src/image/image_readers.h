@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures in the formats that others write: JPEG by libjpeg, PNG by libpng.
 #pragma once
 

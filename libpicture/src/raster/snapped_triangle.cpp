@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "raster/snapped_triangle.h"
 
 #include <algorithm>

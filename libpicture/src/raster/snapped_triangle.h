@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles on a fixed grid of the picture, and which samples they cover: in whole numbers, so that
 // triangles with a common edge leave no sample out between them, and share none.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangle is seen at each sample of a picture.
 #pragma once
 

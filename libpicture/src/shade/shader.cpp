@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "shade/shader.h"
 
 #include <algorithm>

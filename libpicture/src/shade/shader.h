@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What light comes from a place of a triangle.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a point cloud to a triangle soup: the local triangulation that a repair then makes a solid
 // of (WM 6.3).
 #pragma once

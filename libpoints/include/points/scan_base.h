@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A skirt and a floor under a scan that is open below: a terrain, a facade laid flat, a relief.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether a scan is that of a ground seen from above, which a base makes a solid of (scan_base.h).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The cells and the links between them: all that the inside rules look at.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Making sure that the coordinates as they are written bound a solid, and mending them where not:
 // what can be asked, and what is told.
 #pragma once

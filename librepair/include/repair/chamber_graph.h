@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The chambers of an arrangement as the cells that inside rules look at.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What became of each triangle of the input, and where each of the result comes from.
 #pragma once
 

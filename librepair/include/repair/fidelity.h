@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far the result of a repair is from its input.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles over the holes of a soup.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which cells are solid.
 #pragma once
 

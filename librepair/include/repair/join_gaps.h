@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies that touch but for small gaps are brought together.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which solids of a repaired surface stay.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Turning the triangles of each part the same way round.
 #pragma once
 

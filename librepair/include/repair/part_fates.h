@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What became of the input's triangles and parts.
 #pragma once
 

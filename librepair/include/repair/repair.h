@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // repair() makes the boundary of a solid of any soup of triangles, as one call or in its three
 // steps.
 //

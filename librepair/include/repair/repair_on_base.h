@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From an open surface, such as a terrain's triangles (TIN), to a solid that stands on a floor.
 //
 //   ScanBaseOptions base;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What can be asked of a repair.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a point cloud to the boundary of a solid: the local triangulation and its repair. Where the
 // points enclose nothing as they are, smoother ones are tried, and a base below them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a repair found, decided and did.
 #pragma once
 

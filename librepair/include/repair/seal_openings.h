@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Openings that a ball cannot pass.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The two global optimisations: solidity (Murali and Funkhouser 1997) and winding.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open sheets become walls.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Filling slits and dropping fins that are thinner than numbers can tell.
 #pragma once
 

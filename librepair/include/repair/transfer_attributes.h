@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the triangles of the input carry, brought onto those of the result.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes that need no cells.
 #pragma once
 

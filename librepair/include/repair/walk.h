@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exact answer, where there is one: walking from infinity through the cells and counting.
 #pragma once
 

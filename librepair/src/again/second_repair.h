@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A repair of what another one made, with triangles that were added to it.
 #pragma once
 

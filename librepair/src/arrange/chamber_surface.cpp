@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "chamber_surface.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The surface between solid and empty without cells: triangles that meet are cut in their own
 // planes.
 #pragma once

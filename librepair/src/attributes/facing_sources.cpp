@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "facing_sources.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which of several triangles in one place a triangle of the result has its attributes from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What triangles that close a gap carry: it is taken from the rim.
 #pragma once
 

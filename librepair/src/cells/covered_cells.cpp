@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "covered_cells.h"
 
 #include <optional>

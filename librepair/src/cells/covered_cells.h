@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The cells of a soup, and what covers their facets.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Certification.
 //
 // Every decision was exact for points on the working grid and for exact intersections of planes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A surface on its way to its certificate.
 #pragma once
 

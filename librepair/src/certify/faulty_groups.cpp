@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "faulty_groups.h"
 
 #include <check/internal/triangle_list.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which groups of parts of a surface have faults.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Moving points until no triangle around them is at fault.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "separate_copies.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keeping points of one place apart that a file format without indices would join.
 #pragma once
 

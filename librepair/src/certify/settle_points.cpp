@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "settle_points.h"
 
 #include <algorithm>

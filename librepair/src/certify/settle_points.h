@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where points come to lie that rounding moved: input points where everything was decided, others a
 // few units in the last place beside it.
 #pragma once

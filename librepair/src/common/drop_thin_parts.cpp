@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "drop_thin_parts.h"
 
 #include <algorithm>

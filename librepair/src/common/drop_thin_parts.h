@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Taking away parts that are too thin, or that rounding turned inside out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles around an edge, in the order in which one meets them going round it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "minimum_cut.h"
 
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parting the nodes of a graph in two at least cost.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles are cut along edges that lie in them, such that what two of them have in common is cut
 // the same way.
 #pragma once

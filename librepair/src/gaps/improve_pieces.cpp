@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "improve_pieces.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles of a flat region become less thin.
 #pragma once
 

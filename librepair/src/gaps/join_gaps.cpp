@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gaps are joined in the soup, before anything else: what comes after finds copies of triangles,
 // which it handles exactly.
 //

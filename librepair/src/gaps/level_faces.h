@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Flat faces that are near each other come to lie in one plane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh some of whose edges and faces have points of other ones on them.
 #pragma once
 

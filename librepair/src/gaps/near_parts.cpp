@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is near becomes the same, in the order of its dimension: corners near corners become one,
 // then corners near edges come to lie on them, corners near faces come to lie in them, and edges
 // that pass near each other get a corner in common. What one step makes may bring more together, so

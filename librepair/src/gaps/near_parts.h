@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Corners, edges and faces that are near each other come to have the same corners.
 #pragma once
 

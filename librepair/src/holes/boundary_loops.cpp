@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "boundary_loops.h"
 
 #include <algorithm>

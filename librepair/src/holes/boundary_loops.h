@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The closed walks along the border of a soup.
 #pragma once
 

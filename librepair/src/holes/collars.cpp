@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "collars.h"
 
 #include <algorithm>

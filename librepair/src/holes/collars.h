@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The surface around each hole.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A flat patch over a hole in something round is a facet that was not there. So the patch gets new
 // points (refine_patch.h), which are then placed where the sum of squared bending is least, the
 // triangles around the rim held: one sparse linear system, L^T A^-1 L x = b, with the cotangent

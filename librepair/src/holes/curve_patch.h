@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A patch that goes on as the surface around the hole does.
 #pragma once
 

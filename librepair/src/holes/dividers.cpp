@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Idea: each triangle has two faces, and where triangles meet at an edge, the faces that look at
 // each other across the space between two neighbours belong together. In an open box with dividers
 // that gives each compartment a surface of its own, and all of them another one, seen from outside.

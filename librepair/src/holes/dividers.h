@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walls that divide the inside of an open box, and end at nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which rims of holes face each other across a gap.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The openings that lie inside a flange: a flat or wavy ring that a cup ends in.
 #pragma once
 

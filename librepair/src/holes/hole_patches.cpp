@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Idea: a hole is closed by the triangulation of its rim that has the least area and hardly folds
 // (loop_triangulation.h); what such a patch crosses is resolved later, by cutting, so it need not
 // be free of intersections. The work is in what is a hole and what is not:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangulation of a loop by a dynamic programme over its chords (G. Klincsek 1980; G. Barequet
 // and M. Sharir 1995): the best triangulation between the points i and j is that with the best
 // third corner in between. The cost is the area, and for an edge whose two triangles fold over each

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangulations with little area and few folds: of a closed loop in space, and of the ring between
 // two.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "new_points.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points that are put into a clean soup.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "notches.h"
 
 #include <algorithm>

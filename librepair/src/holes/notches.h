@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Notches in the rim of a hole: they are filled before it is joined with another one, as a ring
 // would run through them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "refine_patch.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // New points inside a patch, at its rim as dense as those of the rim.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The rim of a hole, as the triangulations over it see it.
 #pragma once
 

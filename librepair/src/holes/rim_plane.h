@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How flat a rim is, and how steeply the surface arrives there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which rims are those of open sheets, and not of holes in something hollow: by how the surface
 // arrives there, and by how large the hole is.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The flood from infinity (WM 6.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which cells are solid, by the rule that was asked for:
 //
 // - winding: the winding number of a cell, from a walk over all walls; where walls contradict each

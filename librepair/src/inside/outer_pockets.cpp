@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "outer_pockets.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pieces of space that the surface winds around the wrong way.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "solidity_system.h"
 
 #include <algorithm>

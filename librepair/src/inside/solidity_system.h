@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sparse system of a quadratic energy over the cells, those outside fixed, and its solution by
 // conjugate gradients with a diagonal preconditioner, on several threads.
 #pragma once

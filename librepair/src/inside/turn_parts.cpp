@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which parts are to be turned round?
 //
 // Idea: a shell that faces inward is the wall of a cavity, or inside out. Doubt arises only where a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parts that are inside out, and parts that do not tell which way is out: geometry decides.
 #pragma once
 

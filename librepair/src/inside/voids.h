@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hollow spaces that no way leads into from outside.
 #pragma once
 

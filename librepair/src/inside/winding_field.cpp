@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "winding_field.h"
 
 #include <repair/solidity.h>

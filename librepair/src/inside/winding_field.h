@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The winding numbers of the cells, by the walk or, where that contradicts itself, by the solver.
 #pragma once
 

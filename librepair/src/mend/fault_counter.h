@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How many triangles are at fault while a few of them are changed, of a large mesh at few places.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A local search. For each pair of triangles at fault all small edits around it are tried: a
 // corner, an edge or a triangle moved along the normal of one of the two by 1 to 128 steps of the
 // numbers, a corner collapsed onto a neighbour, an edge flipped. The one that leaves the fewest

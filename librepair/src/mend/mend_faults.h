@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Taking away what rounding made intersect or lose its area, place by place.
 #pragma once
 

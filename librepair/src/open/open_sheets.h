@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sheets that enclose nothing, and solid regions around which too little is closed.
 #pragma once
 

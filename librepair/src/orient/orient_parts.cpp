@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Orientation of parts.
 //
 // Idea: a piece, connected through edges with exactly two triangles, can only be turned as a whole,

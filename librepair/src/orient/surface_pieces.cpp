@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "surface_pieces.h"
 
 #include <algorithm>

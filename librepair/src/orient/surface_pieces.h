@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pieces of surface that can only be turned round as a whole.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sets of things that can be turned round, of which one knows how they are turned to each other.
 #pragma once
 

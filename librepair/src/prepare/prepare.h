@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a soup to what space is divided by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A surface with two sides is there twice, once facing each way, and winds around nothing. Where
 // both copies have the same triangles, clean_soup() joins them. Here are those that do not: cut
 // along other diagonals, and apart by rounding.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces that are there twice, one layer on the other: game engines and their exporters give each
 // face a copy that faces the other way. Copies with the same corners clean_soup() joins; these are
 // those that it does not see.

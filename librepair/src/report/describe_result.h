@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the report says of the surface that a repair ends with.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The result says of each of its triangles which one of the input it lies in. Of those that it does
 // not name, the places of their pieces tell, which are known for each triangle of the clean soup.
 #include <algorithm>

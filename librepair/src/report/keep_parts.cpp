@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Idea: the nesting of closed parts tells solids from voids: a part with an even number of others
 // around it is the shell of a solid, one with an odd number the wall of a void in the solid whose
 // shell is the innermost part around it. So parts come and go in groups, a shell with its walls.

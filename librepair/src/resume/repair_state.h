@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the states of a repair are made of.
 //
 // fields_of() names all members of a type, or the compiler complains: none is forgotten when one is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The states of one repair in a store.
 #pragma once
 

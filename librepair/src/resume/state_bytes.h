@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Values as bytes, for the same program to read. What a value of several members is made of is said
 // by fields_of(), which gives references to them.
 #pragma once

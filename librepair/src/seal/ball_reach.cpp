@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ball_reach.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a ball comes to that rolls around a surface from outside, and what lies deep behind.
 #pragma once
 

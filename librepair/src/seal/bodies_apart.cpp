@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bodies_apart.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies so far from each other that a ball rolls around each as if it were alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What lies behind openings of a solid becomes solid: exactly, once it is known where they are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the inner wall of a body is found (what it is, the header says):
 //
 // 1. Samples, more where triangles are large, are looked at along rays to all sides: seen from

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies that are hollow by mistake: an inner wall follows the outer one, and is joined to it
 // around pinholes and nowhere else.
 //

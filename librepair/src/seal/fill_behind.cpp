@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A minimum cut: chambers are nodes, and faces of the lattice between them cost their area. Where
 // the ball comes is on the one side, what markers say is behind on the other one. As chambers are
 // exact, what the cut parts is parted, whatever the cubes had missed.

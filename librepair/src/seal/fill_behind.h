@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which chambers lie behind openings, once a lattice divides these.
 #pragma once
 

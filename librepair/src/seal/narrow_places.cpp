@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An octree of bricks: a part of space is divided as long as triangles near it may face each other.
 // Walls of a solid, two faces of a fold outward and what is flat or hardly curved do not; so of a
 // surface hardly more is left than its narrow places.

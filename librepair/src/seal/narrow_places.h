@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where triangles that face each other are near each other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "openings.h"
 
 #include <algorithm>

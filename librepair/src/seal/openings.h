@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where openings are that a ball of one size cannot pass.
 #pragma once
 

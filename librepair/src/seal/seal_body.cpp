@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "seal_body.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The openings of one body, sealed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cubes around the places where a way is closed off, as triangles that divide space there.
 #pragma once
 

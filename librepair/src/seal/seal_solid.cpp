@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From outside to inside:
 //
 // - Bodies that are far from each other are sealed one by one: bodies_apart.h, seal_body.h.

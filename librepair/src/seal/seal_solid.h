@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a ball cannot come to becomes solid, and so do bodies that are hollow by mistake.
 #pragma once
 

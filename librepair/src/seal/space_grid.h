@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Space around a surface as equal cubes, as far as they are near it.
 //
 // Cubes are made in bricks of 8 x 8 x 8, and only those bricks that come near a triangle. All

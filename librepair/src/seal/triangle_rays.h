@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a ray from a triangle meets first. In doubles: to judge what a surface looks like, not to
 // decide what is inside of it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Spaces that may lie behind narrow openings: a quick look, before these are looked for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open edges that lie on each other, but end at other corners: slits without a gap, which dropping
 // triangles without area leaves.
 #pragma once

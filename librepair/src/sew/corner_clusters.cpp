@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "corner_clusters.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Corners that become one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edges of a clean soup by the lines that they are on, exactly.
 #pragma once
 

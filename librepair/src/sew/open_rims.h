@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The open edges of a soup, and the corners on them.
 #pragma once
 

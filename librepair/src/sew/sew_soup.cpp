@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sewing brings open edges together that nearly meet, before holes are closed: corners near each
 // other become one in their middle, and a corner near an open edge splits it. How far is decided
 // once for the whole mesh. Each corner is asked how near the nearest strange edge is, one that no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles get corners that lie beside their open edges.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open edges that lie near a corner, but are not its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Slits and fins of a solid that are thinner than its numbers tell.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "thin_cell_graph.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How thin cells are, and the thin cells near the boundary of a solid, as a graph whose minimum cut
 // says which are solid.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Idea: faces that nearly coincide, as those of a copy that was turned and turned back, leave a
 // stack of thin cells, each with triangles on both sides. No cell of a stack may be better off
 // alone on the other side. So all thin cells near the boundary are labelled at once: what is solid

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which cells are solid: by the inside rule, where a cell is closed by itself or stands open.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the surface of the best attempt to one that passes the test, or comes as near to it as was
 // found. From the cheapest means to the dearest; each begins where the one before has left faults:
 //

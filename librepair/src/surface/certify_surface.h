@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The loop that ends with a certificate, or without one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What becomes of a surface once it is extracted.
 #include <limits>
 #include <optional>

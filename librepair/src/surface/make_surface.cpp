@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where sheets are nearer to each other than numbers tell, a surface may not be certified at once.
 // Then it is made again in other ways, which are listed, and the one with the fewest faults is
 // taken.

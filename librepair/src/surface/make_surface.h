@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From labelled cells to a surface that is certified.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "simplify_surface.h"
 
 #include <cstdint>

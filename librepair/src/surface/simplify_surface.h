@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Leaving out the corners that only cutting made.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A wall that is as thick everywhere has its corners where the offset planes of the triangles
 // around them meet. Of more than three planes no point is in all, so each corner gets the vector
 // that least squares find, each plane weighted by the angle of its triangle there, and drawn a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the corners of a sheet's triangles go when the sheet becomes a wall.
 #pragma once
 

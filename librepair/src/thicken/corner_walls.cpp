@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // At a point where the sheet has a tip, its walls leave open what is nearest to the point: the
 // directions that lead away from all edges there, the normal cone. The hull of the folds' ends and
 // of some of these directions fills it. All of it is within the ball around the point, and reaches

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walls around the points of sheets at which several folds meet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles are of sheets that become walls.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Around an edge the triangles have directions, and so have the two sides of each. Between two
 // triangles that follow each other there is a gap. Where it is wider than half a turn, the walls of
 // their sides leave a wedge open between them, which is filled by what is as far from the edge as

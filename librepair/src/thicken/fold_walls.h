@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walls around the edges of sheets at which the walls of triangles do not go on in each other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "hull_walls.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Convex pieces of walls, and the convex hulls that they are.
 #pragma once
 

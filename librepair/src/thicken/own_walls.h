@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walls of triangles whose shared walls do not go all the way.
 #pragma once
 

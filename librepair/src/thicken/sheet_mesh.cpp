@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sheet_mesh.h"
 
 #include <algorithm>

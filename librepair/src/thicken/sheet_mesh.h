@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sheets of a soup as a mesh of their own, whose triangles are turned alike.
 #pragma once
 

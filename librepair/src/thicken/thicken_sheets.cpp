@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A wall is made of pieces, each the surface of a body that does not turn itself inside out: so no
 // place is wound around the wrong way, and what is wound around at all is their union, however they
 // lie to each other.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "unite_walls.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From what a repair left of a soup to the same with walls for its sheets.
 #pragma once
 

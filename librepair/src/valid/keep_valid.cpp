@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "keep_valid.h"
 
 #include <algorithm>

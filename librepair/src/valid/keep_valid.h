@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Repairs that need no cells. None of these does anything where RepairOptions::all_cells asks for
 // cells; where they give a surface, the report is complete but for its stages.
 #pragma once

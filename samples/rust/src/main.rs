@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 //! Repairs a cube that lacks a side.
 mod meshrepair;
 

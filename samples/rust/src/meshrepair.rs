@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 //! A thin, safe layer over meshrepair.h: what this sample needs of it.
 use std::ffi::{c_char, c_int, CStr, CString};
 use std::ptr;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The list of a folder's meshes. Only the rows in sight are in the document, so that 10,000 of them scroll as 100 do.
 'use strict';
 (() => {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "intersections/spatial_comparison.h"
 
 #include <array>

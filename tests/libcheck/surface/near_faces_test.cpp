@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Faces that nearly touch.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cells/check_complex.h"
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Complexes made by predicates that may be wrong: cells, cover and surface stay sound.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "simplify/movable_region.h"
 
 #include <algorithm>

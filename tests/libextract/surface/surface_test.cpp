@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces that are taken apart and put together.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "triangulate/planar_mesh.h"
 
 #include <array>

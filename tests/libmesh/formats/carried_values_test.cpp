@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Attributes come back bit for bit from every format that holds them.
 #include <algorithm>
 #include <cstring>

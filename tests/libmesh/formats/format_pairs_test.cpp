@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From every format to every other: what the second can hold of what was read from the first comes
 // back bit for bit.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is said of what a format has no place for.
 #include <gmock/gmock.h>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a mesh names lies beside it: beside the packed file, or in the archive.
 #include <filesystem>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mesh files as they occur in the wild, made by a program of their own. The environment variable
 // MESHREPAIR_ODD_INPUTS names the folder that holds them and expect.json, whose entries read
 //   "NAME": {"t": TRIANGLES, "v": POINTS or null, "note": "..."}

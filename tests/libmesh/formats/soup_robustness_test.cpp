@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Broken files: whatever the bytes, reading gives a valid soup or InputError.
 #include <random>
 #include <string>

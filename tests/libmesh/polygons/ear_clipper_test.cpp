@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "polygons/ear_clipper.h"
 
 #include <algorithm>

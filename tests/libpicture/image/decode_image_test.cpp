@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>

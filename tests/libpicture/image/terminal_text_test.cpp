@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "picture/terminal_text.h"
 
 #include <algorithm>

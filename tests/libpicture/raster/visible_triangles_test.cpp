@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "raster/visible_triangles.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Closed surfaces, however they cross: what comes out without cells is what cells would have given.
 #include "arrange/chamber_surface.h"
 

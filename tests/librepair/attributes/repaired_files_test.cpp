@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Textured solids are read from a file, repaired, written and read back: what is on the surface is
 // what the file had there.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What walls of sheets carry.
 #include <algorithm>
 #include <array>

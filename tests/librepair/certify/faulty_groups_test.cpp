@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "certify/faulty_groups.h"
 
 #include <array>

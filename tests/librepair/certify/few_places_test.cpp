@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is repaired again where it is: few places, each group of parts by itself.
 #include <cstdint>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "certify/settle_points.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "common/drop_thin_parts.h"
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "common/minimum_cut.h"
 
 #include <cstddef>

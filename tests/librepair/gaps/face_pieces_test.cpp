@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles in pieces.
 #include "gaps/face_pieces.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies that touch but for small gaps.
 #include <array>
 #include <cmath>

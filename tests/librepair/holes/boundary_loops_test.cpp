@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "holes/boundary_loops.h"
 
 #include <algorithm>

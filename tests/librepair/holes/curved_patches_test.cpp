@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Patches that go on as the surface around the hole does.
 #include <algorithm>
 #include <cmath>

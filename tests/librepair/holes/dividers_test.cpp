@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "holes/dividers.h"
 
 #include <algorithm>

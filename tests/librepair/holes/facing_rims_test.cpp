@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walls of vessels that have lost the rim between them.
 #include <cmath>
 #include <numbers>

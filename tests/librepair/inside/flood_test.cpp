@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "inside/flood.h"
 
 #include <string>

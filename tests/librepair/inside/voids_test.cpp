@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "inside/voids.h"
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mend/fault_counter.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mend/mend_faults.h"
 
 #include <algorithm>

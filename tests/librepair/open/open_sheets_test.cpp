@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open sheets that are flat but for rounding, or hardly bent, enclose nothing, however they are
 // turned.
 

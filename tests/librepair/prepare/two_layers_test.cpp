@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A surface that is there twice, the copy facing inward, is one surface.
 
 #include "prepare/two_layers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a result has in common with what was given.
 #include <utility>
 

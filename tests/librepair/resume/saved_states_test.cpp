@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "resume/saved_states.h"
 
 #include <functional>

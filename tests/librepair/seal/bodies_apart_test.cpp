@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies with room between them, and others.
 #include "seal/bodies_apart.h"
 

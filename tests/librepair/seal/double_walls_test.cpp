@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies that are hollow by mistake become full, and others stay as they are.
 #include "seal/double_walls.h"
 

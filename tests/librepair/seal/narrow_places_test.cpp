@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "seal/narrow_places.h"
 
 #include <Eigen/Geometry>

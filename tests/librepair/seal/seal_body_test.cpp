@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A body whose openings cannot be sealed stays as it is.
 #include "seal/seal_body.h"
 

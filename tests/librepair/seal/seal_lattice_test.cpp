@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "seal/seal_lattice.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "seal/wide_spaces.h"
 
 #include <gtest/gtest.h>

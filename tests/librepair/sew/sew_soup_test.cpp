@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open edges that nearly meet.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is closed by itself does not change for open sheets beside it.
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What rounds of certification do, and what they leave alone.
 #include "surface/certify_surface.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes that are solids once cleaned, closed and turned: no cells are made of them, and what comes
 // out is what the cells would have given.
 #include <algorithm>

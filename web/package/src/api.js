@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The calls of the package, for whichever platform.
 
 import {MeshRepairError, usage} from './errors.js';

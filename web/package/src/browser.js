@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshrepair for browsers and what bundles for them.
 import {makeApi} from './api.js';
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The calls, as the worker does them: each takes a request, plain data, and gives an answer, plain data, too.
 
 // Frees what was made for a call, whatever becomes of it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a call fails with, by the exit codes of the programs.
 
 const NAMES = {2: 'usage', 3: 'input', 4: 'limit', 5: 'no_solid', 6: 'output', 70: 'internal', 130: 'interrupted'};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C interface of meshrepair as functions of JavaScript: strings, arrays and files go in and out of the memory of the module.
 
 import createModule from './meshrepair.mjs';

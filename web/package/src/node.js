@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshrepair for node.
 import {readFile} from 'node:fs/promises';
 import {Worker} from 'node:worker_threads';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Workers: one for each call at a time. One that is done waits for the next call, unless it has taken much memory, which a module never
 // gives back. To cancel is to terminate.
 

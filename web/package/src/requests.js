@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What callers give, as requests for the worker: plain data, checked as far as types go. What options there are, the module knows.
 
 import {usage} from './errors.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The worker's side: starts the module that it is given, and answers one request after the other.
 
 import {Calls} from './calls.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The worker of browsers.
 import {serve} from './serve.js';
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The worker of node.
 import {webcrypto} from 'node:crypto';
 import {parentPort} from 'node:worker_threads';

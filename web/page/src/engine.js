@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What checks and repairs for the page: the package, in a worker of this browser. Another engine may take its place, a server say, that
 // has the same three functions.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page: a file goes in, is checked at once and shown, is repaired and taken home. It holds no geometry.
 
 import {formats} from 'meshrepair';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keeps the files of the page, so that it works without a network. A page with other files has another name of the store.
 
 const STORE = 'meshrepair-@HASH@';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fewer triangles of a mesh, for as long as it moves.
 
 const MOST_CELLS = 96;  // along a side

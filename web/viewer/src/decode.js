@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The meshes of the page: packed as apps/page/pack_mesh.h says.
 
 export function bytesOf(base64) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes an element. Text is always text, never markup.
 export function make(name, attributes = {}, ...children) {
   const element = document.createElement(name);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The report as a page: verdict, numbers, parts, legend.
 import {make, swatch, table} from './dom.js';
 import {grouped, measure, plain, reasons, rough, subjectOf, verdict} from './words.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long pictures take.
 
 const POLL = 4;  // milliseconds

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Distances as colours: the scale, and the numbers beside it.
 import {button, make, table} from './dom.js';
 import {grouped, measure} from './words.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The list of defects: shows and hides each kind, and goes from place to place.
 import {button, make, swatch} from './dom.js';
 import {defectWords, grouped, subjectOf} from './words.js';

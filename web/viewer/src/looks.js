@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How meshes look in their files: colours, and pictures that lie on them. Packed as apps/page/pack_looks.h says.
 import {BufferAttribute, BufferGeometry, ClampToEdgeWrapping, LinearFilter, LinearMipmapLinearFilter, Mesh, MirroredRepeatWrapping,
   NearestFilter, RepeatWrapping, ShaderMaterial, Texture} from 'three';

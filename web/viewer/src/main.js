@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page: reads what is embedded in it, and shows it.
 //
 // The element "facts" has JSON: program, version, subject (a key of words.js), up, units, grid, looks (of defects), meshes, left_out and

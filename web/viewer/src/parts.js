@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles hang together through edges.
 
 // Finds numbers of pairs of points. Open addressing: each slot has the two points and a triangle.

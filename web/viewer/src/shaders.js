@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the graphics card does for each corner and each pixel.
 import {BufferAttribute, BufferGeometry, Points, ShaderMaterial} from 'three';
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The canvas: one camera, and what it sees of one mesh, of both beside each other, or of both left and right of a line.
 //
 // It draws only what changed. Where a picture takes long, as without a graphics card, fewer triangles and pixels are drawn for as long

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh as it is drawn: flat triangles in the colours that are asked for, edges of defects, and the places of defects.
 import {Box3, BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, Scene, ShaderMaterial, Vector3,
   Vector4} from 'three';

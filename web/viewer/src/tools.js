@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The rows of buttons above the canvas, and what keys do.
 import {button, make} from './dom.js';
 import {subjectOf} from './words.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is seen of a page: the canvas, the tools above it, and the report beside it; and what they do with each other.
 import {Plane, Vector3, Vector4} from 'three';
 

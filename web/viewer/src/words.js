@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What things are called, for people who have never seen a mesh from within.
 
 export const defectWords = {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open-addressed index from keys that live in the caller's array to their positions in it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles of a clean soup have the same corners.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles meet in meshes that differ little from each other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which triangles of a mesh are near a few places, and which of them intersect while some of its
 // points move by little.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangle of a mesh that is nearest to a point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far the triangles around a point are from those that replace them when the point goes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles of a soup that have an area, with what comparing them needs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How do two triangles meet? Exactly.
 #pragma once
 

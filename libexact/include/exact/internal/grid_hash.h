@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grid points as keys of a HashIndex.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A closed mesh whose points can be moved onto neighbours, one after the other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A closed mesh that is changed in few places: edges collapsed and flipped.
 #pragma once
 

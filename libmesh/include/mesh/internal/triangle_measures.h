@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Areas of triangles, and angles between them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Faces as a reader of an indexed format meets them: any number of corners, not checked yet,
 // because the points may come later in the file.
 #pragma once

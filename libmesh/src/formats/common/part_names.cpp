@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "part_names.h"
 
 #include <algorithm>

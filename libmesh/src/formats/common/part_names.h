@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names of the parts of a package: with '/' between folders, none before the first.
 #pragma once
 

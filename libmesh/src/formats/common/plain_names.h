@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names that stand in lines of text files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the numbers behind x, y and z in the lines of a point file mean.
 #pragma once
 

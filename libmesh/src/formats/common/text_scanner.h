@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walks over the tokens of a text file: fast, independent of the locale, without allocation.
 //
 // A token is a run of bytes above the blank. LF, CRLF and CR end lines; every other byte up to the

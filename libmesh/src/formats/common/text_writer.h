@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Appends numbers to a text: the shortest digits that read back as the same bits, in any locale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How much may come out of a packed file: some are made to fill all memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names of files in links, and texts that stand for bytes.
 #pragma once
 

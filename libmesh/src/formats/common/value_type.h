@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The types that numbers have in binary files of points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "written_float.h"
 
 #include <algorithm>

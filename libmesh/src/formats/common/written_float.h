@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coordinates as formats of single precision have them.
 #pragma once
 

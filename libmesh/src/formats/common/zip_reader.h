@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A ZIP archive in memory. It is not trusted: nothing of it is written to a disk, and no more comes
 // out of it than archives of its size hold.
 #pragma once

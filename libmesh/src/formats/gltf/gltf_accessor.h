@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers as glTF keeps them: bytes with a layout.
 #pragma once
 

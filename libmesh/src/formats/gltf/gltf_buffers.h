@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bytes that a glTF file's buffer views stand for, also where EXT_meshopt_compression packs
 // them.
 #pragma once

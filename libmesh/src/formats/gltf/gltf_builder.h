@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A glTF document in the making: its nodes, and the bytes of its one buffer.
 #pragma once
 

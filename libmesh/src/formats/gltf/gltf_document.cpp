@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "gltf_document.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A glTF file taken apart: its JSON, and the binary chunk of a .glb.
 //
 // A .glb, all numbers little endian:

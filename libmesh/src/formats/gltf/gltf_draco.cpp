@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Draco takes memory as headers in its bytes say. So its two decoders are asked to look at what is
 // said before anything is done about it.
 #include "gltf_draco.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Primitives compressed as KHR_draco_mesh_compression has it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // glTF 2.0: .glb with everything in one file, and .gltf, a JSON text that names its buffers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of a glTF file is no mesh, for another glTF file.
 #pragma once
 

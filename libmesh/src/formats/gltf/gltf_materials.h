@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The materials and images of a glTF file, as all formats have them.
 #pragma once
 

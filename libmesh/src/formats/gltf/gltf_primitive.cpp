@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "gltf_primitive.h"
 
 #include <algorithm>

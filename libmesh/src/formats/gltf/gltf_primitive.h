@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles of one primitive of a glTF mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the meshes of a glTF file stand.
 #pragma once
 

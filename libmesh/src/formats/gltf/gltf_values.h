@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the vertices of a glTF file have besides their positions, as attributes of corners.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The vertices of one primitive that is to be written.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "joined_libraries.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The libraries of two OBJ files as those of one.
 #pragma once
 

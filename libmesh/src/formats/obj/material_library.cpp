@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "material_library.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The .mtl files that an OBJ file names.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "mtl_text.h"
 
 #include <array>

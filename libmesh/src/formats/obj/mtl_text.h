@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The lines of .mtl files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What an OBJ file says of faces besides their points.
 #pragma once
 

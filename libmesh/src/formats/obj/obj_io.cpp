@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "obj_io.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Wavefront OBJ: meshes and points; everything else is ignored.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Binary OFF, big endian, after a keyword line as in the text ("OFF BINARY"):
 //
 //   [int32 dimension]                                      if the keyword has an n

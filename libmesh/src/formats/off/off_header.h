@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The head of an OFF file: keyword, dimension and counts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OFF:
 //
 //   [ST][C][N][4][n]OFF [BINARY]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OFF of Geomview, text and binary, and what other programs make of it.
 #pragma once
 

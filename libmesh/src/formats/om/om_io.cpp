@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OpenMesh's own format, little endian, read without OpenMesh: its reader follows broken files into
 // aborts, crashes and indices out of range.
 //

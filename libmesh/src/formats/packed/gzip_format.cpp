@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "gzip_format.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // gzip: members, each with a checksum, one behind the other.
 #pragma once
 

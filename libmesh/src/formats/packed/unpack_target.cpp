@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "unpack_target.h"
 
 #include <algorithm>

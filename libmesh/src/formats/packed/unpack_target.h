@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where unpacked bytes go: memory that grows as they come.
 #pragma once
 

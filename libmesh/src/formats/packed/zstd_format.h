@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Zstandard: frames, one behind the other, some of which are to be skipped.
 #pragma once
 

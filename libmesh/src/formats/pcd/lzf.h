@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // LZF, the compression of binary_compressed PCD files.
 //
 // A stream of pieces. A control byte below 32 is followed by that many bytes and one, to be copied.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "pcd_header.h"
 
 #include <algorithm>

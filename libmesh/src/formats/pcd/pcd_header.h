@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The header of a PCD file (Point Cloud Library).
 //
 //   # .PCD v0.7 - Point Cloud Data file format

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "pcd_points.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The points of a PCD file, in all three encodings.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a PLY file says of points and faces besides their places: colours, normals, texture
 // coordinates, and whatever numbers its properties hold.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walks over the values in the body of a PLY file. The two kinds of body have cursors with the same
 // functions, so that the reader is written once:
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ply_io.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PLY, ASCII and binary of both byte orders: meshes and points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names in PLY files that others do not have, or not all.
 #pragma once
 

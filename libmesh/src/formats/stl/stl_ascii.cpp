@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ASCII STL:
 //
 //   solid NAME

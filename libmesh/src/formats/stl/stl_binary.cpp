@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Binary STL, little endian:
 //
 //   offset  size  content

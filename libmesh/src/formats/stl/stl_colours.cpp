@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "stl_colours.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The colours that some programs put into the attribute word of a binary STL's triangle, five bits
 // each:
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a 3MF package holds besides meshes and what they look like, for packages that are written.
 #pragma once
 

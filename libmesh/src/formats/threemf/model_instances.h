@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Puts the instances that a build names into one soup.
 #pragma once
 

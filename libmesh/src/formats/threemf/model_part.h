@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a 3D model part of a 3MF package says, as it says it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "model_reader.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads a 3D model part of a 3MF package.
 #pragma once
 

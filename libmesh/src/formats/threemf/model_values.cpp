@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "model_values.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Values of attributes in 3D model parts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "package_parts.h"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the parts of a package hang together: its relationships and its types of content.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parts of a package that say how the others hang together.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What triangles of a 3MF package carry, as attributes of the soup that is made of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // 3MF, the 3D Manufacturing Format: a ZIP archive by the Open Packaging Conventions, in which XML
 // describes objects, what they look like, and which of them are built where.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "written_properties.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Attributes of a soup as property groups of a 3MF model.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // XML as a stream: elements and texts are told one by one, as the bytes come in.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Texts as XML holds them.
 #pragma once
 

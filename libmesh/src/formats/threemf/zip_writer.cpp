@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "zip_writer.h"
 
 #include <zip.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes a ZIP archive in memory: the same entries give the same bytes.
 #pragma once
 

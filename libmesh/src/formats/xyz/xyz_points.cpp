@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "xyz_points.h"
 
 #include <algorithm>

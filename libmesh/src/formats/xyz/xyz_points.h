@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points as lines of numbers: XYZ, PTS and PWN, and how such lines are laid out: what separates
 // numbers, and what columns are called. See point_io.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where names in files may lead, and which of them are reported.
 #include <filesystem>
 #include <fstream>

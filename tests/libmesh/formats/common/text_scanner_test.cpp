@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/common/text_scanner.h"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Primitives compressed by Draco.
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>

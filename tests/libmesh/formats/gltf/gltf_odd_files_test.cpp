@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files that lie: each is refused with one line, or read with a warning.
 #include <filesystem>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What glTF files can say, and what it means.
 #include <cmath>
 #include <filesystem>

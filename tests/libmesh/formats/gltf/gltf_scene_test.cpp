@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes of a glTF file one by one, and the nodes that they come back to.
 #include <cmath>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is written passes Khronos' validator without an error.
 #include <array>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is written as glTF comes back.
 #include <filesystem>
 #include <fstream>

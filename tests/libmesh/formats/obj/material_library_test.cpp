@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Libraries of materials of OBJ files.
 #include <array>
 #include <filesystem>

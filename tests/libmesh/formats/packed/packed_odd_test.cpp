@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packed files as programs make them, and as no program should.
 #include <functional>
 #include <gmock/gmock.h>

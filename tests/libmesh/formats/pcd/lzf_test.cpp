@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/pcd/lzf.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Attributes of several 3MF packages as one.
 #include <gmock/gmock.h>
 #include <string>

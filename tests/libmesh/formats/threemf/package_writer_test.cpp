@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/threemf/package_writer.h"
 
 #include <gmock/gmock.h>

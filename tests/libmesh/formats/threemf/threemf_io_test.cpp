@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What 3MF can hold comes back as it was.
 #include <algorithm>
 #include <cstdlib>

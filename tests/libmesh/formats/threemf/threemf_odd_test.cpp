@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packages that are broken, or made to do harm: each is read, or refused in one line, and costs no
 // memory that its bytes do not account for.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is written is read by lib3mf, the library of those who make the format.
 #include "threemf_peer.h"
 

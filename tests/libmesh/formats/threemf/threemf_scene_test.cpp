@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Objects of a package one by one, and the build that they come back to.
 #include <gmock/gmock.h>
 #include <string>

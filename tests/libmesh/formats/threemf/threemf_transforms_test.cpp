@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which objects of a package become the soup, and where they are put.
 #include <gmock/gmock.h>
 #include <string>

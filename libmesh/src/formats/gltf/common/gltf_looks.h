@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Materials of a glTF document, and what they need.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "srgb.h"
 
 #include <cmath>

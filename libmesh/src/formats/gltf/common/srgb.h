@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Colours as screens and pictures have them, and as light adds up.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Attributes of several glTF files as one: materials come out as each file had them.
 #include <cstring>
 #include <string>

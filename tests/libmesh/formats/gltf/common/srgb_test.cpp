@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Colours of screens and of light.
 #include "formats/gltf/common/srgb.h"
 
