@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Makes the tables of docs/options.md and docs/report.md, and docs/python-reference.md.
 
-The tables of options are made from what the programs print with --help, the tables of keys from the descriptions in
+The tables of options are made from what the programs print with --help-all, the tables of keys from the descriptions in
 docs/report.schema.json. Only the text between the markers "<!-- made by scripts/make_docs.py: NAME -->" and
 "<!-- end -->" is replaced. The reference of Python is made from the docstrings of the package.
 """
@@ -51,7 +51,7 @@ class Option:
 
 @dataclasses.dataclass
 class Help:
-    """What a program prints with --help."""
+    """What a program prints with --help-all."""
 
     description: str
     usage: str
@@ -120,7 +120,7 @@ def read_helps(folder: pathlib.Path) -> dict[str, Help]:
     for program in PROGRAMS:
         try:
             name, *verb = program.split()
-            text = subprocess.run([folder / name, *verb, "--help"], check=True, capture_output=True, text=True).stdout
+            text = subprocess.run([folder / name, *verb, "--help-all"], check=True, capture_output=True, text=True).stdout
         except OSError as error:
             sys.exit(f"make_docs.py: {error.filename}: {error.strerror}; where are the programs? (--programs)")
         helps[program] = parsed_help(text)

@@ -110,6 +110,11 @@ CommandOption* CommandOption::type_name(const std::string& type) {
   return this;
 }
 
+CommandOption* CommandOption::rare() {
+  is_rare_ = true;
+  return this;
+}
+
 CommandOption* CommandOption::group(const std::string& heading) {
   option_.group(heading);
   return this;
@@ -265,6 +270,10 @@ CommandOption* CommandLine::set_help_flag(const std::string& name, const std::st
   return own(app_->set_help_flag(name, help));
 }
 
+CommandOption* CommandLine::set_help_all_flag(const std::string& name, const std::string& help) {
+  return own(app_->set_help_all_flag(name, help));
+}
+
 CommandOption* CommandLine::set_version_flag(const std::string& name, const std::string& help) {
   return own(app_->set_version_flag(name, this->name())->description(help));
 }
@@ -282,6 +291,8 @@ CommandLine::Parsed CommandLine::parsed(const Parse& parse) {
     return Parsed::all;
   } catch (const CLI::CallForHelp&) {
     return Parsed::help;
+  } catch (const CLI::CallForAllHelp&) {
+    return Parsed::help_all;
   } catch (const CLI::CallForVersion&) {
     return Parsed::version;
   } catch (const CLI::RequiredError& error) {
@@ -313,7 +324,20 @@ CommandLine::Parsed CommandLine::parse(const std::vector<std::string>& words) {
   return parsed([&] { app_->parse(std::vector<std::string>(words.rbegin(), words.rend())); });
 }
 
-std::string CommandLine::help() const { return app_->help(); }
+std::string CommandLine::help() const {
+  std::vector<std::pair<CLI::Option*, std::string>> hidden;
+  for (CLI::Option* const option : app_->get_options()) {
+    const CommandOption* const known = find(option->get_name());
+    if (known == nullptr || !known->is_rare()) continue;
+    hidden.emplace_back(option, option->get_group());
+    option->group("");
+  }
+  std::string text = app_->help();
+  for (const auto& [option, heading] : hidden) option->group(heading);
+  return text;
+}
+
+std::string CommandLine::help_all() const { return app_->help(); }
 std::string CommandLine::name() const { return app_->get_name(); }
 std::string CommandLine::description() const { return app_->get_description(); }
 std::string CommandLine::footer() const { return app_->get_footer(); }

@@ -43,6 +43,7 @@ class CommandOption {
   CommandOption* check(WhyNot why_not) { return check(Check{std::move(why_not)}); }
   CommandOption* type_name(const std::string& type);  // of the value, in help: "N"
   CommandOption* group(const std::string& heading);   // in help; empty: help does not show it
+  CommandOption* rare();  // few people need it: only the help of all options shows it
   CommandOption* required();
   CommandOption* repeated();            // an argument that stands for several
   CommandOption* delimiter(char mark);  // between the values of a list
@@ -68,11 +69,13 @@ class CommandOption {
   [[nodiscard]] bool is_repeated() const;
   [[nodiscard]] std::string type() const;  // and what is checked, with colons between
   [[nodiscard]] std::string heading() const;
+  [[nodiscard]] bool is_rare() const { return is_rare_; }
   [[nodiscard]] std::string default_text() const;
   [[nodiscard]] std::string description() const;
 
  private:
   CLI::Option& option_;
+  bool is_rare_ = false;
 };
 
 class CommandLine {
@@ -101,6 +104,7 @@ class CommandLine {
                                    const std::string& help);
   // Those end parsing: see parse().
   CommandOption* set_help_flag(const std::string& name, const std::string& help);
+  CommandOption* set_help_all_flag(const std::string& name, const std::string& help);
   CommandOption* set_version_flag(const std::string& name, const std::string& help);
 
   // Called when all options have their values.
@@ -108,12 +112,13 @@ class CommandLine {
   void set_footer(const std::string& text);
 
   // What ended parsing: the end of the line, or one of these flags.
-  enum class Parsed { all, help, version };
+  enum class Parsed { all, help, help_all, version };
   // Throws UsageError, and what the functions of options throw.
   Parsed parse(int argc, const char* const* argv);
   Parsed parse(const std::vector<std::string>& words);
 
-  [[nodiscard]] std::string help() const;
+  [[nodiscard]] std::string help() const;      // without rare options
+  [[nodiscard]] std::string help_all() const;  // of all options
   [[nodiscard]] std::string name() const;
   [[nodiscard]] std::string description() const;
   [[nodiscard]] std::string footer() const;

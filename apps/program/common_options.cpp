@@ -125,13 +125,15 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
       ->default_str("0")
       ->check(why_no_count)
       ->type_name("N")
-      ->group(running);
+      ->group(running)
+      ->rare();
   app.add_option("--progress-fd", options.progress_to,
                  "Write a line 'STAGE PERCENT' for each percent to this descriptor, which is\n"
                  "open, for programs that call this one")
       ->check(why_no_descriptor)
       ->type_name("N")
-      ->group(telling);
+      ->group(telling)
+      ->rare();
   app.add_option("--report", options.report, "Write a report as JSON; - is standard output")
       ->check(names_side_file(".json"))
       ->type_name("FILE")
@@ -144,7 +146,9 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
   CommandOption* version =
       app.set_version_flag("--version", "Print the version and exit")->group(telling);
   add_json_flag(app, *version);
-  app.set_help_flag("--help,-h", "Print this text and exit")->group(telling);
+  app.set_help_flag("--help,-h", "Print this help and exit")->group(telling);
+  app.set_help_all_flag("--help-all", "Print the help of all options, also of those that few need")
+      ->group(telling);
   add_choice(
       app, "--describe", kDescriptions,
       [&app](Describe describe) { throw Description{describe(facts_of(app))}; },
@@ -159,6 +163,9 @@ bool parse_command_line(CommandLine& app, int argc, const char* const* argv) {
         return true;
       case CommandLine::Parsed::help:
         std::fputs(app.help().c_str(), stdout);
+        return false;
+      case CommandLine::Parsed::help_all:
+        std::fputs(app.help_all().c_str(), stdout);
         return false;
       case CommandLine::Parsed::version:
         std::fputs(version_text(app).c_str(), stdout);

@@ -24,6 +24,13 @@
 namespace meshrepair {
 namespace {
 
+// For developers, for comparisons, and for points that the defaults do not fit.
+constexpr std::array<const char*, 17> kRareOptions = {
+    "--touching",        "--simplify",     "--always",       "--predicates", "--eps",
+    "--sources",         "--picture-size", "--picture-view", "--show-as",    "--html-triangles",
+    "--picture-colours", "--votes",        "--reach",        "--neighbours", "--outliers",
+    "--no-normals",      "--no-advice"};
+
 // Who meant sheets can have walls.
 Surface repair_or_advise(AnySoup& input, const PointOptions& points, const RepairOptions& options,
                          Run& run, Findings& findings) {
@@ -96,6 +103,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_show_options(app, options.picture, "IN and OUT", "; elsewhere show by a bar what changed");
   add_html_options(app, options.html, "IN and OUT, with all that is wrong");
   add_point_repair_options(app, command.points);
+  for (const char* const name : kRareOptions) app.option(name).rare();
 }
 
 void repair_file(const RepairCommand& command, Run& run, Findings& findings) {

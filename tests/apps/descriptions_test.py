@@ -32,7 +32,7 @@ def output_of(*command, **others):
 
 
 def options_of(program):
-    return sorted(set(re.findall(r"(?:^  |,)(--?[a-z-]+)", output_of(BIN / program, "--help"), re.MULTILINE)))
+    return sorted(set(re.findall(r"(?:^  |,)(--?[a-z-]+)", output_of(BIN / program, "--help-all"), re.MULTILINE)))
 
 
 class Folder(unittest.TestCase):
