@@ -51,14 +51,14 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
 
 int run_program(int argc, char** argv) {
   StepOptions options;
-  Program program("meshconvert", "Writes a mesh in another format, as it is: nothing is repaired.",
+  Program program("meshconvert", "Converts a mesh to another format without repairing it.",
                   "  meshconvert part.obj part.glb\n"
                   "  meshconvert --drop all part.obj plain.stl\n"
                   "  meshconvert - part.off < part.stl\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
-                 "- is standard input")
+                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, optionally\n"
+                 "compressed (.gz, .zst, .zip); - is standard input")
       ->check(names_file(mesh_extensions()))
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")

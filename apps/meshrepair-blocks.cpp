@@ -18,8 +18,7 @@ constexpr std::array<Choice<Act>, 3> kVerbs = {
 // Says what there is.
 int overview(int argc, const char* const* argv) {
   Program program("meshrepair-blocks",
-                  "Repairs a mesh block by block, on many machines. --help behind a verb tells "
-                  "more.",
+                  "Repairs a mesh in blocks, on many machines. See VERB --help.",
                   "  meshrepair-blocks plan city.stl city.blocks\n"
                   "  meshrepair-blocks run city.blocks --block 1\n"
                   "  meshrepair-blocks join city.blocks repaired.ply\n");

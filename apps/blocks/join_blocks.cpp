@@ -270,10 +270,10 @@ ExitCode join(JoinOptions& options, Run& run) {
 
 int join_blocks(int argc, const char* const* argv) {
   JoinOptions options;
-  Program program("meshrepair-blocks join", "Joins the blocks that were repaired to one mesh.",
+  Program program("meshrepair-blocks join", "Joins the repaired blocks into one mesh.",
                   "  meshrepair-blocks join city.blocks repaired.ply\n");
   CommandLine& app = program.command_line();
-  app.add_option("DIR", options.folder, "Folder that meshrepair-blocks plan has made")->required();
+  app.add_option("DIR", options.folder, "Folder from meshrepair-blocks plan")->required();
   app.add_option("OUT", options.step.output, "Mesh to write; - is standard output")
       ->check(names_file(mesh_extensions()))
       ->required();

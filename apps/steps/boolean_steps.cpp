@@ -37,11 +37,11 @@ void add_operation_options(CommandLine& app, BooleanCommand& command) {
   static const auto operations = named_operations();
   add_choice(
       app, "--op", operations, [&command](SetOperation value) { command.operation = value; },
-      "What the result is (required):\n"
-      "  union         what is in any solid\n"
-      "  intersection  what is in all solids\n"
-      "  difference    what is in the first and in no other\n"
-      "  xor           what is in an odd number of solids")
+      "Operation (required):\n"
+      "  union         inside at least one solid\n"
+      "  intersection  inside all solids\n"
+      "  difference    inside the first and no other\n"
+      "  xor           inside an odd number of solids")
       ->required();
   app.add_flag("--always", command.always,
                "Merge trees of all solids instead of cutting their triangles;\n"

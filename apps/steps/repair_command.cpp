@@ -78,8 +78,8 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_scene_option(app, options.assets);
   const CommandOption* always =
       app.add_flag("--always", command.always,
-                   "Do the whole work, also for a mesh that is the boundary of a solid already,\n"
-                   "or that needs only its holes closed and its triangles turned")
+                   "Run all steps, even if the mesh already bounds a solid or needs only holes\n"
+                   "filled and triangles flipped")
           ->group("Repair");
   add_predicates_options(app, options.repair, always);
   add_format_option(app, options.format);
@@ -91,9 +91,9 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_certify_options(app, options.repair.certify, options.strict);
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
-  add_colours_option(app, options.picture, "fates", "as --explain has them");
-  add_show_options(app, options.picture, "IN and OUT", "; elsewhere show by a bar what changed");
-  add_html_options(app, options.html, "IN and OUT, with all that is wrong");
+  add_colours_option(app, options.picture, "fates", "those of --explain");
+  add_show_options(app, options.picture, "IN and OUT", "; otherwise print a bar of what changed");
+  add_html_options(app, options.html, "IN and OUT with all defects");
   add_point_repair_options(app, command.points);
 }
 
