@@ -277,7 +277,7 @@ int main(int argc, char** argv) {
   add_html_options(app, options.command.step.html, "all IN and OUT, and what comes from which");
   return program.run(argc, argv, [&](Run& run) {
     if (options.command.step.output.empty()) throw UsageError("the name of the output is empty");
-    if (options.command.inputs.size() < 2) throw UsageError("IN: two solids are needed, or more");
+    if (options.command.inputs.size() < 2) throw UsageError("IN: at least two solids are needed");
     if (is_tree_name(options.command.step.output)) refuse_mesh_options(app);
     for (const std::string& input : options.command.inputs)
       check_files(input, options.command.step.output, run);

@@ -34,7 +34,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   if (options.assets.by_mesh) still_held.objects = all.objects;
   const std::string lost = lost_words(soup, all, still_held, *format.format);
   if (!lost.empty()) {
-    logger().warn("{}: {} cannot hold what {} has: {}", findings.output_name(),
+    logger().warn("{}: {} cannot store these attributes of {}: {}", findings.output_name(),
                   format_name(*format.format), findings.input_name(), lost);
   }
   format.extras.attributes = held.empty() ? nullptr : &held;

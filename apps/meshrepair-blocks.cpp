@@ -24,7 +24,7 @@ int overview(int argc, const char* const* argv) {
                   "  meshrepair-blocks join city.blocks repaired.ply\n");
   add_choice(
       program.command_line(), "VERB", kVerbs,
-      [](Act) { throw UsageError("VERB: stands first, before all options"); },
+      [](Act) { throw UsageError("VERB: must precede all options"); },
       "What to do:\n"
       "  plan  divide a mesh into blocks\n"
       "  run   repair one of them\n"

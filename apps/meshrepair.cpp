@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
   std::string resume;
   add_resume_option(app, resume);
   app.add_flag_callback(
-         "--serve", [] { throw UsageError("--serve: stands alone, and first"); },
+         "--serve",
+         [] { throw UsageError("--serve: must be the first argument, without IN and OUT"); },
          "Serve a local web page that checks and repairs meshes; takes no IN and OUT:\n"
          "see --serve --help")
       ->group("Page");

@@ -36,7 +36,7 @@ std::string options_text(const CommandLine& app) {
 
 void require_block(const BlockPlan& plan, const BlockFolder& folder, std::size_t block) {
   if (block > plan.blocks.size()) {
-    throw UsageError(fmt::format("--block: there are {} blocks", plan.blocks.size()));
+    throw UsageError(fmt::format("--block: must be 1 to {}", plan.blocks.size()));
   }
   const std::filesystem::path file = folder.block_file(block);
   if (file_checksum(file) != plan.blocks[block - 1].checksum) {

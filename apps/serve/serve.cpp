@@ -129,7 +129,7 @@ ExitCode serve_until_signal(const ServeOptions& options) {
   of_workshop.for_all = options_for_all(options);
   HttpServer::Limits limits;
   limits.body = parse_size(options.max_upload, "--max-upload");
-  if (limits.body == 0) throw UsageError("--max-upload: is to be more than 0");
+  if (limits.body == 0) throw UsageError("--max-upload: must be more than 0");
   HttpServer server(static_cast<unsigned short>(options.port));
   const OwnFolder folder("meshrepair-serve");
   Workshop workshop(std::move(of_workshop), folder);

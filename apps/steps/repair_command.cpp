@@ -47,7 +47,7 @@ void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base)
 // Of points, and of sheets that get walls, several soups are tried.
 void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
   if (options.states == nullptr || !(input.cloud || options.thicken.wanted())) return;
-  logger().warn("--resume: keeps nothing where {}",
+  logger().warn("--resume: saves nothing if {}",
                 input.cloud ? "points become a mesh" : "sheets get walls");
   options.states = nullptr;
 }
@@ -116,7 +116,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   format.extras.unit = findings.unit;
   fit_to_input(input, command, repair_options);
   if (!input.scene.meshes.empty()) {
-    if (points.repair.base) throw UsageError("--base: is not for objects one by one");
+    if (points.repair.base) throw UsageError("--base: cannot be used with --scene each");
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
   const Surface surface = repair_or_advise(input, points, repair_options, run, findings);
