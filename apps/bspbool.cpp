@@ -265,8 +265,8 @@ int main(int argc, char** argv) {
                   "  bspbool a.bsp b.bsp --op intersection -o both.bsp\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", options.command.inputs,
-                 "Two or more solids: meshes, which are repaired first if they are no solids,\n"
-                 "and trees (.bsp)")
+                 "Two or more solids: trees (.bsp) and meshes; a mesh that is not a solid is\n"
+                 "repaired first")
       ->check(names_file(mesh_and_tree_extensions()))
       ->required()
       ->repeated();
@@ -275,10 +275,10 @@ int main(int argc, char** argv) {
   add_boolean_command(app, options.command);
   add_picture_options(app, options.command.step.picture, "all IN and OUT side by side");
   add_show_options(app, options.command.step.picture, "all IN and OUT");
-  add_html_options(app, options.command.step.html, "all IN and OUT, with what comes from which");
+  add_html_options(app, options.command.step.html, "all IN and OUT, and what comes from which");
   return program.run(argc, argv, [&](Run& run) {
     if (options.command.step.output.empty()) throw UsageError("the name of the output is empty");
-    if (options.command.inputs.size() < 2) throw UsageError("IN: two solids are needed, or more");
+    if (options.command.inputs.size() < 2) throw UsageError("IN: at least two solids are needed");
     if (is_tree_name(options.command.step.output)) refuse_mesh_options(app);
     for (const std::string& input : options.command.inputs)
       check_files(input, options.command.step.output, run);

@@ -30,13 +30,14 @@ int main(int argc, char** argv) {
                   "  bspbuild broken.stl -o - | bspsolid - -o - | bspextract - -o repaired.obj\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
-                 "- is standard input")
+                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, optionally\n"
+                 "compressed (.gz, .zst, .zip); - is standard input")
       ->check(names_file(mesh_extensions()))
       ->required();
-  add_output_option(app, options.output, "FILE", kTreeExtension,
-                    "Tree to write (.bsp); it has the triangles alone, without textures, normals,\n"
-                    "colours, materials and groups; - is standard output");
+  add_output_option(
+      app, options.output, "FILE", kTreeExtension,
+      "Tree to write (.bsp), without textures, normals, colours, materials and groups;\n"
+      "- is standard output");
   add_sew_option(app, options.repair.sew);
   add_join_gaps_option(app, options.repair.join_gaps);
   add_holes_option(app, options.repair.holes);

@@ -27,11 +27,11 @@ void extract(const StepOptions& options, Run& run, Findings& findings) {
 int main(int argc, char** argv) {
   using namespace meshrepair;
   StepOptions options;
-  Program program("bspextract", "Extracts the boundary of what is solid in a labelled tree.",
+  Program program("bspextract", "Extracts the boundary of the solid cells of a labelled tree.",
                   "  bspextract solid.bsp -o repaired.obj\n"
                   "  bspextract solid.bsp -o - --format stl > repaired.stl\n");
   CommandLine& app = program.command_line();
-  app.add_option("TREE", options.input, "Labelled tree of bspsolid; - is standard input")
+  app.add_option("TREE", options.input, "Labelled tree from bspsolid; - is standard input")
       ->check(names_file(kTreeExtension))
       ->required();
   add_output_option(app, options.output, "OUT", mesh_extensions(),

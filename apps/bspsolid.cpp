@@ -25,12 +25,12 @@ void label(const StepOptions& options, Run& run, Findings& findings) {
 int main(int argc, char** argv) {
   using namespace meshrepair;
   StepOptions options;
-  Program program("bspsolid", "Decides which parts of a partitioned space are solid.",
+  Program program("bspsolid", "Decides which cells of a tree are solid.",
                   "  bspsolid tree.bsp -o solid.bsp\n"
                   "  bspsolid tree.bsp -o solid.bsp --inside winding\n");
   CommandLine& app = program.command_line();
   app.add_option("TREE", options.input,
-                 "Tree of bspbuild; the labels that it may have are replaced; - is standard input")
+                 "Tree from bspbuild; existing labels are replaced; - is standard input")
       ->check(names_file(kTreeExtension))
       ->required();
   add_output_option(app, options.output, "FILE", kTreeExtension,

@@ -9,15 +9,14 @@ int main(int argc, char** argv) {
   bool json = false;
   Program program(
       "meshcheck",
-      "Says what is wrong with a mesh. Exit code 0: it is the boundary of a solid, 1: it "
-      "is not.",
+      "Lists the defects of a mesh. Exit code 0: the mesh bounds a solid, 1: it does not.",
       "  meshcheck part.stl\n"
       "  meshcheck part.obj --mark defects.ply\n"
       "  meshcheck part.obj --json | jq .check.defects.open_edges.count\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", command.input,
-                 "Mesh to check: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
-                 "- is standard input")
+                 "Mesh to check: STL, OBJ, OFF, PLY, glTF or 3MF, optionally\n"
+                 "compressed (.gz, .zst, .zip); - is standard input")
       ->check(names_file(mesh_extensions()))
       ->required();
   add_check_command(app, command);

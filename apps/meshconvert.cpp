@@ -35,7 +35,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   if (options.assets.by_mesh) still_held.objects = all.objects;
   const std::string lost = lost_words(soup, all, still_held, *format.format);
   if (!lost.empty()) {
-    logger().warn("{}: {} cannot hold what {} has: {}", findings.output_name(),
+    logger().warn("{}: {} cannot store these attributes of {}: {}", findings.output_name(),
                   format_name(*format.format), findings.input_name(), lost);
   }
   format.extras.attributes = held.empty() ? nullptr : &held;
@@ -52,14 +52,14 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
 
 int run_program(int argc, char** argv) {
   StepOptions options;
-  Program program("meshconvert", "Writes a mesh in another format, as it is: nothing is repaired.",
+  Program program("meshconvert", "Converts a mesh to another format without repairing it.",
                   "  meshconvert part.obj part.glb\n"
                   "  meshconvert --drop all part.obj plain.stl\n"
                   "  meshconvert - part.off < part.stl\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", options.input,
-                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip);\n"
-                 "- is standard input")
+                 "Mesh to read: STL, OBJ, OFF, PLY, glTF or 3MF, optionally\n"
+                 "compressed (.gz, .zst, .zip); - is standard input")
       ->check(names_file(mesh_extensions()))
       ->required();
   app.add_option("OUT", options.output, "Mesh to write, may be IN; - is standard output")

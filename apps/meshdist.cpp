@@ -108,13 +108,13 @@ ExitCode measure(Options& options, Run& run) {
 int main(int argc, char** argv) {
   using namespace meshrepair;
   Options options;
-  Program program("meshdist", "Measures how far two meshes are apart, each way.",
+  Program program("meshdist", "Measures the distance between two meshes in both directions.",
                   "  meshdist original.stl repaired.stl\n"
                   "  meshdist original.stl repaired.stl --bound --json | jq .distance.bound\n");
   CommandLine& app = program.command_line();
   app.add_option("A", options.first,
-                 "Mesh: STL, OBJ, OFF, PLY, glTF or 3MF, maybe packed (.gz, .zst, .zip); its\n"
-                 "diagonal is the measure of relative distances; - is standard input")
+                 "Mesh: STL, OBJ, OFF, PLY, glTF or 3MF, optionally compressed (.gz, .zst,\n.zip);"
+                 " relative distances refer to its bounding box diagonal; - is standard\ninput")
       ->check(names_file(mesh_extensions()))
       ->required();
   app.add_option("B", options.second, "Mesh; - is standard input")

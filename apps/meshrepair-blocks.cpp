@@ -19,14 +19,13 @@ constexpr std::array<Choice<Act>, 3> kVerbs = {
 // Says what there is.
 int overview(int argc, const char* const* argv) {
   Program program("meshrepair-blocks",
-                  "Repairs a mesh block by block, on many machines. --help behind a verb tells "
-                  "more.",
+                  "Repairs a mesh in blocks, on many machines. See VERB --help.",
                   "  meshrepair-blocks plan city.stl city.blocks\n"
                   "  meshrepair-blocks run city.blocks --block 1\n"
                   "  meshrepair-blocks join city.blocks repaired.ply\n");
   add_choice(
       program.command_line(), "VERB", kVerbs,
-      [](Act) { throw UsageError("VERB: stands first, before all options"); },
+      [](Act) { throw UsageError("VERB: must precede all options"); },
       "What to do:\n"
       "  plan  divide a mesh into blocks\n"
       "  run   repair one of them\n"

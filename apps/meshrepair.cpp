@@ -26,8 +26,8 @@ int main(int argc, char** argv) {
   CommandLine& app = program.command_line();
   app.add_option("IN", command.steps.input,
                  "Mesh to repair: STL, OBJ, OFF, PLY, glTF or 3MF; or points: XYZ, PTS, PWN, PCD,\n"
-                 "PLY, OBJ or OFF without faces; maybe packed (.gz, .zst, .zip); - is standard\n"
-                 "input")
+                 "PLY, OBJ or OFF without faces; optionally compressed (.gz, .zst, .zip);\n"
+                 "- is standard input")
       ->check(names_file(mesh_and_point_extensions()))
       ->required();
   app.add_option("OUT", command.steps.output, "Mesh to write, may be IN; - is standard output")
@@ -37,9 +37,10 @@ int main(int argc, char** argv) {
   std::string resume;
   add_resume_option(app, resume);
   app.add_flag_callback(
-         "--serve", [] { throw UsageError("--serve: stands alone, and first"); },
-         "Serve a page on this machine that checks and repairs meshes; without IN and\n"
-         "OUT: see --serve --help")
+         "--serve",
+         [] { throw UsageError("--serve: must be the first argument, without IN and OUT"); },
+         "Serve a local web page that checks and repairs meshes; takes no IN and OUT:\n"
+         "see --serve --help")
       ->group("Page");
   return run_steps(program, argc, argv, command.steps,
                    [&](const StepOptions&, Run& run, Findings& findings) {

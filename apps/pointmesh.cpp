@@ -19,12 +19,12 @@ int run_program(int argc, char** argv) {
                   "  pointmesh scan.pcd -o - --format ply | meshrepair - solid.obj\n");
   CommandLine& app = program.command_line();
   app.add_option("POINTS", options.input,
-                 "Points to read: XYZ, PTS, PWN, PCD, PLY, OBJ or OFF, maybe packed (.gz, .zst,\n"
-                 ".zip); - is standard input")
+                 "Points to read: XYZ, PTS, PWN, PCD, PLY, OBJ or OFF, optionally compressed\n"
+                 "(.gz, .zst, .zip); - is standard input")
       ->check(names_file(point_extensions()))
       ->required();
   add_output_option(app, options.output, "FILE", mesh_extensions(),
-                    "Triangles to write, with holes and any way round; - is standard output");
+                    "Triangles to write: with holes, and not oriented; - is standard output");
   add_point_options(app, points);
   add_format_option(app, options.format);
   return run_steps(program, argc, argv, options,

@@ -26,7 +26,7 @@ void make_folder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) {
-    throw OutputError(folder.string() + ": cannot be made: " + failed.message());
+    throw OutputError(folder.string() + ": cannot be created: " + failed.message());
   }
 }
 
@@ -122,7 +122,7 @@ BlockPlan BlockFolder::read_plan() const try {
   const auto json = read_json(plan_file());
   if (!json)
     throw InputError(plan_file().string() +
-                     ": is no plan: meshrepair-blocks plan makes one in a new folder");
+                     ": not a plan; meshrepair-blocks plan creates one in a new folder");
   BlockPlan plan;
   plan.input = text_of(*json, "input");
   plan.triangles = count_of(*json, "triangles");
@@ -138,7 +138,7 @@ BlockPlan BlockFolder::read_plan() const try {
   }
   return plan;
 } catch (const Damaged&) {
-  throw InputError(plan_file().string() + ": is damaged: remove the folder, and plan again");
+  throw InputError(plan_file().string() + ": damaged; remove the folder and plan again");
 }
 
 void BlockFolder::require_outside(const std::string& option, const std::string& file,

@@ -90,7 +90,7 @@ void require_same(const JoinOptions& options, const std::vector<BlockResult>& re
     const bool has_same_options = results[b].options == results[0].options;
     if (has_same_options && results[b].program == results[0].program) continue;
     throw InputError(fmt::format(
-        "{}: block {} was repaired {} than block 1; do: {}", options.folder, b + 1,
+        "{}: block {} was repaired {} than block 1; run: {}", options.folder, b + 1,
         has_same_options ? "by another build of meshrepair-blocks" : "with other options",
         command_of(options, b + 1, results)));
   }
@@ -108,7 +108,7 @@ std::vector<BlockResult> read_results(const JoinOptions& options, const BlockFol
     }
   }
   if (!missing.empty()) {
-    throw InputError(fmt::format("{}: not repaired: {} {}; do: {}", options.folder,
+    throw InputError(fmt::format("{}: not repaired: {} {}; run: {}", options.folder,
                                  missing.size() == 1 ? "block" : "blocks", named(missing),
                                  command_of(options, missing[0], results)));
   }
@@ -146,7 +146,7 @@ Joined read_all(const JoinOptions& options, const BlockFolder& folder, const Blo
     const ReadResult part = read_soup(folder.file_of(results[b]), read_options(run));
     if (!stays_certified(part, format)) {
       throw UsageError(
-          fmt::format("{}: {} rounds or joins corners that the blocks have: run them with its "
+          fmt::format("{}: {} rounds or merges vertices of the blocks: repair them with its "
                       "--format, too, or write PLY, OBJ or OFF",
                       options.step.output, format_name(format)));
     }
@@ -271,10 +271,10 @@ ExitCode join(JoinOptions& options, Run& run) {
 
 int join_blocks(int argc, const char* const* argv) {
   JoinOptions options;
-  Program program("meshrepair-blocks join", "Joins the blocks that were repaired to one mesh.",
+  Program program("meshrepair-blocks join", "Joins the repaired blocks into one mesh.",
                   "  meshrepair-blocks join city.blocks repaired.ply\n");
   CommandLine& app = program.command_line();
-  app.add_option("DIR", options.folder, "Folder that meshrepair-blocks plan has made")->required();
+  app.add_option("DIR", options.folder, "Folder from meshrepair-blocks plan")->required();
   app.add_option("OUT", options.step.output, "Mesh to write; - is standard output")
       ->check(names_file(mesh_extensions()))
       ->required();

@@ -152,26 +152,25 @@ ExitCode plan(const PlanOptions& options, Run& run) {
 
 int plan_blocks(int argc, const char* const* argv) {
   PlanOptions options;
-  Program program("meshrepair-blocks plan",
-                  "Divides a mesh into blocks that have nothing to do with each other.",
+  Program program("meshrepair-blocks plan", "Divides a mesh into independent blocks.",
                   "  meshrepair-blocks plan city.stl city.blocks\n"
                   "  meshrepair-blocks plan --triangles 5000000 city.stl city.blocks\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", options.input, "Mesh to divide, as meshrepair reads it")
       ->check(names_file(mesh_extensions()))
       ->required();
-  app.add_option("DIR", options.folder, "Folder for the blocks; it is made")->required();
+  app.add_option("DIR", options.folder, "Folder for the blocks; it is created")->required();
   app.add_option_function(
          "--triangles", [&](const std::string& text) { options.triangles = *parse_count(text); },
-         "Most triangles of a block, if they can be divided")
+         "Most triangles in a block, as far as the mesh can be divided")
       ->default_str(std::to_string(kTrianglesOfBlock))
       ->check(count_between(1))
       ->type_name("N")
       ->group("Blocks");
   app.add_option_function(
          "--margin", [&](const std::string& text) { options.margin = *parse_number(text); },
-         "Parts belong together whose boxes meet, each wider by this share of its own\n"
-         "diagonal")
+         "Parts stay together if their boxes, each enlarged by this share of its\n"
+         "diagonal, overlap")
       ->default_str("0.01")
       ->check(number_between(0, 1))
       ->type_name("SHARE")

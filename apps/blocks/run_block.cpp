@@ -37,7 +37,7 @@ std::string options_text(const CommandLine& app) {
 
 void require_block(const BlockPlan& plan, const BlockFolder& folder, std::size_t block) {
   if (block > plan.blocks.size()) {
-    throw UsageError(fmt::format("--block: there are {} blocks", plan.blocks.size()));
+    throw UsageError(fmt::format("--block: must be 1 to {}", plan.blocks.size()));
   }
   const std::filesystem::path file = folder.block_file(block);
   if (file_checksum(file) != plan.blocks[block - 1].checksum) {
@@ -139,12 +139,12 @@ ExitCode run_of_block(RunOptions& options, const CommandLine& app, Run& run) {
 int run_block(int argc, const char* const* argv) {
   RunOptions options;
   Program program("meshrepair-blocks run",
-                  "Repairs one block. What is done already is not done again. Options about the\n"
-                  "whole mesh, as --keep and --min-part, are about each block here.",
+                  "Repairs one block, unless it is repaired already. Options for the whole mesh,\n"
+                  "such as --keep and --min-part, apply to each block.",
                   "  meshrepair-blocks run city.blocks --block 17\n"
                   "  meshrepair-blocks run city.blocks --block 17 --format stl --max-memory 4G\n");
   CommandLine& app = program.command_line();
-  app.add_option("DIR", options.folder, "Folder that meshrepair-blocks plan has made")->required();
+  app.add_option("DIR", options.folder, "Folder from meshrepair-blocks plan")->required();
   app.add_option_function(
          "--block", [&](const std::string& text) { options.block = *parse_count(text); },
          "Number of the block, from 1")

@@ -36,7 +36,7 @@ void warn_of_lost(const GivenForFile& given, const Attributes& held, SoupFormat 
   const std::vector<std::string> lost =
       lost_attributes(*given.soup, *given.attributes, held, format);
   if (lost.empty()) return;
-  logger().warn("{}: {} cannot hold what the mesh has: {}", findings.output_name(),
+  logger().warn("{}: {} cannot store these attributes: {}", findings.output_name(),
                 format_name(format), fmt::join(lost, ", "));
 }
 

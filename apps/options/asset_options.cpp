@@ -66,9 +66,9 @@ bool AssetOptions::drops_all() const { return is_among(drops, kAllKinds); }
 
 void add_drop_option(CommandLine& app, AssetOptions& options) {
   app.add_option("--drop", options.drops,
-                 "Leave out of what IN has and OUT can hold: textures, normals, tangents,\n"
-                 "colours, others, materials, groups; separated by commas. all: all of them,\n"
-                 "which are not even read")
+                 "Do not write these attributes of IN: textures, normals, tangents, colours,\n"
+                 "others, materials, groups; separated by commas. all: read and write none of\n"
+                 "them")
       ->delimiter(',')
       ->check(is_one_of(kinds()))
       ->type_name("KIND,...")
@@ -78,9 +78,9 @@ void add_drop_option(CommandLine& app, AssetOptions& options) {
 void add_scene_option(CommandLine& app, AssetOptions& options, const std::string& group) {
   add_choice(
       app, "--scene", kScenes, [&options](bool value) { options.by_mesh = value; },
-      "The meshes of a scene (glTF, 3MF), or the objects of an OBJ file:\n"
-      "  join  all that stands in it, where it stands, is one mesh\n"
-      "  each  every mesh by itself; what stands where stays as it is")
+      "How to treat the meshes of a scene (glTF, 3MF) or the objects of an OBJ file:\n"
+      "  join  place all of them and merge them into one mesh\n"
+      "  each  process every mesh separately and keep the scene")
       ->default_str("join")
       ->group(group);
 }
@@ -88,9 +88,9 @@ void add_scene_option(CommandLine& app, AssetOptions& options, const std::string
 void add_units_option(CommandLine& app, AssetOptions& options) {
   add_choice(
       app, "--units", kUnits, [&options](LengthUnit value) { options.units = value; },
-      "What a length of 1 is in files that do not say, which are all but 3MF and glTF:\n"
+      "Length unit of files without one (all formats but 3MF and glTF):\n"
       "um, mm, cm, m, in or ft")
-      ->default_str("numbers stay as they are")
+      ->default_str("keep the numbers")
       ->group("Output");
 }
 

@@ -44,8 +44,7 @@ std::string text_of(const Setting& setting) {
 
 std::string help_text() {
   std::string text =
-      "Set options that belong together for what the solid is for; those that are given\n"
-      "as well go first:";
+      "Set several options for a purpose; options on the command line take precedence:";
   for (const Bundle& bundle : kBundles) {
     std::vector<std::string> words;
     for (const Setting& setting : bundle.settings) words.push_back(text_of(setting));

@@ -125,18 +125,18 @@ std::string why_no_epsilon(const std::string& word) {
 void add_inside_options(CommandLine& app, InsideOptions& inside) {
   add_choice(
       app, "--inside", kRules, [&inside](InsideRule value) { inside.rule = value; },
-      "How to decide what is solid:\n"
-      "  auto      winding where the orientation can be trusted, else solidity\n"
-      "  winding   what the triangles wind around; overlaps are solid, voids empty\n"
-      "  solidity  what no way leads into from outside; overlaps and voids are solid\n"
-      "  parity    what is inside an odd number of surfaces; overlaps and voids are empty\n")
+      "Rule that decides what is solid:\n"
+      "  auto      winding if the orientation is reliable, else solidity\n"
+      "  winding   points with a positive winding number; overlaps are solid, voids empty\n"
+      "  solidity  what cannot be reached from outside; overlaps and voids are solid\n"
+      "  parity    points inside an odd number of surfaces; overlaps and voids are empty\n")
       ->default_str(std::string(rule_name(inside.rule)))
       ->group("Repair");
   add_choice(
       app, "--cavities", kCavities, [&inside](Cavities value) { inside.cavities = value; },
-      "Voids that no way leads into from outside:\n"
-      "  keep  as the rule of --inside says\n"
-      "  fill  solid, with all that is in them, whatever the rule\n")
+      "How to treat closed voids:\n"
+      "  keep  as the rule of --inside decides\n"
+      "  fill  solid, with everything in them, under every rule\n")
       ->default_str("keep")
       ->group("Repair");
 }
@@ -150,11 +150,11 @@ void add_sew_option(CommandLine& app, SewOptions& sew) {
            sew.mode = known == kSewModes.end() ? SewMode::distance : known->second;
            std::tie(sew.distance, sew.is_share) = distance_in(word).value_or(std::pair(0.0, false));
          },
-         "Bring open edges together that nearly meet, before holes are closed:\n"
-         "  auto  where corners are far nearer to strange edges than their own are long\n"
+         "Join open edges that nearly meet, before holes are filled:\n"
+         "  auto  where corners are much closer to edges of others than their own are long\n"
          "  none  not at all\n"
-         "  a number: those that are no farther apart than this, in the units of IN, or with %\n"
-         "            a share of its bounding box's diagonal, as 1%")
+         "  a number: edges at most this far apart, in units of IN, or as a percentage of the\n"
+         "            bounding box diagonal, such as 1%")
       ->check(why_no_sewing)
       ->type_name("auto|none|X|X%")
       ->default_str("auto")
@@ -171,12 +171,11 @@ void add_join_gaps_option(CommandLine& app, JoinGapsOptions& gaps) {
            std::tie(gaps.distance, gaps.is_share) =
                distance_in(word).value_or(std::pair(0.0, false));
          },
-         "Bring bodies together that touch but for small gaps, or overlap by as little:\n"
-         "  auto  where faces are far nearer to each other than anything is thin\n"
+         "Join bodies that have small gaps between them, or overlap slightly:\n"
+         "  auto  where gaps are much smaller than the thinnest wall\n"
          "  none  not at all\n"
-         "  a number: faces that are no farther apart than this, in the units of IN, or with %\n"
-         "            a share of its bounding box's diagonal, as 0.01%; less than half of what\n"
-         "            is thin")
+         "  a number: faces at most this far apart, in units of IN, or as a percentage of the\n"
+         "            bounding box diagonal, such as 0.01%; less than half the thinnest wall")
       ->check(why_no_sewing)
       ->type_name("auto|none|X|X%")
       ->default_str("none")
@@ -191,10 +190,10 @@ void add_seal_option(CommandLine& app, SealOptions& seal) {
            seal.double_walls = word == "double-walls";
            std::tie(seal.size, seal.is_share) = length_in(word).value_or(std::pair(0.0, false));
          },
-         "Close openings that a ball of this diameter cannot pass, and fill what is behind:\n"
-         "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
-         "  auto          narrow openings that lead into far wider spaces\n"
-         "  double-walls  pinholes of bodies that are hollow by mistake, as generators make them")
+         "Close openings that a ball of this diameter cannot pass, and fill the space behind:\n"
+         "in units of IN, or as a percentage of the bounding box diagonal, such as 1%.\n"
+         "  auto          narrow openings of much wider spaces\n"
+         "  double-walls  pinholes of double walls, which mesh generators make by mistake")
       ->check(why_no_sealing)
       ->type_name("auto|double-walls|none|X|X%")
       ->default_str("none")
@@ -204,13 +203,13 @@ void add_seal_option(CommandLine& app, SealOptions& seal) {
 void add_holes_option(CommandLine& app, HoleOptions& holes) {
   add_choice(
       app, "--holes", kHoleModes, [&holes](HoleMode value) { holes.mode = value; },
-      "How to close holes and gaps:\n"
-      "  patch   by triangles over each hole, curved as the surface around it is;\n"
-      "          what is left, as with extend\n"
-      "  curved  the same, also where that makes the bounding box larger or the rim is a cut\n"
-      "  flat    the same, without new points\n"
-      "  extend  along planes that the mesh already has\n"
-      "  none    not at all: a component with a hole encloses nothing\n")
+      "How to fill holes and gaps:\n"
+      "  patch   a patch of triangles for each hole, curved like the surface around it;\n"
+      "          extend for what remains open\n"
+      "  curved  like patch, also where it enlarges the bounding box or the rim is a cut\n"
+      "  flat    like patch, without new vertices\n"
+      "  extend  extend the planes of existing triangles\n"
+      "  none    leave them open: a component with a hole encloses nothing\n")
       ->default_str(std::string(hole_mode_name(holes.mode)))
       ->group("Repair");
 }
@@ -221,7 +220,7 @@ const CommandOption& add_max_hole_option(CommandLine& app, HoleOptions& holes) {
                  [&holes](const std::string& word) {
                    holes.largest_share = holes.largest_flat_share = *parse_number(word);
                  },
-                 "Patch holes of at most this share of the area of the rest of their component")
+                 "Largest hole to patch, as a share of the area of the rest of its component")
               ->check(why_no_share)
               ->type_name("SHARE")
               ->default_str(fmt::format("{}, or {} in a plane", holes.largest_share,
@@ -241,23 +240,22 @@ void add_thicken_options(CommandLine& app, const CommandOption& max_hole, Thicke
                  thicken.largest_hole_share = std::numeric_limits<double>::infinity();
                }
              },
-             "Make walls of open sheets, which enclose nothing and are dropped else: so thick,\n"
-             "in the units of IN, or with % a share of its bounding box's diagonal, as 1%.\n"
-             "auto: a thickness that fits, where nothing encloses anything, or more than half\n"
-             "of the area is of parts that do not.\n"
-             "Only holes up to SHARE 0.25 are closed then, and no rims of tubes and folded "
-             "sheets,\n"
-             "unless --max-hole is given")
+             "Give open sheets, which are dropped otherwise, this thickness, in units of IN, or\n"
+             "as a percentage of the bounding box diagonal, such as 1%.\n"
+             "auto: choose a thickness, if nothing encloses a volume or open sheets make up more\n"
+             "than half of the area.\n"
+             "Unless --max-hole is given, only holes up to SHARE 0.25 are then filled, and no\n"
+             "rims of tubes and folded sheets")
           ->check(why_no_size_or_word)
           ->type_name("auto|none|X|X%")
           ->default_str("none")
           ->group("Repair");
   add_choice(
       app, "--thicken-side", kThickenSides, [&thicken](ThickenSide side) { thicken.side = side; },
-      "Where a sheet is in its wall:\n"
-      "  middle   half of the wall is on either side of it\n"
-      "  outside  the wall is where its triangles face\n"
-      "  inside   the wall is behind them\n")
+      "Position of a sheet in its wall:\n"
+      "  middle   in the middle\n"
+      "  outside  the wall lies in front of its triangles\n"
+      "  inside   the wall lies behind its triangles\n")
       ->needs(walls)
       ->default_str("middle")
       ->group("Repair");
@@ -271,17 +269,17 @@ void add_keep_options(CommandLine& app, KeepPartsOptions& keep) {
            keep.outer = asked.outer;
            keep.most = asked.most;
          },
-         "Which solids of the result stay, each with its voids:\n"
+         "Which solids of the result to keep, with their voids:\n"
          "  all      all of them\n"
-         "  outer    those that lie in no void of another one\n"
-         "  largest  the one of most volume\n"
-         "  a number: so many, those of most volume")
+         "  outer    those that are not in a void of another\n"
+         "  largest  the one with the largest volume\n"
+         "  a number: this many, by volume")
       ->check(why_not_kept)
       ->type_name("all|outer|largest|N")
       ->default_str("all")
       ->group("Repair");
   app.add_option("--min-part", keep.smallest_share,
-                 "Remove solids of less than this share of the volume of the largest one")
+                 "Remove solids with less than this share of the largest solid's volume")
       ->check(why_no_part_of_one)
       ->type_name("SHARE")
       ->capture_default_str()
@@ -294,17 +292,16 @@ void add_touching_option(CommandLine& app, Touching& touching) {
       "Solids that touch along an edge:\n"
       "  separate  become separate components\n"
       "  join      become one component, connected there\n"
-      "Solids that touch in a point are separate either way.")
+      "Solids that touch at a point always become separate.")
       ->default_str("separate")
       ->group("Repair");
 }
 
 void add_simplify_option(CommandLine& app, double& simplify) {
   app.add_option("--simplify", simplify,
-                 "Remove vertices that cutting made, moving the surface by at most this share\n"
-                 "of the diagonal; triangles that were not cut stay as they are; 0: merge only\n"
-                 "what lies in one plane. Left out where the result can only be certified\n"
-                 "without it.")
+                 "Remove vertices that cutting has added, moving the surface by at most this\n"
+                 "share of the diagonal; uncut triangles do not change; 0: merge only coplanar\n"
+                 "triangles. Skipped if the result can be certified only without it.")
       ->check(why_no_share)
       ->type_name("SHARE")
       ->capture_default_str()
@@ -324,15 +321,16 @@ void add_format_option(CommandLine& app, std::optional<SoupFormat>& format) {
   add_choice(
       app, "--format", kFormats, [&format](SoupFormat value) { format = value; },
       "Format of OUT: stl (binary), stl-ascii, obj, off, ply (binary), ply-ascii,\n"
-      "glb, gltf, 3mf. If the name of OUT ends in .gz or .zst, it is packed as well")
-      ->default_str("by the name of OUT")
+      "glb, gltf, 3mf. A name of OUT that ends in .gz or .zst\n"
+      "compresses the file")
+      ->default_str("from the name of OUT")
       ->group("Output");
 }
 
 void add_sources_option(CommandLine& app, bool& sources) {
   app.add_flag("--sources", sources,
-               "PLY only: give each face the property source_triangle, the number of the\n"
-               "input triangle that it lies in, counted from 0; -1 where a gap was closed")
+               "PLY only: add the face property source_triangle: the index, from 0, of the input\n"
+               "triangle that the face lies in, or -1 for patches")
       ->group("Output");
 }
 
@@ -348,11 +346,11 @@ void add_staging_option(CommandLine& app, std::string& folder) {
 void add_certify_options(CommandLine& app, CertifyOptions& certify, bool& strict) {
   add_choice(
       app, "--precision", kPrecisions, [&certify](Precision value) { certify.precision = value; },
-      "Round the coordinates of OUT to float64 or float32, and certify them so;\n"
-      "binary STL and glTF are always float32")
+      "Round the coordinates of OUT to float64 or float32 before certification;\n"
+      "binary STL and glTF always have float32")
       ->default_str("float64")
       ->group("Output");
-  app.add_flag("--strict", strict, "Write nothing if the result cannot be certified")
+  app.add_flag("--strict", strict, "Do not write OUT if the result cannot be certified")
       ->group("Output");
 }
 
@@ -361,16 +359,16 @@ void add_predicates_options(CommandLine& app, RepairOptions& repair, const Comma
       add_choice(
           app, "--predicates", kPredicates,
           [&repair](Predicates value) { repair.predicates = value; },
-          "How to tell on which side of a plane a point lies, while cells are cut:\n"
-          "  exact  with integers that are long enough\n"
-          "  float  with rounded distances and a tolerance, for comparison; the result is\n"
-          "         certified, but not mended\n")
+          "Arithmetic of the side tests when cells are cut:\n"
+          "  exact  integers of sufficient length\n"
+          "  float  rounded distances with a tolerance, for comparison; the result is\n"
+          "         checked, but not repaired further\n")
           ->default_str(std::string(predicates_name(repair.predicates)))
           ->group("Repair");
   const CommandOption* epsilon =
       app.add_option("--eps", repair.epsilon,
-                     "With --predicates float: a point this near to a plane is on it, as a share\n"
-                     "of the largest side of the bounding box")
+                     "Tolerance of --predicates float, as a share of the longest side of the\n"
+                     "bounding box")
           ->check(why_no_epsilon)
           ->type_name("SHARE")
           ->capture_default_str()

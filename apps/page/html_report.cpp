@@ -146,12 +146,12 @@ void write_page(const HtmlRequest& request, PageContent content, Run& run) {
 
 void add_html_options(CommandLine& app, HtmlRequest& request, const std::string& what) {
   app.add_option("--html", request.path,
-                 "Write a page for browsers that shows " + what + ", to be\nturned and cut open")
+                 "Write an interactive HTML page that shows " + what + ",\nto turn and cut open")
       ->check(names_side_file(".html, .htm"))
       ->type_name("FILE")
       ->group("Page");
   app.add_option("--html-triangles", request.most_triangles,
-                 "Draw no more triangles of a mesh: all that are at fault, and the others\n"
+                 "Draw at most this many triangles of a mesh: all defective ones, and the others\n"
                  "simplified")
       ->check(count_between(1))
       ->type_name("N")

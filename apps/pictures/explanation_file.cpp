@@ -37,16 +37,16 @@ struct Painted {
 
 // In the order of TriangleFate.
 constexpr std::array<Painted, kTriangleFates> kFates = {{
-    {"brown", "of a solid or void that was to go", {140, 90, 50}},
-    {"green", "made a wall", {40, 170, 70}},
-    {"blue", "turned the other way round", {40, 90, 230}},
+    {"brown", "part of a solid or void that was removed", {140, 90, 50}},
+    {"green", "thickened into a wall", {40, 170, 70}},
+    {"blue", "flipped", {40, 90, 230}},
     {"grey", "whole in the result", {200, 200, 200}},
     {"yellow", "cut, or merged with others", {245, 225, 40}},
     {"cyan", "sewn to others", {50, 200, 210}},
     {"violet", "inside the solid", {150, 90, 200}},
-    {"magenta", "where others lie", {210, 40, 200}},
-    {"black", "without area, or too small", {0, 0, 0}},
-    {"red", "bounds nothing", {220, 30, 30}},
+    {"magenta", "covered by others", {210, 40, 200}},
+    {"black", "degenerate or too small", {0, 0, 0}},
+    {"red", "bounds no solid", {220, 30, 30}},
 }};
 
 // In the order of TriangleOrigin.
@@ -239,10 +239,11 @@ std::vector<TriangleKind> kinds_of_origins() {
 }
 
 void add_explain_option(CommandLine& app, std::string& path) {
-  app.add_option("--explain", path,
-                 "Write IN and OUT beside each other as PLY or GLB, each triangle coloured by\n"
-                 "what became of it:" +
-                     help_of(kFates) + "\nor, in OUT, by what it is:" + help_of(kOrigins))
+  app.add_option(
+         "--explain", path,
+         "Write IN and OUT side by side as PLY or GLB, each triangle of IN coloured by its\n"
+         "fate:" +
+             help_of(kFates) + "\nand each triangle of OUT by its origin:" + help_of(kOrigins))
       ->check(names_side_file(".ply, .glb"))
       ->type_name("FILE")
       ->group("Output");

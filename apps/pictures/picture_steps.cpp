@@ -123,14 +123,14 @@ void add_picture_options(CommandLine& app, PictureRequest& request, const std::s
   app.add_option_function(
          "--picture-size",
          [&request](const std::string& word) { request.size = *picture_size_of(word); },
-         "WIDTHxHEIGHT in pixels, of one mesh")
+         "Size of each mesh in pixels, WIDTHxHEIGHT")
       ->check(why_no_size)
       ->type_name("SIZE")
       ->default_str(fmt::format("{}x{}", request.size.width, request.size.height))
       ->group("Picture");
   app.add_option_function(
          "--picture-view", [&request](const std::string& word) { request.view = *view_of(word); },
-         "From where: front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION\n"
+         "Viewpoint: front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION\n"
          "in degrees; 0,0 is the front, 90,0 the right")
       ->check(why_no_view)
       ->type_name("VIEW")
@@ -143,7 +143,7 @@ void add_colours_option(CommandLine& app, PictureRequest& request, const std::st
   app.add_option_function(
          "--picture-colours",
          [&request, name](const std::string& word) { request.painted = word == name; },
-         fmt::format("looks: those of the mesh; {}: {}", name, meaning))
+         fmt::format("looks: the colours of the mesh; {}: {}", name, meaning))
       ->check(is_one_of(std::vector<std::string>{"looks", name}))
       ->type_name("NAME")
       ->default_str("looks")
@@ -157,13 +157,12 @@ void add_show_options(CommandLine& app, PictureRequest& request, const std::stri
          [&request] {
            if (request.shown == Shown::nothing) request.shown = Shown::automatic;
          },
-         "Draw " + what +
-             " in the terminal, too, where it understands\nkitty's pictures or sixels" + otherwise)
+         "Draw " + what + " in the terminal, if it supports\nkitty graphics or sixels" + otherwise)
       ->group("Picture");
   add_choice(
       app, "--show-as", kShownAs, [&request](Shown shown) { request.shown = shown; },
-      "The same, without asking the terminal what it understands: sixel or kitty;\n"
-      "none is as if it understood neither")
+      "Like --show, but use this protocol without asking the terminal: sixel or kitty;\n"
+      "none: act as if the terminal supported neither")
       ->group("Picture");
 }
 

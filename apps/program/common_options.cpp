@@ -57,7 +57,7 @@ std::string why_no_descriptor(const std::string& text) {
 
 // Some programs have --json for their report.
 void add_json_flag(CommandLine& app, CommandOption& version) {
-  const std::string facts = "print what the program is built of and knows, as JSON";
+  const std::string facts = "print version, build, libraries, formats and limits as JSON";
   if (CommandOption* known = app.find("--json")) {
     known->description(known->description() + ";\nwith --version: " + facts);
     return;
@@ -102,34 +102,35 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
       ->check(count_between(0, kMostThreads))
       ->type_name("N")
       ->group(running);
-  app.add_option("--time-limit", options.time_limit, "Give up after this time; 0: never")
+  app.add_option("--time-limit", options.time_limit, "Stop after this time; 0: no limit")
       ->capture_default_str()
       ->check(why_no_duration)
       ->type_name("SECONDS")
       ->group(running);
   app.add_option("--max-memory", options.max_memory,
-                 "Take no more memory: 200M, 1.5G, or a share of what is free; large\n"
-                 "arrays go into a file where there would be more; 0: no limit")
+                 "Use at most this much memory: 200M, 1.5G, or a percentage of free memory; large\n"
+                 "arrays beyond it go into a temporary file; 0: no limit")
       ->capture_default_str()
       ->type_name("SIZE")
       ->group(running);
-  app.add_option("--temp", options.temp,
-                 "Folder for this file; $TMPDIR or /var/tmp unless told; none: give up\n"
-                 "rather than take more memory")
+  app.add_option(
+         "--temp", options.temp,
+         "Folder for the temporary file, $TMPDIR or /var/tmp if not given; none: stop when\n"
+         "the memory limit is reached")
       ->type_name("DIR")
       ->group(running);
   app.add_option_function(
          "--max-triangles",
          [&options](const std::string& text) { options.max_triangles = *parse_count(text); },
-         "Give up on inputs of more triangles; 0: no limit")
+         "Reject inputs with more triangles; 0: no limit")
       ->default_str("0")
       ->check(why_no_count)
       ->type_name("N")
       ->group(running)
       ->rare();
   app.add_option("--progress-fd", options.progress_to,
-                 "Write a line 'STAGE PERCENT' for each percent to this descriptor, which is\n"
-                 "open, for programs that call this one")
+                 "Write a line 'STAGE PERCENT' for each percent to this open file descriptor,\n"
+                 "for programs that call this one")
       ->check(why_no_descriptor)
       ->type_name("N")
       ->group(telling)
@@ -152,7 +153,7 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
   add_choice(
       app, "--describe", kDescriptions,
       [&app](Describe describe) { throw Description{describe(facts_of(app))}; },
-      "Print a manual page or a completion")
+      "Print a manual page or a shell completion")
       ->group("");
 }
 

@@ -25,16 +25,16 @@ struct DefectWords {
 
 constexpr std::array<DefectWords, kDefects> kWords = {{
     {Defect::open_edge, "open edges", "not closed"},
-    {Defect::nonmanifold_edge, "edges of more than two triangles", "not manifold"},
-    {Defect::nonmanifold_vertex, "points where parts only touch", "not manifold"},
-    {Defect::inconsistent_edge, "edges between opposite facings", "not oriented"},
+    {Defect::nonmanifold_edge, "non-manifold edges", "not manifold"},
+    {Defect::nonmanifold_vertex, "non-manifold vertices", "not manifold"},
+    {Defect::inconsistent_edge, "edges with inconsistent orientation", "not oriented"},
     {Defect::inside_out_part, "parts that are inside out", "inside out"},
-    {Defect::self_intersection, "pairs of triangles that intersect", "self-intersecting"},
-    {Defect::degenerate_triangle, "triangles without area", "degenerate triangles"},
+    {Defect::self_intersection, "intersecting pairs of triangles", "self-intersecting"},
+    {Defect::degenerate_triangle, "degenerate triangles", "degenerate triangles"},
     {Defect::duplicate_triangle, "duplicate triangles", "duplicate triangles"},
-    {Defect::not_finite_triangle, "triangles that are not finite",
-     "coordinates that are no numbers"},
-    {Defect::unused_point, "points that no triangle uses", ""},
+    {Defect::not_finite_triangle, "triangles with NaN or infinity",
+     "coordinates that are not numbers"},
+    {Defect::unused_point, "unused points", ""},
 }};
 
 struct MarkColour {
@@ -48,12 +48,12 @@ struct MarkColour {
 constexpr std::array<MarkColour, 8> kColours = {{
     {Defect::degenerate_triangle, "black", "without area", {0, 0, 0}},
     {Defect::self_intersection, "red", "intersects another triangle", {220, 30, 30}},
-    {Defect::duplicate_triangle, "magenta", "is there more than once", {210, 40, 200}},
-    {Defect::nonmanifold_edge, "orange", "at an edge of more than two triangles", {245, 140, 20}},
+    {Defect::duplicate_triangle, "magenta", "a duplicate", {210, 40, 200}},
+    {Defect::nonmanifold_edge, "orange", "at a non-manifold edge", {245, 140, 20}},
     {Defect::open_edge, "yellow", "at an open edge", {245, 225, 40}},
-    {Defect::inconsistent_edge, "blue", "faces another way than a neighbour", {40, 90, 230}},
-    {Defect::inside_out_part, "green", "of a part that is inside out", {40, 170, 70}},
-    {Defect::nonmanifold_vertex, "cyan", "at a point where parts only touch", {50, 200, 210}},
+    {Defect::inconsistent_edge, "blue", "oriented opposite to a neighbour", {40, 90, 230}},
+    {Defect::inside_out_part, "green", "in a part that is inside out", {40, 170, 70}},
+    {Defect::nonmanifold_vertex, "cyan", "at a non-manifold vertex", {50, 200, 210}},
 }};
 constexpr Colour kSound = {200, 200, 200};
 
@@ -213,7 +213,7 @@ std::vector<std::string> colour_legend() {
   for (const MarkColour& mark : kColours) {
     lines.push_back(fmt::format("{:<8} {}", mark.name, mark.meaning));
   }
-  lines.push_back(fmt::format("{:<8} {}", "grey", "nothing wrong with it"));
+  lines.push_back(fmt::format("{:<8} {}", "grey", "no defect"));
   return lines;
 }
 

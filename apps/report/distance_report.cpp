@@ -54,23 +54,24 @@ Json way_section(const OneSidedDistance& way, double diagonal) {
 }  // namespace
 
 void add_distance_options(CommandLine& app, DistanceOptions& options) {
-  app.add_option("--samples", options.samples, "Points on each mesh, evenly by area")
+  app.add_option("--samples", options.samples,
+                 "Number of sample points on each mesh, uniform by area")
       ->type_name("N")
       ->check(count_between(1, 1'000'000'000))
       ->capture_default_str()
       ->group("Distance");
-  app.add_option("--seed", options.seed, "Seed of the choice of these points")
+  app.add_option("--seed", options.seed, "Seed of the sampling")
       ->type_name("N")
       ->check(count_between(0))
       ->capture_default_str()
       ->group("Distance");
   CommandOption* bound =
       app.add_flag("--bound", options.bound,
-                   "Also find a distance that no point exceeds, rounding included, by dividing\n"
-                   "triangles until it is near the largest distance found")
+                   "Also compute a proven upper bound, rounding included, by subdividing\n"
+                   "triangles until it is close to the largest distance found")
           ->group("Distance");
   app.add_option("--bound-factor", options.bound_factor,
-                 "How near: at most this many times the largest distance found")
+                 "Largest ratio of this bound to the largest distance found")
       ->type_name("F")
       ->check(number_between(1.001, 1000))
       ->capture_default_str()

@@ -59,8 +59,8 @@ bool changes_results(const CommandOption& option) { return !names(kOthers, optio
 
 void add_resume_option(CommandLine& app, std::string& folder) {
   app.add_option("--resume", folder,
-                 "Keep in this folder what is done, and go on from what an interrupted run\n"
-                 "left there; at the end it is removed")
+                 "Save progress in this folder, or continue from it after an interruption;\n"
+                 "removed at the end")
       ->check([](const std::string& name) {
         return name.empty() ? std::string("needs the name of a folder") : std::string();
       })

@@ -133,7 +133,7 @@ bool StateFolder::load(const std::string& name,
   const fs::path file = path_of(name, kExtension);
   if (!has(name)) return false;
   if (!read_state(file, read)) {
-    logger().warn("--resume: {} is damaged, and not used", file.string());
+    logger().warn("--resume: {} is damaged and ignored", file.string());
     drop(name);
     return false;
   }
@@ -153,7 +153,7 @@ void StateFolder::save(const std::string& name, const std::function<void(std::os
     saved_.push_back(name);
   } catch (const fs::filesystem_error& error) {
     may_save_ = false;
-    logger().warn("--resume: {} cannot be written, so what follows is not kept: {}",
+    logger().warn("--resume: {} cannot be written; later progress is not saved: {}",
                   unfinished.string(), error.code().message());
     std::error_code failed;
     fs::remove(unfinished, failed);

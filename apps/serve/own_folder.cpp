@@ -20,7 +20,7 @@ std::string made_folder(const std::string& start) {
   std::string name =
       std::string(given != nullptr && *given != '\0' ? given : "/tmp") + "/" + start + "-XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) {
-    throw OutputError(name + ": the folder cannot be made");
+    throw OutputError(name + ": the folder cannot be created");
   }
   return name;
 }
@@ -38,7 +38,7 @@ OwnFolder::OwnFolder(const std::string& name) : name_(made_folder(name)) {
                        found.st_uid == ::geteuid() && (found.st_mode & 0077) == 0;
   if (!is_ours) {
     if (descriptor_ >= 0) ::close(descriptor_);
-    throw OutputError(name_ + ": is not the folder that was made");
+    throw OutputError(name_ + ": is not the folder that was created");
   }
   path_ = "/proc/self/fd/" + std::to_string(descriptor_);
 }

@@ -45,8 +45,8 @@ struct ServeOptions {
 
 void add_options(CommandLine& app, ServeOptions& options) {
   app.add_flag_callback(
-      std::string(kFlag), [] {}, "Serve a page on this machine until Ctrl-C");
-  app.add_option("--port", options.port, "Of the address; 0: one that is free")
+      std::string(kFlag), [] {}, "Serve a local web page until Ctrl-C");
+  app.add_option("--port", options.port, "Port; 0: any free one")
       ->check(count_between(0, 65535))
       ->type_name("N")
       ->capture_default_str();
@@ -55,21 +55,21 @@ void add_options(CommandLine& app, ServeOptions& options) {
       ->capture_default_str();
   app.add_flag_callback(
       "--no-browser", [&options] { options.opens_browser = false; },
-      "Print the address, and open no browser");
+      "Print the address and do not open a browser");
   app.add_option("--threads", options.threads, "Number of threads of a repair; 0: all")
       ->check(count_between(0, kMostThreads))
       ->type_name("N");
-  app.add_option("--time-limit", options.time_limit, "Give up a mesh after this time; 0: never")
+  app.add_option("--time-limit", options.time_limit,
+                 "Stop a check or repair after this time; 0: no limit")
       ->check(number_between(0))
       ->type_name("SECONDS");
-  app.add_option("--max-memory", options.max_memory,
-                 "Give up a mesh rather than take more memory: 200M, 80%")
+  app.add_option("--max-memory", options.max_memory, "Memory limit of a check or repair: 200M, 80%")
       ->type_name("SIZE");
 }
 
 // False: help was asked for, and is printed.
 bool parse(CommandLine& app, int argc, const char* const* argv) {
-  app.set_help_flag("--help,-h", "Print this text and exit");
+  app.set_help_flag("--help,-h", "Print this help and exit");
   app.set_footer(
       "Examples:\n"
       "  meshrepair --serve\n"
@@ -130,7 +130,7 @@ ExitCode serve_until_signal(const ServeOptions& options) {
   of_workshop.for_all = options_for_all(options);
   HttpServer::Limits limits;
   limits.body = parse_size(options.max_upload, "--max-upload");
-  if (limits.body == 0) throw UsageError("--max-upload: is to be more than 0");
+  if (limits.body == 0) throw UsageError("--max-upload: must be more than 0");
   HttpServer server(static_cast<unsigned short>(options.port));
   const OwnFolder folder("meshrepair-serve");
   Workshop workshop(std::move(of_workshop), folder);
@@ -154,10 +154,8 @@ int serve(int argc, const char* const* argv) {
     install_signal_handlers();
     install_signal_handler(SIGQUIT);  // its folder would stay
     set_up_logging("meshrepair", Verbosity::normal);
-    CommandLine app(
-        "Serves a page on this machine that checks and repairs meshes, of any size, with this "
-        "program.",
-        "meshrepair --serve");
+    CommandLine app("Serves a local web page that checks and repairs meshes with this program.",
+                    "meshrepair --serve");
     ServeOptions options;
     add_options(app, options);
     try {

@@ -30,7 +30,7 @@ constexpr double kShareOfDisk = 0.8;
 std::uint64_t grains(std::uint64_t bytes) { return (bytes + kGrain - 1) / kGrain * kGrain; }
 
 [[noreturn]] void fail(const std::filesystem::path& folder, int error) {
-  throw OutputError("--temp: no file can be made in " + folder.string() + ": " +
+  throw OutputError("--temp: cannot create a file in " + folder.string() + ": " +
                     std::generic_category().message(error));
 }
 

@@ -38,11 +38,11 @@ void add_operation_options(CommandLine& app, BooleanCommand& command) {
   static const auto operations = named_operations();
   add_choice(
       app, "--op", operations, [&command](SetOperation value) { command.operation = value; },
-      "What the result is (required):\n"
-      "  union         what is in any solid\n"
-      "  intersection  what is in all solids\n"
-      "  difference    what is in the first and in no other\n"
-      "  xor           what is in an odd number of solids")
+      "Operation (required):\n"
+      "  union         inside at least one solid\n"
+      "  intersection  inside all solids\n"
+      "  difference    inside the first and no other\n"
+      "  xor           inside an odd number of solids")
       ->required();
   app.add_flag("--always", command.always,
                "Merge trees of all solids instead of cutting their triangles;\n"
@@ -70,10 +70,9 @@ void warn_of_common_grid(const BooleanCommand& command, const BooleanReport& rep
   for (std::size_t i = 0; i < report.operands.size(); ++i) {
     const OperandReport& operand = report.operands[i];
     if (operand.clean.dropped_below_grid > 0) {
-      logger().warn(
-          "{}: {} narrower than the steps of the grid over all solids, {:.3g} each, and left out",
-          command.inputs[i], number_of(operand.clean.dropped_below_grid, "triangle"),
-          operand.clean.grid_unit);
+      logger().warn("{}: {} left out: narrower than the step of the common grid, {:.3g}",
+                    command.inputs[i], number_of(operand.clean.dropped_below_grid, "triangle"),
+                    operand.clean.grid_unit);
     }
   }
 }
@@ -173,7 +172,7 @@ void end_operand(const Operand& operand, const Findings& findings, Run& run, Jso
   if (!is_certified(operand, findings)) {
     logger().warn("{}: could not be certified as a solid", findings.input_name());
   } else if (findings.mesh_read && !operand.as_given) {
-    logger().warn("{}: is no valid solid by these rules, and is repaired first",
+    logger().warn("{}: not a valid solid by these rules; it is repaired first",
                   findings.input_name());
   }
   facts.push_back(facts_of_operand(operand, findings, run.report.take_sections()));

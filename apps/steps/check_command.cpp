@@ -132,9 +132,9 @@ void add_check_command(CommandLine& app, CheckCommand& command) {
       ->type_name("FILE")
       ->group("Output");
   add_picture_options(app, command.picture, "IN");
-  add_colours_option(app, command.picture, "defects", "as --mark has them");
+  add_colours_option(app, command.picture, "defects", "those of --mark");
   add_show_options(app, command.picture, "IN");
-  add_html_options(app, command.html, "IN, with all that is wrong");
+  add_html_options(app, command.html, "IN with all defects");
 }
 
 ExitCode check_file(CheckCommand& command, Run& run) {

@@ -16,16 +16,17 @@ namespace meshrepair {
 
 void add_check_options(CommandLine& app, CheckRequest& request) {
   app.add_flag("--weld", request.check.weld,
-               "Treat points with equal coordinates as one, as always in STL")
+               "Merge points with equal coordinates, as always for STL")
       ->group("Check");
-  app.add_option("--places", request.check.most_places, "List this many places of each defect")
+  app.add_option("--places", request.check.most_places, "List this many locations of each defect")
       ->type_name("N")
       ->check(count_between(0, 1'000'000))
       ->capture_default_str()
       ->group("Check");
-  app.add_flag("--openings", request.openings,
-               "Look for narrow openings that lead into a far wider space, and say what a solid\n"
-               "encloses once they are closed: meshrepair --seal does that")
+  app.add_flag(
+         "--openings", request.openings,
+         "Look for narrow openings of much wider spaces, and print the volume that the solid\n"
+         "encloses once they are closed (by meshrepair --seal)")
       ->group("Check");
 }
 
@@ -41,12 +42,13 @@ std::string add_openings(const TriangleSoup& soup, const SurfaceCheck& check,
                          {"size", seal.size},
                          {"filled_volume", seal.filled_volume},
                          {"volume", volume}};
-  if (seal.openings == 0) return "openings  none is narrow and leads into a far wider space\n";
+  if (seal.openings == 0) return "openings  none: no narrow opening of a much wider space\n";
   const std::string encloses =
       std::isfinite(volume) ? fmt::format("encloses {:.6g}", volume) : "encloses more";
-  return fmt::format("openings  {} if {} below {:.4g} {} closed: meshrepair --seal {:.4g}\n",
-                     encloses, number_of(seal.openings, "opening"), seal.size,
-                     seal.openings == 1 ? "is" : "are", seal.size);
+  return fmt::format(
+      "openings  the solid {} if {} narrower than {:.4g} {} closed: meshrepair --seal {:.4g}\n",
+      encloses, number_of(seal.openings, "opening"), seal.size, seal.openings == 1 ? "is" : "are",
+      seal.size);
 }
 
 std::string add_near_faces(const TriangleSoup& soup, const CheckRequest& request, Json& section) {

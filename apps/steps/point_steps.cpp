@@ -75,39 +75,40 @@ PointCloud keep(PointReadResult result, Findings& findings) {
 
 void add_point_options(CommandLine& app, PointSoupOptions& options) {
   app.add_option("--votes", options.votes,
-                 "Keep triangles that at least this many of their corners want: 1, 2 or 3")
+                 "Keep a triangle if at least this many of its corners propose it: 1, 2 or 3")
       ->check(count_between(1, 3))
       ->type_name("N")
       ->capture_default_str()
       ->group("Points");
   app.add_option("--reach", options.reach,
-                 "Span gaps up to this radius, in spacings of the points around them")
+                 "Bridge gaps up to this radius, in multiples of the local point spacing")
       ->check(number_between(0.1, 1000))
       ->type_name("X")
       ->capture_default_str()
       ->group("Points");
   app.add_option("--neighbours", options.neighbours,
-                 "Neighbours of a point that its tangent plane is fitted to")
+                 "Number of neighbours that a tangent plane is fitted to")
       ->check(count_between(5, 1000))
       ->type_name("N")
       ->capture_default_str()
       ->group("Points");
-  app.add_option("--outliers", options.outlier,
-                 "Drop points whose spacing is this many times that of their neighbours; 0: none")
+  app.add_option(
+         "--outliers", options.outlier,
+         "Drop points whose spacing exceeds that of their neighbours by this factor; 0: none")
       ->check(number_between(0))
       ->type_name("X")
       ->capture_default_str()
       ->group("Points");
   app.add_option("--project", options.project,
-                 "Smooth noisy points: move each this many times onto the surface that its\n"
-                 "neighbours suggest")
+                 "Smooth noisy points: project each onto a surface fitted to its neighbours, this\n"
+                 "many times")
       ->check(count_between(0, 100))
       ->type_name("N")
       ->capture_default_str()
       ->group("Points");
   app.add_flag_callback(
          "--no-normals", [&options] { options.use_normals = false; },
-         "Do not use the normals of the points")
+         "Ignore the normals of the points")
       ->group("Points");
 }
 
@@ -133,7 +134,7 @@ namespace {
 void add_base_options(CommandLine& app, RepairPointsOptions& options) {
   ScanBaseOptions& base = options.scan_base;
   app.add_flag("--base", options.base,
-               "Close an open scan or mesh, such as a terrain, by walls down to a floor")
+               "Close an open scan or mesh, such as a terrain, with walls and a floor")
       ->group("Points");
   CommandOption* depth =
       app.add_option_function(
@@ -143,8 +144,8 @@ void add_base_options(CommandLine& app, RepairPointsOptions& options) {
                std::tie(base.depth, base.is_share) =
                    length_in(word).value_or(std::pair(0.0, false));
              },
-             "How far the floor is below the lowest point, in the units of IN, or with % a share\n"
-             "of its bounding box's diagonal")
+             "Depth of the floor below the lowest point, in units of IN, or as a percentage of\n"
+             "the bounding box diagonal")
           ->check(why_no_length)
           ->type_name("X|X%")
           ->default_str("5%")
@@ -155,14 +156,14 @@ void add_base_options(CommandLine& app, RepairPointsOptions& options) {
            options.base = true;
            base.floor = parse_number(word);
          },
-         "Where the floor is along the axis that points up, in the units of IN")
+         "Position of the floor on the up axis, in units of IN")
       ->check(number_between(std::numeric_limits<double>::lowest()))
       ->excludes(depth)
       ->type_name("X")
       ->group("Points");
   app.add_option_function(
          "--up", [&base](const std::string& axis) { base.axis = axis[0] - 'x'; },
-         "The axis that points up from the floor: x, y or z")
+         "Up axis: x, y or z")
       ->check(is_one_of({"x", "y", "z"}))
       ->type_name("NAME")
       ->default_str("z")
@@ -172,8 +173,7 @@ void add_base_options(CommandLine& app, RepairPointsOptions& options) {
 }  // namespace
 
 void add_point_repair_options(CommandLine& app, PointOptions& options) {
-  app.add_flag("--points", options.as_points,
-               "Use only the points of a mesh, as if it had no faces")
+  app.add_flag("--points", options.as_points, "Ignore the faces of a mesh and use only its points")
       ->group("Points");
   add_base_options(app, options.repair);
   add_point_options(app, options.repair.soup);
@@ -183,7 +183,8 @@ void add_point_repair_options(CommandLine& app, PointOptions& options) {
          [&advice] {
            advice = {false, false, false};
          },
-         "Where points enclose nothing, try no other --project, --neighbours and --base")
+         "Do not retry with other --project, --neighbours and --base if the points enclose\n"
+         "nothing")
       ->group("Points");
   // What is given by hand stays.
   app.option("--project").each([&advice](const std::string&) { advice.project = false; });

@@ -55,7 +55,7 @@ void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base)
 // Of points, and of sheets that get walls, several soups are tried.
 void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
   if (options.states == nullptr || !(input.cloud || options.thicken.wanted())) return;
-  logger().warn("--resume: keeps nothing where {}",
+  logger().warn("--resume: saves nothing if {}",
                 input.cloud ? "points become a mesh" : "sheets get walls");
   options.states = nullptr;
 }
@@ -86,8 +86,8 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_scene_option(app, options.assets);
   const CommandOption* always =
       app.add_flag("--always", command.always,
-                   "Do the whole work, also for a mesh that is the boundary of a solid already,\n"
-                   "or that needs only its holes closed and its triangles turned")
+                   "Run all steps, even if the mesh already bounds a solid or needs only holes\n"
+                   "filled and triangles flipped")
           ->group("Repair");
   add_predicates_options(app, options.repair, always);
   add_format_option(app, options.format);
@@ -99,9 +99,9 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_certify_options(app, options.repair.certify, options.strict);
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
-  add_colours_option(app, options.picture, "fates", "as --explain has them");
-  add_show_options(app, options.picture, "IN and OUT", "; elsewhere show by a bar what changed");
-  add_html_options(app, options.html, "IN and OUT, with all that is wrong");
+  add_colours_option(app, options.picture, "fates", "those of --explain");
+  add_show_options(app, options.picture, "IN and OUT", "; otherwise print a bar of what changed");
+  add_html_options(app, options.html, "IN and OUT with all defects");
   add_point_repair_options(app, command.points);
   for (const char* const name : kRareOptions) app.option(name).rare();
 }
@@ -125,7 +125,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   format.extras.unit = findings.unit;
   fit_to_input(input, command, repair_options);
   if (!input.scene.meshes.empty()) {
-    if (points.repair.base) throw UsageError("--base: is not for objects one by one");
+    if (points.repair.base) throw UsageError("--base: cannot be used with --scene each");
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
   const Surface surface = repair_or_advise(input, points, repair_options, run, findings);

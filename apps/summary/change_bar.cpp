@@ -53,7 +53,7 @@ std::string change_bar(const RepairReport& repair) {
   const std::size_t cut =
       std::min(all - untouched, repair.triangles.cut - repair.triangles.rounded);
   const std::array<Share, 3> shares = {
-      {{'=', "untouched", untouched}, {'+', "cut", cut}, {'-', "gone", all - untouched - cut}}};
+      {{'=', "untouched", untouched}, {'+', "cut", cut}, {'-', "removed", all - untouched - cut}}};
   const std::array<std::size_t, 3> widths = widths_of(shares, all);
   std::string bar, words;
   for (std::size_t i = 0; i < shares.size(); ++i) {

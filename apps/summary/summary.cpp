@@ -60,7 +60,7 @@ std::string dropped_triangles(const CleanReport& clean) {
   const std::size_t copies = clean.duplicates + clean.opposite_duplicates;
   if (copies > 0) texts.push_back(number_of(copies, "duplicate"));
   if (clean.dropped_degenerate > 0)
-    texts.push_back(grouped(clean.dropped_degenerate) + " without area");
+    texts.push_back(grouped(clean.dropped_degenerate) + " degenerate");
   if (clean.dropped_below_grid > 0)
     texts.push_back(grouped(clean.dropped_below_grid) + " below the grid");
   if (clean.dropped_not_finite > 0) {
@@ -76,13 +76,17 @@ std::vector<std::string> troubles_of(const Findings& findings) {
   texts.push_back(dropped_triangles(findings.repair.clean));
   std::erase(texts, "");
   add_count(texts, input.open_edges, "open edge", "(gaps and holes)");
-  add_count(texts, input.nonmanifold_edges, "edge", "with more than two triangles");
-  add_count(texts, input.inconsistent_edges, "edge", "whose two triangles face opposite ways");
-  add_count(texts, input.nonmanifold_vertices, "point", "in which parts of the surface only touch");
+  if (input.nonmanifold_edges > 0)
+    texts.push_back(number_of(input.nonmanifold_edges, "non-manifold edge"));
+  add_count(texts, input.inconsistent_edges, "edge", "between triangles of opposite orientation");
+  if (input.nonmanifold_vertices > 0) {
+    texts.push_back(
+        number_of(input.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"));
+  }
   if (findings.repair.kept_valid) {
-    texts.emplace_back("nothing: it is the boundary of a solid, and left as it is");
+    texts.emplace_back("nothing: the mesh bounds a solid and is not changed");
   } else if (texts.empty()) {
-    texts.emplace_back("nothing to be seen in its edges (what crosses or overlaps is not counted)");
+    texts.emplace_back("no defective edges (intersections are not counted)");
   }
   return texts;
 }
@@ -95,14 +99,15 @@ std::string dropped_points(const Findings& findings) {
   add_count(texts, soup.not_finite, "point", "with NaN or infinity");
   if (soup.duplicates > 0) texts.push_back(number_of(soup.duplicates, "duplicate"));
   if (soup.outliers > 0) texts.push_back(number_of(soup.outliers, "outlier"));
-  add_count(texts, findings.joined_columns, "point", "that single precision puts above others");
+  add_count(texts, findings.joined_columns, "point", "above others in single precision");
   return joined(texts);
 }
 
 std::vector<std::string> local_triangles(const PointSoupReport& soup) {
-  std::vector<std::string> texts = {fmt::format(
-      "{}; {} that three corners want, {} two, {} one", number_of(soup.triangles, "triangle"),
-      grouped(soup.by_votes[2]), grouped(soup.by_votes[1]), grouped(soup.by_votes[0]))};
+  std::vector<std::string> texts = {
+      fmt::format("{}; proposed by three corners: {}, by two: {}, by one: {}",
+                  number_of(soup.triangles, "triangle"), grouped(soup.by_votes[2]),
+                  grouped(soup.by_votes[1]), grouped(soup.by_votes[0]))};
   if (soup.farthest_move > 0) {
     texts.push_back(fmt::format("points moved by at most {:.3g}", soup.farthest_move));
   }
@@ -121,7 +126,7 @@ std::string followed_advice(const std::vector<PointTry>& tries) {
   }
   if (last.base && !first.base) options.emplace_back("--base, as they are a terrain");
   if (options.empty()) return {};  // walls are asked for
-  return fmt::format("the points enclose nothing as they are; took {}", joined(options));
+  return fmt::format("the points alone enclose nothing; used {}", joined(options));
 }
 
 void describe_base(const Findings& findings, Lines& lines) {
@@ -177,34 +182,36 @@ void describe_input(const Findings& findings, Lines& lines) {
 void describe_decision(const RepairReport& repair, Lines& lines) {
   const InsideReport& inside = repair.inside;
   std::vector<std::string> remarks;
-  add_count(remarks, repair.orient.turned_triangles, "triangle", "turned like the neighbours");
+  add_count(remarks, repair.orient.turned_triangles, "triangle", "flipped like the neighbours");
   if (!inside.exact && inside.contradictions > 0) {
-    remarks.emplace_back("no solid fits all triangles, the likeliest taken");
+    remarks.emplace_back("no solid fits all triangles; took the most likely");
   }
-  add_count(remarks, inside.left_out_folds, "fold", "the wrong way round left out");
+  add_count(remarks, inside.left_out_folds, "inverted fold", "left out");
   add_count(remarks, inside.filled_voids, "void", "filled");
   std::vector<std::string> texts = {
       fmt::format("decided by {}{}", rule_name(inside.used),
-                  inside.asked == InsideRule::automatic ? ": " + inside.reason : ", as asked for")};
+                  inside.asked == InsideRule::automatic ? ": " + inside.reason : ", as requested")};
   if (!remarks.empty()) texts.push_back(joined(remarks));
   if (inside.poking_walls > 0) {
     texts.push_back(
-        fmt::format("{} that {} out of what is around, with up to {:.2g} % of the area",
+        fmt::format("{} that {} out of the surrounding solid, by up to {:.2g} % of the area",
                     number_of(inside.poking_walls, "wall of a cavity", "walls of cavities"),
                     inside.poking_walls == 1 ? "pokes" : "poke", 100 * inside.poking_share));
   }
   if (inside.other != InsideRule::automatic) {
-    texts.push_back(fmt::format("nearly as likely is the solid that --inside {} gives",
-                                rule_name(inside.other)));
+    texts.push_back(
+        fmt::format("almost as likely: the solid of --inside {}", rule_name(inside.other)));
   }
   lines.add("inside", texts);
 }
 
 void describe_sewing(const SewReport& sew, Lines& lines) {
   if (sew.refused_distance > 0) {
-    lines.add("unsewn", fmt::format("{:.3g} is too far for what is beside the open edges; "
-                                    "--sew says how far to go",
-                                    sew.refused_distance));
+    lines.add(
+        "unsewn",
+        fmt::format(
+            "open edges up to {:.3g} apart are not sewn automatically; set a distance with --sew",
+            sew.refused_distance));
   }
   if (sew.distance == 0) return;
   std::string text =
@@ -212,7 +219,7 @@ void describe_sewing(const SewReport& sew, Lines& lines) {
                   grouped(sew.sewn_edges), number_of(sew.open_edges, "open edge"), sew.widest_gap,
                   number_of(sew.joined_points, "corner"), sew.farthest_move);
   if (sew.lost_triangles > 0) {
-    text += ", " + number_of(sew.lost_triangles, "triangle") + " smaller than that lost";
+    text += ", " + number_of(sew.lost_triangles, "smaller triangle") + " lost";
   }
   if (sew.split_edges > 0) text += ", " + number_of(sew.split_edges, "edge") + " split";
   lines.add("sewn", text);
@@ -221,7 +228,7 @@ void describe_sewing(const SewReport& sew, Lines& lines) {
 void describe_gaps(const JoinGapsReport& gaps, Lines& lines) {
   if (gaps.distance == 0) return;
   if (gaps.pairs == 0) {
-    lines.add("joined", fmt::format("nothing: there are no gaps of up to {:.3g}", gaps.distance));
+    lines.add("joined", fmt::format("nothing: no gaps up to {:.3g}", gaps.distance));
     return;
   }
   std::string text =
@@ -229,7 +236,7 @@ void describe_gaps(const JoinGapsReport& gaps, Lines& lines) {
                   number_of(gaps.pairs, "pair of faces", "pairs of faces"), gaps.widest_gap,
                   number_of(gaps.joined_points, "corner"), gaps.farthest_move);
   if (gaps.left > 0) {
-    text += fmt::format("; {} still nearer than {:.3g}", number_of(gaps.left, "pair", "pairs"),
+    text += fmt::format("; {} still closer than {:.3g}", number_of(gaps.left, "pair", "pairs"),
                         gaps.distance);
   }
   lines.add("joined", text);
@@ -243,11 +250,10 @@ void describe_holes(const RepairReport& repair, Lines& lines) {
                                 number_of(holes.closed, "hole"),
                                 number_of(holes.triangles, "triangle"), holes.area,
                                 100 * holes.area / (repair.input_area + holes.area)));
-    add_count(texts, holes.rings, "pair",
-              "of these joined with each other: a gap, a mouth or a tunnel");
+    add_count(texts, holes.rings, "pair", "of them joined: a gap, a mouth or a tunnel");
   }
   if (holes.too_large > 0) {
-    texts.push_back(fmt::format("not {}: larger than --max-hole allows, or rims of open sheets",
+    texts.push_back(fmt::format("not {}: larger than --max-hole, or rims of open sheets",
                                 number_of(holes.too_large, "opening")));
   }
   lines.add("closed", texts);
@@ -257,25 +263,27 @@ void describe_seals(const SealReport& seal, Lines& lines) {
   if (seal.size <= 0 && !seal.automatic) return;
   std::vector<std::string> texts;
   if (seal.size <= 0) {
-    texts.emplace_back("nothing: no narrow opening leads into a far wider space");
+    texts.emplace_back("nothing: no narrow opening of a much wider space");
   } else if (seal.openings > 0) {
-    texts.push_back(
-        seal.double_walls > 0
-            ? fmt::format("{} of {}, up to {:.3g} wide", number_of(seal.openings, "pinhole"),
-                          number_of(seal.double_walls, "double wall"), seal.size)
-            : fmt::format("{} below {:.6g}", number_of(seal.openings, "opening"), seal.size));
+    texts.push_back(seal.double_walls > 0
+                        ? fmt::format("{} of {}, up to {:.3g} wide",
+                                      number_of(seal.openings, "pinhole"),
+                                      number_of(seal.double_walls, "double wall"), seal.size)
+                        : fmt::format("{} narrower than {:.6g}",
+                                      number_of(seal.openings, "opening"), seal.size));
     if (std::isfinite(seal.filled_volume)) {
       texts.back() += fmt::format(", volume {:.6g} behind", seal.filled_volume);
     }
   } else if (seal.leaks == 0 && seal.cannot_cut == 0) {
-    texts.push_back(fmt::format("nothing: no opening below {:.6g} leads into a space", seal.size));
+    texts.push_back(
+        fmt::format("nothing: no opening narrower than {:.6g} leads into a space", seal.size));
   }
   if (seal.leaks > 0) {
-    texts.push_back(fmt::format("not {}: another way leads in, narrower than {:.3g}",
+    texts.push_back(fmt::format("not {}: another opening, narrower than {:.3g}, leads in",
                                 number_of(seal.leaks, "space"), seal.step));
   }
   if (seal.cannot_cut > 0) {
-    texts.push_back(fmt::format("not {}: walls nearly coincide there; another size may do",
+    texts.push_back(fmt::format("not {}: walls nearly coincide there; try another size",
                                 number_of(seal.cannot_cut, "body", "bodies")));
   }
   lines.add("sealed", texts);
@@ -289,9 +297,9 @@ void describe_walls(const ThickenReport& thicken, Lines& lines) {
       thicken.side == ThickenSide::middle
           ? std::string()
           : fmt::format(" {} of them", thicken_side_name(thicken.side)),
-      thicken.automatic ? ", which fits" : "")};
+      thicken.automatic ? ", chosen automatically" : "")};
   if (thicken.solid_volume > 0) {
-    texts.push_back(fmt::format("besides what is solid, volume {:.6g}", thicken.solid_volume));
+    texts.push_back(fmt::format("in addition to solids of volume {:.6g}", thicken.solid_volume));
   }
   lines.add("thickened", texts);
 }
@@ -299,11 +307,11 @@ void describe_walls(const ThickenReport& thicken, Lines& lines) {
 void describe_purpose(const Purpose& purpose, Lines& lines) {
   if (purpose.name.empty()) return;
   const std::string set = purpose.options.empty()
-                              ? "nothing that is not set anyway"
+                              ? "nothing beyond the command line"
                               : fmt::format("{}", fmt::join(purpose.options, " "));
   std::vector<std::string> texts = {fmt::format("{}: {}", purpose.name, set)};
   if (!purpose.overridden.empty()) {
-    texts.push_back(fmt::format("not set, as given: {}", fmt::join(purpose.overridden, " ")));
+    texts.push_back(fmt::format("set on the command line: {}", fmt::join(purpose.overridden, " ")));
   }
   lines.add("for", texts);
 }
@@ -332,8 +340,8 @@ std::string kept_triangles(const RepairReport& repair) {
   const TriangleFates& fates = repair.triangles;
   std::string text = fmt::format("{} of {} untouched", grouped(fates.untouched + fates.rounded),
                                  number_of(repair.clean.triangles_in, "triangle"));
-  if (fates.rounded > 0) text += " but for rounding to single precision";
-  if (fates.cut > fates.rounded) text += ", cut " + grouped(fates.cut - fates.rounded);
+  if (fates.rounded > 0) text += " except for rounding to single precision";
+  if (fates.cut > fates.rounded) text += ", " + grouped(fates.cut - fates.rounded) + " cut";
   return text;
 }
 
@@ -341,7 +349,7 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   std::vector<std::string> texts;
   const PartFates& fates = repair.parts;
   if (fates.inside_triangles + fates.outside_triangles > 0) {
-    texts.push_back(fmt::format("{} inside the solid, {} outside it or there twice",
+    texts.push_back(fmt::format("{} inside the solid, {} outside it or duplicate",
                                 number_of(fates.inside_triangles, "triangle"),
                                 grouped(fates.outside_triangles)));
   }
@@ -354,16 +362,17 @@ std::vector<std::string> removed_parts(const RepairReport& repair) {
   add(fates.enclosing_nothing, "no wall of the solid");
   add(fates.inside_solid, "inside the solid");
   if (fates.closed_inside > 0 && repair.inside.used == InsideRule::winding) {
-    texts.push_back(fmt::format("{} of these would be the wall of a void with --inside parity",
+    texts.push_back(fmt::format("{} of these would bound a void with --inside parity",
                                 grouped(fates.closed_inside)));
   }
-  add_count(texts, repair.open_regions, "region", "that open sheets hardly enclose");
+  add_count(texts, repair.open_regions, "region", "barely enclosed by open sheets");
   add_count(texts, repair.crumbs, "part", "thinner than a step of the working grid");
   add_count(texts, repair.thin_cells.filled, "piece",
-            "of slits that are narrower than what numbers tell");
+            "of slits narrower than the numbers can resolve");
   add_count(texts, repair.thin_cells.emptied, "piece",
-            "of fins that are thinner than what numbers tell");
-  add_count(texts, repair.certify.dropped_parts, "part", "too thin for the numbers of the format");
+            "of fins thinner than the numbers can resolve");
+  add_count(texts, repair.certify.dropped_parts, "part",
+            "too thin for the precision of the format");
   return texts;
 }
 
@@ -394,7 +403,7 @@ std::vector<std::string> left_out_parts(const KeepPartsReport& keep) {
 
 std::vector<std::string> simplified(const SimplifyReport& report) {
   if (report.removed_triangles == 0) return {};
-  return {fmt::format("{} fewer where it was cut, which moved the surface by {:.2g} at most",
+  return {fmt::format("{} fewer along cuts; the surface moved by at most {:.2g}",
                       number_of(report.removed_triangles, "triangle"), report.distance)};
 }
 
@@ -408,7 +417,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
     lines.add("kept", kept_triangles(repair));
   }
   std::vector<std::string> removed = removed_parts(repair);
-  add_count(removed, findings.dropped_solids, "solid", "too small for the points to tell");
+  add_count(removed, findings.dropped_solids, "solid", "smaller than the points can resolve");
   lines.add("removed", removed);
   lines.add("left out", left_out_parts(repair.keep));
   lines.add("simpler", simplified(repair.simplify));

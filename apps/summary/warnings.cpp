@@ -32,8 +32,8 @@ void warn_of_lost_surface(const Findings& findings) {
   if (!std::isfinite(repair.input_area)) return;
   if (repair.lost_area <= kWorthAWarning * repair.input_area) return;
   logger().warn(
-      "{}: {:.0f} % of the input's area is not in the result, as it encloses nothing; "
-      "--thicken makes walls of open sheets",
+      "{}: {:.0f} % of the input area encloses nothing and is not in the result; --thicken makes "
+      "walls of open sheets",
       findings.input_name(), 100 * std::min(1.0, repair.lost_area / repair.input_area));
 }
 
@@ -45,8 +45,8 @@ void warn_of_made_up_surface(const Findings& findings) {
   if (!std::isfinite(repair.output_area)) return;
   if (repair.closing_area <= kWorthAWarning * repair.output_area) return;
   logger().warn(
-      "{}: {:.0f} % of the result's surface is not of the input, but closes what is open there: is "
-      "it a sheet, or a part of something?",
+      "{}: {:.0f} % of the result's surface is patches: is the input a sheet, or part of a larger "
+      "object?",
       findings.input_name(), 100 * repair.closing_area / repair.output_area);
 }
 
@@ -71,7 +71,7 @@ void warn_of_poking_walls(const Findings& findings) {
   const InsideReport& inside = findings.repair.inside;
   if (inside.poking_share < kWorthAWarning) return;
   logger().warn(
-      "{}: the wall of a cavity pokes out of what is around it with {:.2g} % of its area; "
+      "{}: the wall of a cavity pokes out of the surrounding solid by {:.2g} % of its area; "
       "--inside solidity fills the cavity",
       findings.input_name(), 100 * inside.poking_share);
 }
@@ -108,7 +108,7 @@ void warn_of_coarse_grid(const Findings& findings) {
   const CleanReport& clean = findings.repair.clean;
   if (clean.dropped_below_grid == 0) return;
   logger().warn(
-      "{}: {} of {} triangles dropped, smaller than the working grid, whose step is {:.3g}: is a "
+      "{}: {} of {} triangles dropped: smaller than the step of the working grid, {:.3g}. Is a "
       "point far away from the others?",
       findings.input_name(), clean.dropped_below_grid, clean.triangles_in, clean.grid_unit);
 }

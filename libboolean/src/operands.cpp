@@ -35,8 +35,8 @@ constexpr double kMostChange = 0.01;
 void throw_too_small(std::size_t operand, const Grid& grid) {
   std::ostringstream message;
   message << "solid " << operand + 1
-          << " is too small beside the others: the grid over all has 2^26 steps, of " << grid.unit
-          << " each; leave out of the others what is far from it";
+          << " is too small next to the others: the common grid has 2^26 steps of " << grid.unit
+          << "; remove distant parts from the others";
   throw InputError(message.str());
 }
 

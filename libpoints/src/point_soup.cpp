@@ -39,10 +39,10 @@ void require_sense(const PointSoupOptions& options) {
   }
   if (options.neighbours < 5) throw UsageError("a tangent plane needs 5 neighbours at least");
   if (!(options.reach > 0) || !std::isfinite(options.reach)) {
-    throw UsageError("the reach of triangles is a number above 0");
+    throw UsageError("the reach of triangles must be above 0");
   }
   if (!(options.duplicate >= 0) || !(options.outlier >= 0) || options.project < 0) {
-    throw UsageError("distances and numbers of iterations are not negative");
+    throw UsageError("distances and numbers of iterations must not be negative");
   }
 }
 

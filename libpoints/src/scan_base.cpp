@@ -170,7 +170,7 @@ class BaseBuilder {
     const double unit = options_.is_share ? (box.high - box.low).norm() : 1;
     const double floor = options_.floor.value_or(low - options_.depth * unit);
     if (floor < low) return floor;
-    throw UsageError("the floor is to be below the lowest point, which is at " + text_of(low));
+    throw UsageError("the floor must be below the lowest point, which is at " + text_of(low));
   }
 
   // The point of the floor below one.

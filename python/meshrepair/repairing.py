@@ -174,7 +174,7 @@ def boolean(meshes: Any, op: str, *, progress: Progress | bool | None = None, na
     except TypeError:
         raise UsageError(f"meshes: {type(meshes).__name__} is no list of meshes") from None
     if len(all_meshes) < 2:
-        raise UsageError("meshes: two solids are needed, or more")
+        raise UsageError("meshes: at least two solids are needed")
     given, faces_of, faces = [], [], 0
     for number, mesh in enumerate(all_meshes):
         try:

@@ -138,7 +138,7 @@ class Blocks(unittest.TestCase):
             file = self.blocks / "repaired" / name
             data = file.read_bytes()
             file.write_bytes(data[:-9] + b"x" + data[-8:])
-            self.assertIn("not repaired: block 2; do: meshrepair-blocks run", self.join(code=3)[0])
+            self.assertIn("not repaired: block 2; run: meshrepair-blocks run", self.join(code=3)[0])
             self.run_all(order=[2])
             self.assertEqual(self.join()[1], whole)
 
@@ -200,8 +200,8 @@ class Blocks(unittest.TestCase):
         self.run_all("--holes", "flat", "--always", order=[1, 3, 4, 5])
         self.blocks = self.blocks.rename(self.folder / "it's $HOME")
         said = self.join(code=3)[0]
-        self.assertRegex(said, r"; do: meshrepair-blocks run \S.* --block 2 --holes=flat --always=true\n")
-        subprocess.run(f"{PROGRAMS}/" + said.split("; do: ")[1], shell=True, check=True, capture_output=True)
+        self.assertRegex(said, r"; run: meshrepair-blocks run \S.* --block 2 --holes=flat --always=true\n")
+        subprocess.run(f"{PROGRAMS}/" + said.split("; run: ")[1], shell=True, check=True, capture_output=True)
         self.join()
 
     def test_a_file_that_lies_says_nothing_in_a_command(self):
@@ -213,7 +213,7 @@ class Blocks(unittest.TestCase):
             done.write_text(json.dumps({**result, "options": options}))
             said = self.join(code=3)[0]
             self.assertLess(len(said), 1500)
-            words = shlex.split(said.split("; do: ")[1])
+            words = shlex.split(said.split("; run: ")[1])
             self.assertEqual(words[:2] + words[3:5], ["meshrepair-blocks", "run", "--block", "2"])
             self.assertIn(words[5:], ([], [options[:-1]]))
             self.assertTrue(said[:-1].isprintable())
@@ -337,11 +337,11 @@ class Blocks(unittest.TestCase):
     def test_mistakes(self):
         self.assertIn("VERB is required", self.run_verb(code=2))
         self.assertIn("walk not in {plan,run,join}", self.run_verb("walk", code=2))
-        self.assertIn("VERB: stands first", self.run_verb("-q", "plan", code=2))
-        self.assertIn("is no plan", self.run_verb("run", self.folder, "--block", 1, code=3))
-        self.assertIn("is no plan", self.run_verb("join", self.folder, self.out, code=3))
+        self.assertIn("VERB: must precede all options", self.run_verb("-q", "plan", code=2))
+        self.assertIn("not a plan", self.run_verb("run", self.folder, "--block", 1, code=3))
+        self.assertIn("not a plan", self.run_verb("join", self.folder, self.out, code=3))
         self.plan_rings()
-        self.assertIn("there are 5 blocks", self.run_verb("run", self.blocks, "--block", 6, code=2))
+        self.assertIn("--block: must be 1 to 5", self.run_verb("run", self.blocks, "--block", 6, code=2))
         self.assertIn("--block", self.run_verb("run", self.blocks, "--block", 0, code=2))
 
 

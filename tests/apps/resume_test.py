@@ -140,7 +140,7 @@ class Resume(unittest.TestCase):
             names, said, _ = self.finish()
             self.assertNotIn("repaired", names)
             is_ours = at < 0  # in the header it is a state of some other program
-            self.assertEqual("is damaged, and not used" in said, is_ours)
+            self.assertEqual("is damaged and ignored" in said, is_ours)
             self.assertTrue(self.same_bytes(), at)
 
     def test_a_state_that_is_cut_off(self):
@@ -232,7 +232,7 @@ class Resume(unittest.TestCase):
         done = subprocess.run(self.command("a.stl", "out.ply", "--temp", "none"), cwd=self.folder, capture_output=True,
                               text=True, preexec_fn=small_files)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("cannot be written, so what follows is not kept", done.stderr)
+        self.assertIn("cannot be written; later progress is not saved", done.stderr)
         self.assertTrue(self.same_bytes())
         self.assertFalse(self.states.exists())
 

@@ -101,7 +101,7 @@ class Spilling(unittest.TestCase):
 
     def test_a_folder_that_is_not_there(self):
         report, said = self.run_program("meshrepair", "a.stl", "none.ply", memory=LIMIT, temp="gone", code=6)
-        self.assertIn("--temp: no file can be made in gone: No such file or directory", said)
+        self.assertIn("--temp: cannot create a file in gone: No such file or directory", said)
 
     def test_what_the_file_needs_itself_never_lies_in_it(self):
         write_torus(self.folder / "small.stl", 20, 10, 0)

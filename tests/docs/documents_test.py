@@ -134,7 +134,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(set(NOT_RUN) - used, set())
 
     def test_the_caption_of_the_picture_counts_right(self) -> None:
-        counts = re.search(r"before: (\d+) boundary edges, (\d+) edges between opposite facings, (\d+) intersecting pairs",
+        counts = re.search(r"before: (\d+) boundary edges, (\d+) edges with inconsistent orientation, (\d+) intersecting pairs",
                            DOCUMENTS[0].read_text(encoding="utf-8"))
         self.assertIsNotNone(counts)
         text = subprocess.run([PROGRAMS / "meshcheck", "--json", sample_files.MESHES / "broken_torus_box.stl"],

@@ -209,7 +209,7 @@ class Booleans(unittest.TestCase):
             meshrepair.boolean([(CUBE, QUADS), (CUBE, [(0, 1, 2)])], "union")
         with self.assertRaisesRegex(meshrepair.UsageError, "--op: bogus not in {union,"):
             meshrepair.boolean([(CUBE, QUADS), (CUBE, QUADS)], "bogus")
-        with self.assertRaisesRegex(meshrepair.UsageError, "^meshes: two solids are needed"):
+        with self.assertRaisesRegex(meshrepair.UsageError, "^meshes: at least two solids are needed"):
             meshrepair.boolean([(CUBE, QUADS)], "union")
 
 

@@ -47,7 +47,7 @@ void stage(const std::filesystem::path& folder, std::vector<BundledFile>& files)
   for (BundledFile& file : files) {
     file.path = folder / file.path.filename();
     if (&file != &files.back() && std::filesystem::exists(file.path)) {
-      throw OutputError(file.path.string() + ": is there already, and is not written over");
+      throw OutputError(file.path.string() + ": exists already, and is not overwritten");
     }
   }
 }

@@ -78,7 +78,7 @@ struct JpegImage {
   ~JpegImage() { jpeg_destroy_decompress(&decoder.info); }
 
   [[noreturn]] void fail() const {
-    throw InputError(std::string("is no JPEG that can be read: ") + decoder.message.data());
+    throw InputError(std::string("is not a readable JPEG: ") + decoder.message.data());
   }
 
   Decoder decoder{};
@@ -109,7 +109,7 @@ struct PngImage {
   ~PngImage() { png_image_free(&image); }
 
   [[noreturn]] void fail() const {
-    throw InputError(std::string("is no PNG that can be read: ") + image.message);
+    throw InputError(std::string("is not a readable PNG: ") + image.message);
   }
 
   png_image image{};

@@ -574,7 +574,7 @@ void patch_holes(CleanSoup& soup, const HoleOptions& options, HoleReport& report
                  ProgressObserver* progress) {
   report = {};
   const bool is_share = options.largest_share >= 0 && options.largest_flat_share >= 0;
-  if (!is_share) throw UsageError("the largest hole is to be 0 or more");
+  if (!is_share) throw UsageError("the largest hole must be 0 or more");
   if (options.mode == HoleMode::extend || options.mode == HoleMode::none) return;
   HolePatcher(soup, options, report, progress).run();
 }

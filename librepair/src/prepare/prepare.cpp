@@ -59,9 +59,8 @@ void measure(const CleanSoup& clean, RepairReport& report) {
   for (const Triangle& t : clean.triangles) report.input_area += area_of(clean, t);
   if (clean.triangles.empty()) {
     throw NoSolidError(
-        "no triangle is left: all are degenerate, or smaller than the working grid of 2^26 steps "
-        "over "
-        "their bounding box, or have coordinates that are not finite");
+        "no triangle remains: all are degenerate, smaller than the step of the working grid of "
+        "2^26 steps over their bounding box, or have coordinates that are not finite");
   }
 }
 

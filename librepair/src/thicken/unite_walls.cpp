@@ -42,7 +42,7 @@ double thickness_of(const CleanSoup& soup, const RepairOptions& options) {
   double most = 0;
   for (const Vec3d& p : soup.points) most = std::max(most, p.cwiseAbs().maxCoeff());
   if (diagonal < kSmallestMesh || most > kLargestCoordinate) {
-    throw ValueError("walls can be made of meshes of 1e-90 to 1e90 in size, not of this one");
+    throw ValueError("walls need a mesh of 1e-90 to 1e90 in size");
   }
   double step = soup.grid.unit;
   if (options.certify.precision == Precision::float32) {

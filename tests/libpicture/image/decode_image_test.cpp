@@ -153,7 +153,7 @@ TEST(DecodeImage, ReadsJpeg) {
 
 TEST(DecodeImage, RefusesColoursOfInk) {
   EXPECT_THAT([] { (void)decode_image(jpeg_of(gradient(8, 8), false, JCS_CMYK)); },
-              ThrowsMessage<InputError>(HasSubstr("is no JPEG that can be read")));
+              ThrowsMessage<InputError>(HasSubstr("is not a readable JPEG")));
 }
 
 TEST(DecodeImage, RefusesWhatIsNeither) {
@@ -205,7 +205,7 @@ TEST(DecodeImage, AnyEndIsAnErrorOrAPicture) {
         const std::string png = format_png(gradient(12, 9));
         (void)decode_image(png.substr(0, png.size() / 2));
       },
-      ThrowsMessage<InputError>(StartsWith("is no PNG that can be read: ")));
+      ThrowsMessage<InputError>(StartsWith("is not a readable PNG: ")));
 }
 
 TEST(DecodeImage, AnyChangedBytesAreAnErrorOrAPicture) {

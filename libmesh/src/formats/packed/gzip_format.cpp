@@ -68,7 +68,7 @@ class Inflater {
     if (status == Z_MEM_ERROR) throw std::bad_alloc();
     const std::string reason = stream_.msg == nullptr ? "" : stream_.msg;
     if (reason == "incorrect data check" || reason == "incorrect length check") {
-      source_.fail("is damaged: the checksum of gzip is another");
+      source_.fail("is damaged: wrong gzip checksum");
     }
     source_.fail("is damaged, gzip cannot unpack it" + (reason.empty() ? "" : ": " + reason));
   }

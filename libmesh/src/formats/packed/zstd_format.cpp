@@ -33,7 +33,7 @@ struct FreeEncoder {
     case ZSTD_error_memory_allocation:
       throw std::bad_alloc();
     case ZSTD_error_checksum_wrong:
-      source.fail("is damaged: the checksum of zstd is another");
+      source.fail("is damaged: wrong zstd checksum");
     case ZSTD_error_dictionary_wrong:
       source.fail("is packed by zstd with a dictionary, which is not here");
     case ZSTD_error_frameParameter_windowTooLarge:

@@ -29,7 +29,7 @@ class ThreemfReader {
     result_.report.format = SoupFormat::threemf;
     if (archive_.passed_over() > 0) {
       warn(counted(archive_.passed_over(), "part") +
-           " passed over: names that lead out of the package or stand there twice");
+           " ignored: names that lead out of the package, or duplicate names");
     }
     read_parts(find_start());
     InstanceResult placed = place_instances(source_, parts_);
@@ -168,7 +168,7 @@ class ThreemfReader {
     warn_if(oddities.missing, "triangle", " with properties that are not there");
     warn_if(oddities.gradients, "triangle", " with several materials: that of the first corner");
     warn_if(oddities.unreadable, "texture", " without a picture that can be read");
-    warn_if(oddities_.painted, "triangle", " with what other programs painted on: not kept");
+    warn_if(oddities_.painted, "triangle", " with painted data of other programs: not kept");
     warn_if(oddities_.unknown_groups, "group",
             " of properties left out: mixtures of materials, or too many layers");
     ModelPart& first = parts_.front();

@@ -126,7 +126,7 @@ void XmlStream::parse(std::string_view bytes, bool last) {
   if (status == XML_STATUS_ERROR) {
     const XML_Error error = XML_GetErrorCode(parser_.get());
     if (error == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    fail(std::string("is no XML that can be read: ") + XML_ErrorString(error));
+    fail(std::string("is not readable XML: ") + XML_ErrorString(error));
   }
   const XML_Index at = XML_GetCurrentByteIndex(parser_.get());
   if (!last && at >= 0 && fed_ - std::min(fed_, static_cast<std::size_t>(at)) > kLongestTag) {

@@ -167,7 +167,7 @@ std::vector<OddPackage> odd_archives() {
              good_model(),
              {{"../../evil.txt", "x"}, {"/etc/passwd", "x"}, {"a/%2e%2e/b", "x"}, {"C:\\x", "x"}});
        },
-       "", "4 parts passed over"},
+       "", "4 parts ignored: names that lead out of the package, or duplicate names"},
       {"ModelThatLeadsOut",
        [] {
          return zip_of({{"../3dmodel.model", good_model()}});
@@ -177,7 +177,7 @@ std::vector<OddPackage> odd_archives() {
        [] {
          return package_of(good_model(), {{"3D/3DMODEL.model", "x"}});
        },
-       "", "1 part passed over"},
+       "", "1 part ignored: names that lead out of the package, or duplicate names"},
   };
 }
 
@@ -209,13 +209,13 @@ std::vector<OddPackage> odd_packages() {
          return zip_of({{"_rels/.rels", kRelationships}, {"b.model", good_model()}});
        },
        "", "does not say which part"},
-      {"NoXml", [] { return package_of("hello"); }, "is no XML that can be read"},
+      {"NoXml", [] { return package_of("hello"); }, "is not readable XML"},
       {"CutXml", [] { return package_of(good_model().substr(0, good_model().size() / 2)); },
-       "is no XML that can be read"},
-      {"EmptyModel", [] { return package_of(""); }, "is no XML that can be read"},
+       "is not readable XML"},
+      {"EmptyModel", [] { return package_of(""); }, "is not readable XML"},
       {"OtherXml", [] { return package_of("<html/>"); }, "is no 3D model"},
       {"UnknownEncoding", [] { return package_of(replaced(good_model(), "UTF-8", "EBCDIC-9")); },
-       "is no XML"},
+       "is not readable XML"},
       {"EntityBomb",
        [] {
          return in_doctype(
@@ -335,7 +335,7 @@ std::vector<OddPackage> odd_models() {
        "1 triangle with properties that are not there", 1},
       {"PaintedTriangle",
        [] { return package_with(replaced(kGoodTriangle, "/>", " paint_color=\"4\"/>")); }, "",
-       "1 triangle with what other programs painted on", 1},
+       "1 triangle with painted data of other programs", 1},
       {"TextureMissing",
        [] {
          return package_of(
