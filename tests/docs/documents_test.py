@@ -37,7 +37,6 @@ SECONDS_OF_A_COMMAND = 60
 # What is not run here: it installs packages, builds, or takes minutes. What it starts with, and why.
 NOT_RUN = {
     "scripts/demo.sh": "installs packages and builds",
-    "scripts/test.sh": "installs packages, builds and runs this test",
     "scripts/setup.sh": "installs packages",
     "scripts/fuzz.sh": "builds with clang, and runs for minutes",
     "scripts/make_site.py": "needs mkdocs and doxygen; site_test.py runs it",
