@@ -87,16 +87,8 @@ std::string_view report_value(const std::vector<std::string_view>& arguments) {
   return {};
 }
 
-}  // namespace
-
-Verbosity CommonOptions::verbosity() const {
-  if (quiet) return Verbosity::quiet;
-  return verbose ? Verbosity::verbose : Verbosity::normal;
-}
-
-void add_common_options(CommandLine& app, CommonOptions& options) {
+void add_running_options(CommandLine& app, CommonOptions& options) {
   const std::string running = "Running";
-  const std::string telling = "Reporting";
   app.add_option("--threads", options.threads, "Number of threads; 0: all")
       ->capture_default_str()
       ->check(count_between(0, kMostThreads))
@@ -128,6 +120,10 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
       ->type_name("N")
       ->group(running)
       ->rare();
+}
+
+void add_telling_options(CommandLine& app, CommonOptions& options) {
+  const std::string telling = "Reporting";
   app.add_option("--progress-fd", options.progress_to,
                  "Write a line 'STAGE PERCENT' for each percent to this open file descriptor,\n"
                  "for programs that call this one")
@@ -155,6 +151,18 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
       [&app](Describe describe) { throw Description{describe(facts_of(app))}; },
       "Print a manual page or a shell completion")
       ->group("");
+}
+
+}  // namespace
+
+Verbosity CommonOptions::verbosity() const {
+  if (quiet) return Verbosity::quiet;
+  return verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
+void add_common_options(CommandLine& app, CommonOptions& options) {
+  add_running_options(app, options);
+  add_telling_options(app, options);
 }
 
 bool parse_command_line(CommandLine& app, int argc, const char* const* argv) {

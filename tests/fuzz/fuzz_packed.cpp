@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <mesh/mesh_source.h>
 #include <mesh/packing.h>
 #include <mesh/point_io.h>
 
