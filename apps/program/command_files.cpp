@@ -18,11 +18,12 @@ fs::path place_of(const fs::path& path) {
   return fs::weakly_canonical(fs::absolute(follow_links(path), error), error);
 }
 
-void check_report(Run& run, const std::string& file, const std::string& what) {
-  const std::string& report = run.options.report;
-  if (report.empty() || !is_same_file(report, file)) return;
+// `named`: which of both names the message has.
+void check_report(Run& run, const std::string& file, const std::string& named,
+                  const std::string& what) {
+  if (run.options.report.empty() || !is_same_file(run.options.report, file)) return;
   run.report.withhold();
-  throw UsageError("--report: " + report + " is the " + what + ", too");
+  throw UsageError("--report: " + named + " is the " + what + ", too");
 }
 
 }  // namespace
@@ -37,9 +38,9 @@ bool is_same_file(const std::string& a, const std::string& b) {
 
 void check_files(const std::string& input, const std::string& output, Run& run) {
   if (input.empty()) throw UsageError("the name of the input is empty");
-  if (input != "-") check_report(run, input, "input");
+  if (input != "-") check_report(run, input, run.options.report, "input");
   if (output.empty()) return;
-  check_report(run, output, "output");
+  check_report(run, output, run.options.report, "output");
   if (output != "-") check_folder(output);
 }
 
@@ -53,7 +54,7 @@ void check_folder(const std::string& file) {
 }
 
 std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
+  std::string extension = fs::path(path).extension().string();
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
@@ -61,10 +62,7 @@ std::string lower_extension(const std::string& path) {
 }
 
 void check_side_file(const SideFile& file, const std::vector<std::string>& others, Run& run) {
-  if (!run.options.report.empty() && is_same_file(run.options.report, file.path)) {
-    run.report.withhold();
-    throw UsageError("--report: " + file.path + " is the " + file.what + ", too");
-  }
+  check_report(run, file.path, file.path, file.what);
   for (const std::string& other : others) {
     if (other.empty() || !is_same_file(file.path, other)) continue;
     throw UsageError(file.option + ": " + file.path + " is another file of this command, too");

@@ -4,11 +4,6 @@
 #include <filesystem>
 
 namespace meshrepair {
-namespace {
-
-namespace fs = std::filesystem;
-
-}  // namespace
 
 std::string Findings::input_name() const { return input == "-" ? "standard input" : input; }
 
@@ -16,7 +11,8 @@ std::string Findings::output_name() const { return output == "-" ? "standard out
 
 std::string Findings::written_name() const {
   if (staging.empty()) return output_name();
-  return (fs::path(staging) / fs::path(output).filename()).string() + ", to be " + output;
+  const std::filesystem::path name = std::filesystem::path(output).filename();
+  return (std::filesystem::path(staging) / name).string() + ", to be " + output;
 }
 
 TreeFacts facts_of(const Tree& tree) {

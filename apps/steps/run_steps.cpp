@@ -37,6 +37,13 @@ void run_named(const std::string& name, const std::function<void()>& work) {
   }
 }
 
+// Where OUT is written first.
+std::string written_first(const StepOptions& options) {
+  if (options.staging.empty()) return options.output;
+  if (options.output == "-") throw UsageError("--staging: standard output is no file");
+  return (fs::path(options.staging) / fs::path(options.output).filename()).string();
+}
+
 ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   Findings findings(options.input, options.output);
   findings.purpose = options.purpose;
@@ -65,16 +72,6 @@ ExitCode with_findings(Run& run, Findings& findings, const std::function<ExitCod
   return code;
 }
 
-// Where OUT is written first.
-std::string staged(const StepOptions& options) {
-  return (fs::path(options.staging) / fs::path(options.output).filename()).string();
-}
-
-void check_staging(const StepOptions& options) {
-  if (options.staging.empty()) return;
-  if (options.output == "-") throw UsageError("--staging: standard output is no file");
-}
-
 int run_steps(Program& program, int argc, const char* const* argv, StepOptions& options,
               const StepBody& body) {
   return program.run(argc, argv, [&](Run& run) { return run_steps(options, run, body); });
@@ -82,8 +79,7 @@ int run_steps(Program& program, int argc, const char* const* argv, StepOptions& 
 
 ExitCode run_steps(StepOptions& options, Run& run, const StepBody& body) {
   if (options.output.empty()) throw UsageError("the name of the output is empty");
-  check_staging(options);
-  check_files(options.input, options.staging.empty() ? options.output : staged(options), run);
+  check_files(options.input, written_first(options), run);
   check_picture(options.picture, {options.input, options.output}, run);
   check_explanation(options.explained, {options.input, options.output, options.picture.path}, run);
   check_html(options.html, {options.input, options.output, options.picture.path, options.explained},
