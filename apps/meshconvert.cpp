@@ -11,6 +11,7 @@
 #include "report/attribute_report.h"
 #include "report/findings.h"
 #include "steps/mesh_steps.h"
+#include "steps/origin_steps.h"
 #include "steps/run_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
@@ -26,6 +27,13 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   reading.attributes = !options.assets.drops_all();
   reading.by_mesh = options.assets.by_mesh;
   ReadResult input = read_mesh_stage(reading, run, findings);
+  AnySoup moved;
+  moved.soup = std::move(input.soup);
+  moved.scene = std::move(input.scene);
+  move_origin_stage(options.origin, is_single(*format.format), has_instances(*format.format), moved,
+                    findings);
+  input.soup = std::move(moved.soup);
+  input.scene = std::move(moved.scene);
   const TriangleSoup& soup = input.soup;
   const Attributes& all = input.attributes;
   check_picture(options.picture, all);
@@ -45,6 +53,8 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
     check_scene(input.scene, *format.format);
     format.extras.scene = &input.scene;
   }
+  if (findings.origin)
+    *findings.origin *= scale_to_unit(*format.format, options.assets, findings.unit);
   findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   write_soup_stage(soup, format, run, findings);
@@ -71,6 +81,7 @@ int run_program(int argc, char** argv) {
   add_drop_option(app, options.assets);
   add_scene_option(app, options.assets, "Output");
   add_units_option(app, options.assets);
+  add_origin_options(app, options.origin);
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_show_options(app, options.picture, "IN and OUT");
   return run_steps(program, argc, argv, options, convert);

@@ -89,8 +89,9 @@ Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes
 }
 
 // Of a mesh without a name: nobody knows what those beside it are to be called.
-void write_with_files(const TriangleSoup& soup, const WriteOptions& format, Run& run,
-                      Findings& findings) {
+void write_with_files(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings) {
+  Scene place;
+  keep_origin(findings, soup, place, format);
   const Attributes* const attributes = format.extras.attributes;
   if (findings.output == "-" && attributes != nullptr &&
       has_files_beside(*format.format, *attributes)) {

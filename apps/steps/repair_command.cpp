@@ -42,6 +42,11 @@ Surface repair_or_advise(AnySoup& input, const PointOptions& points, const Repai
   }
 }
 
+// It is where the coordinates of IN have it.
+void move_floor(const Vec3d& origin, ScanBaseOptions& base) {
+  if (base.floor) *base.floor -= origin[base.axis];
+}
+
 // Those that are in the units of IN.
 void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base) {
   if (!options.sew.is_share) options.sew.distance *= factor;
@@ -97,6 +102,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_root_option(app, options.assets);
   add_drop_option(app, options.assets);
   add_units_option(app, options.assets);
+  add_origin_options(app, options.origin);
   add_certify_options(app, options.repair.certify, options.strict);
   add_require_option(app, options.required);
   add_explain_option(app, options.explained);
@@ -116,13 +122,19 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   const bool is_shown = options.picture.wanted() || options.html.wanted();
   if (is_shown) reading.attributes = !options.assets.drops_all();
   AnySoup input = read_any_stage(command.points, reading, run, findings);
+  const bool is_single_output =
+      is_single(*format.format) || options.repair.certify.precision == Precision::float32;
+  move_origin_stage(options.origin, is_single_output, has_instances(*format.format), input,
+                    findings);
   check_picture(options.picture, input.attributes);
   const Attributes given = is_shown ? input.attributes : Attributes();
   input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   PointOptions points = command.points;
-  scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options,
-                points.repair.scan_base);
+  if (findings.origin) move_floor(*findings.origin, points.repair.scan_base);
+  const double scale = scale_to_unit(*format.format, options.assets, findings.unit);
+  scale_lengths(scale, repair_options, points.repair.scan_base);
+  if (findings.origin) *findings.origin *= scale;
   findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   fit_to_input(input, command, repair_options);
