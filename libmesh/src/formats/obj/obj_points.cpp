@@ -81,7 +81,7 @@ class ObjPoints {
     }
     if (report.bad_points > 0) {
       report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
-                                " are not numbers (first: line " +
+                                " are missing or not numbers (first: line " +
                                 std::to_string(source_.line_at(first_bad_)) + ")");
     }
   }

@@ -133,7 +133,7 @@ class OffReader {
                                 " and " + counted(header_.faces, "face") + ", the file holds " +
                                 std::to_string(points) + " and " + std::to_string(lines));
     }
-    warn_of_bad(report, source_, first_bad_, "face", "cut or not numbers");
+    warn_of_bad(report, source_, first_bad_, "face", "cut, or no numbers of points");
   }
 
   const MeshSource& source_;

@@ -271,7 +271,7 @@ class PlyBody {
     }
     if (report.bad_points > 0) {
       report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
-                                " are not numbers");
+                                " are missing or not numbers");
     }
   }
 

@@ -123,7 +123,7 @@ class PlyPoints {
     PointReadReport& report = result_.report;
     if (report.bad_points > 0) {
       report.warnings.push_back(counted(report.bad_points, "point") +
-                                " left out: cut, or coordinates that are not numbers");
+                                " left out: cut, or coordinates that are missing or not numbers");
     }
     if (report.missing_points > 0) {
       report.warnings.push_back("the header promises " + counted(report.declared_points, "point") +

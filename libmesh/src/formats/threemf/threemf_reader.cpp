@@ -124,7 +124,7 @@ class ThreemfReader {
     report.bad_faces = oddities_.bad_triangles;
     report.bad_points = oddities_.bad_points;
     warn_if(oddities_.bad_triangles, "triangle", left_out + "they name points that do not exist");
-    warn_if(oddities_.bad_points, "point", " with coordinates that are not numbers");
+    warn_if(oddities_.bad_points, "point", " with coordinates that are missing or not numbers");
     warn_if(oddities_.doubled_ids, "object", " passed over: no number of their own");
     warn_if(missing_parts_, "part", " with objects missing");
     warn_if(placed.missing, "reference", " to objects that are not there");
