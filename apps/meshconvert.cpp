@@ -31,8 +31,7 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   check_picture(options.picture, all);
   run.report.set_section("attributes", attributes_section(soup, all));
   const Attributes held = chosen_for(*format.format, options.assets, all);
-  Attributes still_held = held_by(*format.format, all);
-  if (options.assets.by_mesh) still_held.objects = all.objects;
+  const Attributes still_held = held_by(*format.format, all, options.assets.by_mesh);
   const std::string lost = lost_words(soup, all, still_held, *format.format);
   if (!lost.empty()) {
     logger().warn("{}: {} cannot store these attributes of {}: {}", findings.output_name(),

@@ -114,7 +114,7 @@ Attributes chosen_for(std::optional<SoupFormat> format, const AssetOptions& opti
                       Attributes attributes) {
   // Objects of a scene are its meshes; of a file nothing else was read.
   if (options.drops_all() && !options.by_mesh) return {};
-  if (format) attributes = held_by(*format, std::move(attributes));
+  if (format) attributes = held_by(*format, std::move(attributes), options.by_mesh);
   drop_chosen(options.drops, options.by_mesh, attributes);
   return attributes;
 }

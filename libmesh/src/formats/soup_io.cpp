@@ -76,8 +76,9 @@ class PlainExtras {
     if (extras.attributes == nullptr) return;
     placed_ = placed_for(format, *extras.attributes);
     if (placed_) extras_.attributes = &*placed_;
-    const bool has_lines = format == SoupFormat::obj || holds_sources(format);
-    if (has_lines) plain_ = with_plain_names(*extras_.attributes, format == SoupFormat::obj);
+    const bool has_lines =
+        format == SoupFormat::obj || format == SoupFormat::stl_ascii || holds_sources(format);
+    if (has_lines) plain_ = with_plain_names(*extras_.attributes, format);
     if (plain_) extras_.attributes = &*plain_;
   }
   PlainExtras(const PlainExtras&) = delete;
@@ -135,7 +136,7 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupE
     case SoupFormat::stl_binary:
       return format_stl_binary(soup, extras.attributes);
     case SoupFormat::stl_ascii:
-      return format_stl_ascii(soup);
+      return format_stl_ascii(soup, extras.attributes);
     case SoupFormat::obj:
       return format_obj(soup, extras);
     case SoupFormat::off:

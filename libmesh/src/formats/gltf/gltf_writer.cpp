@@ -5,11 +5,14 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <mesh/named_files.h>
 
+#include "formats/common/regions.h"
 #include "formats/common/uri.h"
 #include "formats/gltf/common/srgb.h"
 #include "gltf_builder.h"
@@ -47,10 +50,7 @@ class GltfWriter {
     if (extras_.scene != nullptr) {
       add_scene(*extras_.scene);
     } else if (!soup_.triangles.empty()) {
-      const std::size_t mesh = add_mesh(0, 0, soup_.triangles.size(), GltfJson::object());
-      GltfJson node = {{"mesh", mesh}, {"name", name_of_object()}};
-      if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
-      add_gltf_node(builder_, std::move(node));
+      add_objects();
     }
     return builder_.finish(binary);
   }
@@ -69,9 +69,33 @@ class GltfWriter {
     if (extras.is_object()) extras["comments"] = extras_.comments;
   }
 
-  [[nodiscard]] std::string name_of_object() const {
-    const bool is_one = attributes_ != nullptr && attributes_->objects.names.size() == 1;
-    return is_one ? attributes_->objects.names.front() : std::string();
+  // A node with a mesh for each; without any, for all.
+  void add_objects() {
+    if (attributes_ == nullptr || attributes_->objects.empty()) {
+      return add_object({}, numbers_between(0, soup_.triangles.size()));
+    }
+    const TriangleLabels& objects = attributes_->objects;
+    const SortedRegions sorted = sort_by_region(objects);
+    for (std::size_t i = 0; i + 1 < sorted.first.size(); ++i) {
+      if (sorted.first[i] == sorted.first[i + 1]) continue;
+      add_object(
+          i < objects.names.size() ? objects.names[i] : std::string(),
+          std::span(sorted.order).subspan(sorted.first[i], sorted.first[i + 1] - sorted.first[i]));
+    }
+  }
+
+  void add_object(const std::string& name, std::span<const std::uint32_t> triangles) {
+    GltfJson json = GltfJson::object();
+    if (!name.empty()) json["name"] = name;
+    GltfJson node = {{"mesh", add_mesh(0, triangles, std::move(json))}, {"name", name}};
+    if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
+    add_gltf_node(builder_, std::move(node));
+  }
+
+  static std::vector<std::uint32_t> numbers_between(std::size_t first, std::size_t end) {
+    std::vector<std::uint32_t> numbers(end - first);
+    std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(first));
+    return numbers;
   }
 
   // Nodes name meshes by their numbers; meshes without triangles are left out.
@@ -83,9 +107,10 @@ class GltfWriter {
       const SceneMesh& mesh = scene.meshes[m];
       GltfJson json = is_kept && m < kept_->meshes.size() ? kept_->meshes[m] : GltfJson::object();
       if (!is_kept && !mesh.name.empty()) json["name"] = mesh.name;
-      numbers.push_back(mesh.triangles == 0
-                            ? kNoGltfMesh
-                            : add_mesh(m, first, first + mesh.triangles, std::move(json)));
+      numbers.push_back(
+          mesh.triangles == 0
+              ? kNoGltfMesh
+              : add_mesh(m, numbers_between(first, first + mesh.triangles), std::move(json)));
       first += mesh.triangles;
     }
     if (is_kept) {
@@ -122,10 +147,10 @@ class GltfWriter {
     return name_seen_from(extras_.folder, image.path);
   }
 
-  // Of the triangles from `first` to `end`; `mesh` is what else it has, `number` that of the scene.
-  std::size_t add_mesh(std::size_t number, std::size_t first, std::size_t end, GltfJson mesh) {
+  // Of these triangles; `mesh` is what else it has, `number` that of the scene.
+  std::size_t add_mesh(std::size_t number, std::span<const std::uint32_t> all, GltfJson mesh) {
     GltfJson primitives = GltfJson::array();
-    for (const auto& [label, triangles] : triangles_by_label(first, end)) {
+    for (const auto& [label, triangles] : triangles_by_material(all)) {
       const std::size_t material = label == kNone ? kNone : material_of(label);
       const GltfJson* const variants = variants_of(number, material);
       std::size_t textures = textures_of(material);
@@ -163,11 +188,11 @@ class GltfWriter {
   }
 
   // In the order of the labels, those without at the end.
-  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_by_label(
-      std::size_t first, std::size_t end) const {
+  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_by_material(
+      std::span<const std::uint32_t> all) const {
     std::map<std::uint32_t, std::vector<std::uint32_t>> lists;
     const bool has_labels = attributes_ != nullptr && !attributes_->materials.empty();
-    for (auto t = static_cast<std::uint32_t>(first); t < end; ++t) {
+    for (const std::uint32_t t : all) {
       lists[has_labels ? attributes_->materials.of_triangle[t] : kNone].push_back(t);
     }
     return lists;
