@@ -55,6 +55,9 @@ std::string lost_words(const TriangleSoup& soup, const Attributes& all, const At
   std::vector<std::string> lost = lost_attributes(soup, all, held, format);
   for (std::string& words : lost) {
     if (words == "objects" && has_instances(format)) words += " (--scene each keeps them)";
+    if (words == "groups" && format == SoupFormat::stl_binary) {
+      words += " (--format stl-ascii keeps them)";
+    }
   }
   return fmt::format("{}", fmt::join(lost, ", "));
 }

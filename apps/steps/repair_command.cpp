@@ -2,6 +2,8 @@
 #include "steps/repair_command.h"
 
 #include <array>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <spdlog/logger.h>
@@ -14,6 +16,7 @@
 #include "pictures/explanation_file.h"
 #include "pictures/picture_steps.h"
 #include "program/program.h"
+#include "report/attribute_report.h"
 #include "report/findings.h"
 #include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
@@ -68,6 +71,20 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 
+// Names of parts are what boundary conditions and the like hang on: they do not go without a word.
+void warn_of_lost_groups(const AnySoup& input, SoupFormat format, const AssetOptions& assets,
+                         const Findings& findings) {
+  if (input.attributes.groups.names.size() < 2) return;
+  Attributes names;
+  names.groups = input.attributes.groups;
+  names = chosen_for(std::nullopt, assets, std::move(names));
+  const Attributes held = held_by(format, names, assets.by_mesh);
+  const std::string lost = lost_words(input.soup, names, held, format);
+  if (lost.empty()) return;
+  logger().warn("{}: {} cannot store these attributes of {}: {}", findings.output_name(),
+                format_name(format), findings.input_name(), lost);
+}
+
 }  // namespace
 
 void add_repair_command(CommandLine& app, RepairCommand& command) {
@@ -116,6 +133,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   AnySoup input = read_any_stage(command.points, reading, run, findings);
   check_picture(options.picture, input.attributes);
   const Attributes given = is_shown ? input.attributes : Attributes();
+  warn_of_lost_groups(input, *format.format, options.assets, findings);
   input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   PointOptions points = command.points;

@@ -41,6 +41,23 @@ def terrain_stl():
     return b"terrain".ljust(80) + struct.pack("<I", len(facets)) + b"".join(facets)
 
 
+def named_stl():
+    """Text: a box of 3 by 3 by 3 whose sides have names, without the middle of its lid."""
+    def side(name, axis, at, skip=False):
+        lines = [f"solid {name}"]
+        for i, j in [(i, j) for i in range(3) for j in range(3) if not skip or (i, j) != (1, 1)]:
+            corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]]
+            places = [tuple(corner[:axis] + [at] + corner[axis:]) for corner in corners]
+            if (at > 0) == (axis == 1):
+                places.reverse()
+            for face in (places[:3], [places[0]] + places[2:]):
+                lines += ["facet normal 0 0 0", "outer loop"]
+                lines += ["vertex %d %d %d" % place for place in face] + ["endloop", "endfacet"]
+        return "\n".join(lines + [f"endsolid {name}", ""])
+    walls = "".join(side("walls", axis, at) for axis in (0, 1) for at in (0, 3))
+    return (side("floor", 2, 0) + walls + side("the lid", 2, 3, skip=True)).encode()
+
+
 def coloured_stl():
     """Two triangles with an edge in common, of different colours."""
     places = ((0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0))
@@ -319,6 +336,7 @@ def main():
         "pierced_can.obj": pierced_can(),
         "undefined.obj": b"mtllib textured.mtl\nusemtl tin\n" + tetrahedron(f1="f 1 3 2\nusemtl wood"),
         "coloured_sides.stl": coloured_stl(),
+        "named_sides.stl": named_stl(),
         "terrain.stl": terrain_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
         "grain.png": png(),

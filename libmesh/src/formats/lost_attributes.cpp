@@ -101,6 +101,7 @@ class Finder {
 
   // Formats with one list of names have groups as objects, or objects as groups.
   [[nodiscard]] bool has_names(const TriangleLabels& labels) const {
+    if (labels.names == held_.groups.names || labels.names == held_.objects.names) return true;
     std::unordered_set<std::string_view> held(held_.groups.names.begin(), held_.groups.names.end());
     held.insert(held_.objects.names.begin(), held_.objects.names.end());
     return std::all_of(

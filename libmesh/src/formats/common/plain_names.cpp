@@ -16,7 +16,7 @@ namespace {
 // What names of a format cannot have.
 class PlainNames {
  public:
-  explicit PlainNames(SoupFormat format) : format_(format) {}
+  explicit PlainNames(NameLines lines) : lines_(lines) {}
 
   [[nodiscard]] bool is_plain_name(std::string_view name) const {
     return plain_name(std::string(name)) == name;
@@ -26,10 +26,10 @@ class PlainNames {
     std::replace_if(
         name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '_');
     if (name.ends_with('\\')) name.back() = '_';
-    if (holds_sources(format_) || name.empty()) return name;
+    if (lines_ == NameLines::ply || name.empty()) return name;
     if (name.ends_with(' ')) name.back() = '_';
     if (name.starts_with(' ')) name.front() = '_';
-    if (format_ != SoupFormat::obj) return without_facets(std::move(name));
+    if (lines_ == NameLines::stl) return without_facets(std::move(name));
     // A word that begins so, and all behind it, is a comment.
     for (std::size_t i = 0; i < name.size(); ++i) {
       if (name[i] == '#' && (i == 0 || name[i - 1] == ' ')) name[i] = '_';
@@ -53,7 +53,7 @@ class PlainNames {
     }
   }
 
-  SoupFormat format_;
+  NameLines lines_;
 };
 
 void PlainNames::make_plain(std::vector<std::string>& names) const {
@@ -79,8 +79,8 @@ bool PlainNames::are_plain(const TriangleLabels& labels) const {
 
 }  // namespace
 
-std::optional<Attributes> with_plain_names(const Attributes& attributes, SoupFormat format) {
-  const PlainNames names(format);
+std::optional<Attributes> with_plain_names(const Attributes& attributes, NameLines lines) {
+  const PlainNames names(lines);
   const bool are_all =
       names.are_plain(attributes.materials) && names.are_plain(attributes.groups) &&
       names.are_plain(attributes.objects) && names.are_plain(attributes.smoothing) &&
@@ -101,13 +101,13 @@ std::optional<Attributes> with_plain_names(const Attributes& attributes, SoupFor
   for (Image& image : plain.images) {
     image.name = names.plain_name(image.name);
     // A path that no line can name is none; '#' stands in many names of files.
-    if (!PlainNames(SoupFormat::ply_ascii).is_plain_name(image.path)) image.path.clear();
+    if (!PlainNames(NameLines::ply).is_plain_name(image.path)) image.path.clear();
   }
   return plain;
 }
 
 std::string plain_obj_name(const std::string& name) {
-  return PlainNames(SoupFormat::obj).plain_name(name);
+  return PlainNames(NameLines::obj).plain_name(name);
 }
 
 }  // namespace meshrepair

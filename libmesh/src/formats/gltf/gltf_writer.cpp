@@ -256,7 +256,14 @@ class GltfWriter {
                                          {"type", "SCALAR"}});
   }
 
+  // Meshes share it.
   std::size_t material_of(std::uint32_t label) {
+    const auto [found, is_new] = material_numbers_.try_emplace(label, 0);
+    if (is_new) found->second = add_material(label);
+    return found->second;
+  }
+
+  std::size_t add_material(std::uint32_t label) {
     const std::string& name = attributes_->materials.names[label];
     if (kept_ != nullptr) {
       const auto known = std::find(kept_->materials.begin(), kept_->materials.end(), name);
@@ -360,6 +367,7 @@ class GltfWriter {
   const GltfKeepsake* kept_;
   double scale_;  // of the soup, to be in meters
   GltfBuilder builder_;
+  std::map<std::uint32_t, std::size_t> material_numbers_;  // by labels
   std::vector<WrittenTexture> textures_;
   std::vector<std::pair<TextureSampling, std::size_t>> samplers_;
 };
