@@ -39,7 +39,7 @@ Json section_of(const ReadReport& read) {
           {"missing_faces", read.missing_faces},
           {"trailing_bytes", read.trailing_bytes},
           {"names", names_of(read.names)},
-          {"warnings", read.warnings}};
+          {"warnings", texts_of(read.warnings)}};
 }
 
 Json section_of(const PointReadReport& read) {
@@ -52,7 +52,7 @@ Json section_of(const PointReadReport& read) {
           {"trailing_bytes", read.trailing_bytes},
           {"normals", read.normals},
           {"colours", read.colours},
-          {"warnings", read.warnings}};
+          {"warnings", texts_of(read.warnings)}};
 }
 
 Json section_of(const PointSoupReport& points) {
@@ -358,6 +358,12 @@ Json result_of(const Findings& findings) {
 }
 
 }  // namespace
+
+Json texts_of(const std::vector<Warning>& warnings) {
+  Json texts = Json::array();
+  for (const Warning& warning : warnings) texts.push_back(warning.text);
+  return texts;
+}
 
 Json read_section(const ReadReport& read) { return section_of(read); }
 

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <spdlog/logger.h>
-
 #include <base/error.h>
 
 #include "options/purposes.h"
@@ -16,13 +14,12 @@
 #include "pictures/explanation_file.h"
 #include "pictures/picture_steps.h"
 #include "program/program.h"
-#include "report/attribute_report.h"
 #include "report/findings.h"
 #include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -58,8 +55,9 @@ void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base)
 // Of points, and of sheets that get walls, several soups are tried.
 void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
   if (options.states == nullptr || !(input.cloud || options.thicken.wanted())) return;
-  logger().warn("--resume: saves nothing if {}",
-                input.cloud ? "points become a mesh" : "sheets get walls");
+  warn("--resume", {WarningCode::states_not_saved,
+                    std::string("saves nothing if ") +
+                        (input.cloud ? "points become a mesh" : "sheets get walls")});
   options.states = nullptr;
 }
 
@@ -78,11 +76,7 @@ void warn_of_lost_groups(const AnySoup& input, SoupFormat format, const AssetOpt
   Attributes names;
   names.groups = input.attributes.groups;
   names = chosen_for(std::nullopt, assets, std::move(names));
-  const Attributes held = held_by(format, names, assets.by_mesh);
-  const std::string lost = lost_words(input.soup, names, held, format);
-  if (lost.empty()) return;
-  logger().warn("{}: {} cannot store these attributes of {}: {}", findings.output_name(),
-                format_name(format), findings.input_name(), lost);
+  warn_of_lost(input.soup, names, held_by(format, names, assets.by_mesh), format, findings);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "report/words.h"
 #include "summary/change_bar.h"
 #include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -505,6 +506,7 @@ void print_summary(Run& run, const Findings& findings) {
   if (run.options.quiet) return;
   const double seconds = run.progress.seconds();
   run.progress.finish();
+  show_held_warnings();
   std::string text = summary_of(findings, seconds);
   if (findings.shows_bar) text += change_bar(findings.repair);
   print_summary(text + findings.shown);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <base/warning.h>
 #include <mesh/attributes.h>
 #include <mesh/length_unit.h>
 #include <mesh/packing.h>
@@ -44,7 +45,7 @@ struct ReadReport {
   std::size_t trailing_bytes = 0;   // after the last element of a binary file
   NamesInFile names;
   // One sentence for each kind of oddity, for the user, without the file's name.
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 struct ReadResult {

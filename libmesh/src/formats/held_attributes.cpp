@@ -11,7 +11,7 @@
 
 #include "formats/common/regions.h"
 #include "formats/obj/obj_io.h"
-#include "formats/stl/stl_regions.h"
+#include "formats/stl/stl_io.h"
 
 namespace meshrepair {
 namespace {

@@ -2,7 +2,9 @@
 // STL, binary and ASCII.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <mesh/mesh_source.h>
 #include <mesh/reading.h>
@@ -34,6 +36,9 @@ inline constexpr std::size_t kStlTriangleSize = 50;
 // Each group becomes a solid of its name, in the order of the names, triangles without one a last.
 // `attributes` may be null.
 [[nodiscard]] std::string format_stl_ascii(const TriangleSoup& soup, const Attributes* attributes);
+
+// The attribute words of these groups. Empty where a name is no number that a word can be.
+[[nodiscard]] std::vector<std::uint16_t> stl_region_words(const TriangleLabels& groups);
 
 // Unit normal, counter-clockwise; 0 for a triangle without area or not finite.
 [[nodiscard]] Vec3d stl_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c);

@@ -47,7 +47,4 @@ class StlSolids {
 // not look like numbers of parts.
 [[nodiscard]] TriangleLabels read_stl_regions(std::string_view bytes, std::size_t triangles);
 
-// The attribute words of these groups. Empty where a name is no number that a word can be.
-[[nodiscard]] std::vector<std::uint16_t> stl_region_words(const TriangleLabels& groups);
-
 }  // namespace meshrepair

@@ -95,8 +95,10 @@ class PartKeeper {
 
   static void warn(ReadReport& report, const Names& names, const std::string& why) {
     if (names.empty()) return;
-    report.warnings.push_back(counted(names.size(), "part") + " of the package " + why +
-                              " (first: " + printable(names.front()) + ")");
+    report.warnings.push_back({WarningCode::package_parts_lost,
+                               counted(names.size(), "part") + " of the package " + why +
+                                   " (first: " + printable(names.front()) + ")",
+                               {{"parts", names.size()}}});
   }
 
   const MeshSource& source_;

@@ -17,6 +17,7 @@
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
 #include "textured_soups.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -253,6 +254,7 @@ TEST(GltfWriter, WhatIsNoMeshStaysUntouched) {
   EXPECT_EQ(read.attributes.materials.names, (std::vector<std::string>{"steel", "steel_1"}));
   read.attributes.materials.names.emplace_back("meshrepair_patch");
   read.attributes.materials.of_triangle.push_back(2);
+  read.attributes.objects.of_triangle.push_back(0);
   read.soup.triangles.push_back(read.soup.triangles.front());
   const std::string glb = format_soup(read.soup, SoupFormat::glb, {.attributes = &read.attributes});
   const TestJson root = json_of(glb);
@@ -369,7 +371,7 @@ TEST(GltfWriter, VariantsThatPrimitivesOfOneMaterialDoNotShareGoWithAWarning) {
   for (const int other : {-1, 2}) {
     const GltfMaker maker = with_variants({{0, 1}, {1, 2}, {0, other}});
     const ReadResult read = read_with_attributes(maker.glb(), "a");
-    EXPECT_EQ(read.report.warnings,
+    EXPECT_EQ(texts(read.report.warnings),
               (std::vector<std::string>{
                   "the variants of 1 material left out: primitives have different ones"}));
     const TestJson root =
