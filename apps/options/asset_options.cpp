@@ -48,8 +48,9 @@ void drop_chosen(const std::vector<std::string>& drops, bool keeps_scene, Attrib
   for (const auto& [name, kind] : kCornerKinds) {
     if (!is_among(drops, name)) continue;
     const Kind dropped = kind;
-    std::erase_if(attributes.corners,
-                  [&](const CornerAttribute& one) { return one.kind == dropped; });
+    std::erase_if(attributes.corners, [&](const CornerAttribute& one) {
+      return one.kind == dropped || (dropped == Kind::other && one.kind == Kind::skin);
+    });
   }
   if (is_among(drops, "materials")) {
     attributes.materials = {};

@@ -18,8 +18,8 @@ namespace {
 using Kind = CornerAttribute::Kind;
 
 std::string_view kind_name(Kind kind) {
-  constexpr std::array<std::string_view, 5> kNames = {"texture", "normal", "tangent", "colour",
-                                                      "other"};
+  constexpr std::array<std::string_view, 6> kNames = {"texture", "normal", "tangent",
+                                                      "colour",  "other",  "skin"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

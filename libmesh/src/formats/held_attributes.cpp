@@ -26,6 +26,7 @@ struct Held {
   bool normals = false;
   bool colours = false;
   bool others = false;  // tangents, too
+  bool skins = false;
   bool materials = false;
   Names names = Names::none;
 };
@@ -56,6 +57,7 @@ Held held_by(SoupFormat format) {
           .normals = true,
           .colours = true,
           .others = true,
+          .skins = !is_ply,
           .materials = true,
           .names = is_ply ? Names::both : Names::objects};
 }
@@ -68,6 +70,8 @@ bool holds(const Held& held, const CornerAttribute& attribute, std::size_t& text
       return held.normals;
     case Kind::colour:
       return held.colours;
+    case Kind::skin:
+      return held.skins;
     case Kind::tangent:
     case Kind::other:
       break;

@@ -9,6 +9,7 @@
 #include <base/ids.h>
 #include <mesh/lost_attributes.h>
 #include <mesh/precision.h>
+#include <mesh/skins.h>
 
 #include "formats/obj/obj_io.h"
 #include "formats/threemf/threemf_io.h"
@@ -209,9 +210,12 @@ std::string kind_words(const CornerAttribute& attribute) {
       return "tangents";
     case Kind::colour:
       return "colours";
+    case Kind::skin:
+      return "weights of joints";
     case Kind::other:
       break;
   }
+  if (morph_target_of(attribute)) return "morph targets";
   return "'" + attribute.name + "'";
 }
 

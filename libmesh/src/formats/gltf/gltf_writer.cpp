@@ -19,6 +19,7 @@
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
 #include "gltf_materials.h"
+#include "gltf_movement.h"
 #include "gltf_vertices.h"
 
 namespace meshrepair {
@@ -52,6 +53,7 @@ class GltfWriter {
     } else if (!soup_.triangles.empty()) {
       add_objects();
     }
+    settle_gltf_movement(builder_);
     return builder_.finish(binary);
   }
 
@@ -86,8 +88,12 @@ class GltfWriter {
 
   void add_object(const std::string& name, std::span<const std::uint32_t> triangles) {
     GltfJson json = GltfJson::object();
+    GltfObject kept;
+    if (kept_ != nullptr && kept_->objects.contains(name)) kept = kept_->objects.at(name);
+    if (!kept.mesh.is_null()) json = std::move(kept.mesh);
     if (!name.empty()) json["name"] = name;
     GltfJson node = {{"mesh", add_mesh(0, triangles, std::move(json))}, {"name", name}};
+    if (kept.skin) node["skin"] = *kept.skin;
     if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
     add_gltf_node(builder_, std::move(node));
   }
@@ -155,7 +161,7 @@ class GltfWriter {
       const GltfJson* const variants = variants_of(number, material);
       std::size_t textures = textures_of(material);
       if (variants != nullptr) textures = std::max(textures, textures_of_variants(*variants));
-      primitives.push_back(make_primitive(triangles, textures));
+      primitives.push_back(make_primitive(triangles, {textures, all}));
       if (material != kNone) primitives.back()["material"] = material;
       if (variants != nullptr) primitives.back()["extensions"][kGltfVariants] = *variants;
     }
@@ -198,13 +204,15 @@ class GltfWriter {
     return lists;
   }
 
-  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles, std::size_t textures) {
-    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_, textures);
-    GltfJson attributes = GltfJson::object();
+  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles, const GltfNeeds& needs) {
+    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_, needs);
+    GltfJson primitive = {{"attributes", GltfJson::object()}, {"mode", 4}};
     for (const GltfColumn& column : vertices.columns) {
-      attributes[column.name] = add_column(column, vertices.count);
+      const std::size_t accessor = add_column(column, vertices.count);
+      add_gltf_values(builder_, column.name, accessor, vertices.count, primitive);
     }
-    return {{"attributes", std::move(attributes)}, {"indices", add_indices(vertices)}, {"mode", 4}};
+    primitive["indices"] = add_indices(vertices);
+    return primitive;
   }
 
   std::size_t add_column(const GltfColumn& column, std::size_t count) {
@@ -215,7 +223,7 @@ class GltfWriter {
                          {"count", count},
                          {"type", type_of(column.layout.components)}};
     if (column.layout.normalized) accessor["normalized"] = true;
-    if (column.name == "POSITION") add_bounds(column, accessor);
+    if (column.name.ends_with("POSITION")) add_bounds(column, accessor);
     return builder_.append("accessors", std::move(accessor));
   }
 

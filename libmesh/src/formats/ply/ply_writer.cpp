@@ -148,6 +148,7 @@ class PlyLayout {
   }
 
   void add(const CornerAttribute& attribute) {
+    if (attribute.kind == Kind::skin) return;
     const bool is_later_set = attribute.kind == Kind::texture && textures_++ > 0;
     if (attribute.place == Place::triangle) {
       if (auto of_face = values_by_triangle(attribute)) {
