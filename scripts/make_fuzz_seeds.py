@@ -205,6 +205,16 @@ def gltf_seeds():
     sparse = root()
     sparse["accessors"][0]["sparse"] = {"count": 1, "indices": {"bufferView": 2, "componentType": 5121},
                                         "values": {"bufferView": 0}}
+    moving = root(nodes=[{"mesh": 0, "skin": 0, "children": [1]},
+                         {"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}],
+                  skins=[{"joints": [1], "inverseBindMatrices": 9}],
+                  animations=[{"channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}],
+                               "samplers": [{"input": 2, "output": 2}]}])
+    moving["accessors"] += [{"bufferView": 0, "componentType": 5121, "count": 4, "type": "VEC4"},
+                            {"bufferView": 0, "componentType": 5121, "count": 4, "type": "VEC4", "normalized": True}]
+    moving["meshes"][0]["weights"] = [1]
+    moving["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0, "NORMAL": 0}]
+    moving["meshes"][0]["primitives"][0]["attributes"].update({"JOINTS_0": 3, "WEIGHTS_0": 4})
     strip = root()
     strip["meshes"][0]["primitives"][0]["mode"] = 5
     return {
@@ -212,6 +222,7 @@ def gltf_seeds():
         "text": json.dumps(root(buffers=[{"byteLength": len(buffer), "uri": uri}])).encode(),
         "sparse": glb(sparse, buffer),
         "strip": glb(strip, buffer),
+        "moving": glb(moving, buffer),
         "nodes": glb(root(nodes=[{"scale": [-1, 2, 3], "children": [1]}, {"mesh": 0, "rotation": [0, 0, 1, 0]}]), buffer),
         "instances": glb(root(nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {
             "attributes": {"TRANSLATION": 0}}}}]), buffer),

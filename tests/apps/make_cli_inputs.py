@@ -163,6 +163,29 @@ def painted_picture():
     }).encode()
 
 
+def dancer():
+    """glTF text: a tetrahedron without a face, with a skin and a morph target, and a node that is hidden."""
+    corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]
+    data = struct.pack("<12f", *corners) + struct.pack("<16B", *[0, 1, 0, 0] * 4)
+    data += struct.pack("<16f", *[0.25, 0.75, 0, 0] * 4) + struct.pack("<9H", 0, 2, 1, 0, 1, 3, 1, 2, 3)
+    views, sizes = [], (48, 16, 64, 18)
+    for size in sizes:
+        views.append({"buffer": 0, "byteOffset": sum(v["byteLength"] for v in views), "byteLength": size})
+    kinds = ((5126, 4, "VEC3"), (5121, 4, "VEC4"), (5126, 4, "VEC4"), (5123, 9, "SCALAR"))
+    primitive = {"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}, "indices": 3, "targets": [{"POSITION": 0}]}
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"name": "bone", "children": [3]}, {"name": "body", "mesh": 0, "skin": 0},
+                  {"name": "stone", "mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}, {"name": "hand"}],
+        "extensionsUsed": ["KHR_node_visibility"], "skins": [{"joints": [0, 3]}],
+        "meshes": [{"primitives": [primitive], "weights": [0.5]}],
+        "accessors": [{"bufferView": i, "componentType": kind, "count": count, "type": shape}
+                      for i, (kind, count, shape) in enumerate(kinds)],
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+    }).encode()
+
+
 def textured_boxes():
     """OBJ text: two boxes that overlap, each with a picture on all sides and a material of its own."""
     text = b"mtllib textured.mtl\n"
@@ -325,6 +348,7 @@ def main():
         "tiny_aside.obj": b"v 0 0 1e-170\nv 1e-170 0 1e-170\nv 0 1e-170 1e-170\nf 1 2 3\n",
         "painted.gltf": painted_tetrahedron(0, 0.25),
         "painted_pictures.gltf": painted_picture(),
+        "dancer.gltf": dancer(),
         "painted_too.gltf": painted_tetrahedron(0.25, 0.5),
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
