@@ -199,7 +199,12 @@ class KeepsakeMaker {
     GltfJson kept = GltfJson::array();
     for (const GltfJson& channel : *channels) {
       const GltfJson* const target = gltf_member(channel, "target");
-      if (target != nullptr && !moves_what_goes(*target)) kept.push_back(channel);
+      if (target == nullptr) continue;
+      if (moves_what_goes(*target)) {
+        ++kept_->still_channels;
+      } else {
+        kept.push_back(channel);
+      }
     }
     if (kept.empty()) return false;
     for (GltfJson& sampler : animation["samplers"]) {

@@ -58,6 +58,7 @@ struct GltfKeepsake final : Keepsake, GltfLooks {
   std::map<std::string, GltfObject> objects;  // else, by their names
   std::vector<std::string> materials;         // labels of root["materials"]
   GltfSmallV small_v;
+  std::size_t still_channels = 0;  // of animations: what they moved is not kept
 
   [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
   // What the first has, and the materials of this one.

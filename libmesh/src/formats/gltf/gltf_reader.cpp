@@ -323,6 +323,13 @@ class GltfReader {
       warnings.push_back(
           {WarningCode::attributes_unreadable, "meshes with skins are read as without joints"});
     }
+    if (wants_attributes() && kept_->still_channels > 0) {
+      warnings.push_back({WarningCode::attributes_lost,
+                          counted(kept_->still_channels, "channel") +
+                              " of animations left out: what they move is not kept" +
+                              (is_by_mesh() ? "" : " (--scene each keeps morph targets)"),
+                          {{"channels", kept_->still_channels}}});
+    }
     if (mixed_skins_.empty()) return;
     warnings.push_back({WarningCode::attributes_lost,
                         counted(mixed_skins_.size(), "object") +

@@ -395,19 +395,20 @@ class ModelWriter {
 
   // As sets of triangles.
   void append_groups(const MeshRange& range) {
-    const auto& [names, of_triangle] = attributes_->groups;
+    const std::vector<std::uint32_t>& of_triangle = attributes_->groups.of_triangle;
     std::vector<std::uint32_t> order;
     for (std::size_t t = range.first; t < range.end; ++t) {
       if (of_triangle[t] != kNone) order.push_back(static_cast<std::uint32_t>(t));
     }
     if (order.empty()) return;
-    std::stable_sort(order.begin(), order.end(),
-                     [&labels = of_triangle](auto a, auto b) { return labels[a] < labels[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return of_triangle[a] < of_triangle[b];
+    });
     xml_ += '<' + sets_ + ":trianglesets>\n";
     for (std::size_t i = 0; i < order.size();) {
       const std::uint32_t group = of_triangle[order[i]];
       xml_ += '<' + sets_ + ":triangleset";
-      append_xml_attribute(xml_, "name", names[group]);
+      append_xml_attribute(xml_, "name", attributes_->groups.names[group]);
       append_xml_attribute(xml_, "identifier", "group" + std::to_string(group + 1));
       xml_ += ">\n";
       for (; i < order.size() && of_triangle[order[i]] == group; ++i) {

@@ -119,6 +119,7 @@ TEST(GltfMovement, SkinsAndTargetsComeBackInAScene) {
 
 TEST(GltfMovement, SkinsAndTargetsComeBackJoined) {
   const ReadResult read = read_moving(dancer().glb(), false);
+  EXPECT_THAT(texts(read.report.warnings), ElementsAre(HasSubstr("1 channel of animations")));
   const std::string glb = write_moving(read, false);
   expect_same_values(read_moving(glb, false), read);
   const TestJson root = document_of(glb);
@@ -148,7 +149,8 @@ TEST(GltfMovement, PartsOfOneNameWithSeveralSkinsHaveNone) {
   maker.add("skins", {{"joints", {2}}});
   maker.add_root({{"mesh", 0}, {"name", "body"}, {"skin", 1}});
   const ReadResult read = read_moving(maker.glb(), false);
-  EXPECT_THAT(texts(read.report.warnings), ElementsAre(HasSubstr("1 object without a skin")));
+  EXPECT_THAT(texts(read.report.warnings),
+              ::testing::Contains(HasSubstr("1 object without a skin")));
   const TestJson root = document_of(write_moving(read, false));
   EXPECT_FALSE(root["nodes"].back().contains("skin"));
 }
@@ -202,7 +204,8 @@ TEST(GltfMovement, TargetsTakeNoMoreRoomThanTheirBytes) {
   for (const bool by_mesh : {false, true}) {
     const ReadResult read = read_moving(maker.glb(), by_mesh);
     EXPECT_EQ(read.attributes.corners.size(), 1u);
-    EXPECT_THAT(texts(read.report.warnings), ElementsAre(HasSubstr("read without morph targets")));
+    EXPECT_THAT(texts(read.report.warnings),
+                ::testing::Contains(HasSubstr("read without morph targets")));
   }
 }
 
