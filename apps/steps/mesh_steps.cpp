@@ -83,7 +83,7 @@ void warn_of_lost(const TriangleSoup& soup, const Attributes& all, const Attribu
 
 void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
                             Run& run, Findings& findings) {
-  if (run.options.report.empty()) return;
+  if (run.options.report.empty() && !findings.wants_fidelity) return;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("distance");
   findings.fidelity = measure_fidelity(input, surface, {precision, &run.progress});
@@ -125,8 +125,10 @@ void write_mesh_stage(const Surface& surface, const Attributes& attributes, Writ
   meter.begin("write");
   look_at_file(surface, *format.format, findings);
   findings.missing_guarantees = missing_guarantees(findings, *format.format);
-  findings.withheld = options.strict && !findings.missing_guarantees.empty();
   warn_of_findings(findings);
+  judge_requirements(options.required, findings);
+  findings.withheld =
+      options.strict && !(findings.missing_guarantees.empty() && findings.not_met.empty());
   if (findings.withheld) return;
   if (options.sources) format.extras.sources = surface.source;
   if (!attributes.empty()) format.extras.attributes = &attributes;
