@@ -2,8 +2,6 @@
 // meshconvert IN OUT: a mesh in another format, as it is.
 #include <utility>
 
-#include <spdlog/logger.h>
-
 #include "options/file_kinds.h"
 #include "options/repair_options.h"
 #include "pictures/picture_steps.h"
@@ -15,7 +13,6 @@
 #include "steps/run_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
-#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -39,15 +36,8 @@ void convert(const StepOptions& options, Run& run, Findings& findings) {
   check_picture(options.picture, all);
   run.report.set_section("attributes", attributes_section(soup, all));
   const Attributes held = chosen_for(*format.format, options.assets, all);
-  Attributes still_held = held_by(*format.format, all);
-  if (options.assets.by_mesh) still_held.objects = all.objects;
-  const std::string lost = lost_words(soup, all, still_held, *format.format);
-  if (!lost.empty()) {
-    warn(findings.output_name(),
-         {WarningCode::attributes_lost,
-          fmt::format("{} cannot store these attributes of {}: {}", format_name(*format.format),
-                      findings.input_name(), lost)});
-  }
+  const Attributes still_held = held_by(*format.format, all, options.assets.by_mesh);
+  warn_of_lost(soup, all, still_held, *format.format, findings);
   format.extras.attributes = held.empty() ? nullptr : &held;
   if (options.assets.by_mesh) {
     check_scene(input.scene, *format.format);

@@ -9,6 +9,7 @@
 #include <base/error.h>
 #include <base/stage_meter.h>
 
+#include "report/attribute_report.h"
 #include "steps/guarantees.h"
 #include "summary/warnings.h"
 #include "terminal/warning_log.h"
@@ -69,6 +70,15 @@ Tree read_tree_stage(Run& run, Findings& findings) {
   Tree tree = read_tree(findings.input, read_options(run));
   findings.tree_read = facts_of(tree);
   return tree;
+}
+
+void warn_of_lost(const TriangleSoup& soup, const Attributes& all, const Attributes& held,
+                  SoupFormat format, const Findings& findings) {
+  const std::string lost = lost_words(soup, all, held, format);
+  if (lost.empty()) return;
+  warn(findings.output_name(), {WarningCode::attributes_lost,
+                                fmt::format("{} cannot store these attributes of {}: {}",
+                                            format_name(format), findings.input_name(), lost)});
 }
 
 void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,

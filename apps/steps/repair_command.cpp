@@ -2,6 +2,7 @@
 #include "steps/repair_command.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -74,6 +75,16 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 
+// Names of parts are what boundary conditions and the like hang on: they do not go without a word.
+void warn_of_lost_groups(const AnySoup& input, SoupFormat format, const AssetOptions& assets,
+                         const Findings& findings) {
+  if (input.attributes.groups.names.size() < 2) return;
+  Attributes names;
+  names.groups = input.attributes.groups;
+  names = chosen_for(std::nullopt, assets, std::move(names));
+  warn_of_lost(input.soup, names, held_by(format, names, assets.by_mesh), format, findings);
+}
+
 }  // namespace
 
 void add_repair_command(CommandLine& app, RepairCommand& command) {
@@ -128,6 +139,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
                     findings);
   check_picture(options.picture, input.attributes);
   const Attributes given = is_shown ? input.attributes : Attributes();
+  warn_of_lost_groups(input, *format.format, options.assets, findings);
   input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   PointOptions points = command.points;

@@ -53,6 +53,12 @@ struct ObjectReference {
   std::shared_ptr<const ModelMarks> marks;  // null: none
 };
 
+// Triangles of an object that have a name together: from each first to each last of `ranges`.
+struct TriangleSet {
+  std::string name;
+  std::vector<std::array<std::uint32_t, 2>> ranges;
+};
+
 struct ModelObject {
   std::uint32_t id = kNone;
   bool is_left_out = false;  // of the types that are not built, or no part of the solid
@@ -60,7 +66,9 @@ struct ModelObject {
   std::shared_ptr<const ModelMarks> marks;  // null: none
   PropertyUse property;                     // of triangles that say nothing
   TriangleSoup mesh;
-  std::vector<PropertyUse> properties;  // of the triangles, if asked for
+  std::vector<PropertyUse> properties;         // of the triangles, if asked for
+  std::vector<TriangleSet> sets;               // the same
+  std::vector<std::uint32_t> set_of_triangle;  // the first; kNone: in none. Empty: there are none
   std::vector<ObjectReference> components;
 };
 

@@ -50,6 +50,7 @@ class ModelReader final : public XmlHandler {
   void read_layer_entries(const XmlAttributes& attributes);
   void add_group(PropertyGroup::Kind kind, const XmlAttributes& attributes);
   void add_colour(std::string_view text);
+  void add_range(std::uint32_t first, std::uint32_t last);
   void end_mesh();
   void end_group(bool is_of_item);
 
