@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include <mesh/model_volume.h>
 #include <mesh/point_cloud.h>
 #include <mesh/soup.h>
 #include <repair/repair_points.h>
@@ -39,6 +41,7 @@ struct AnySoup {
   std::optional<PointCloud> cloud;  // it is one
   Attributes attributes;            // of a mesh, if they are asked for
   Scene scene;                      // the same
+  std::vector<PlacedVolume> placed = {};  // see ReadResult
 };
 
 // Reads a mesh as `reading` says, or a point cloud.

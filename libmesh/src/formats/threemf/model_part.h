@@ -14,8 +14,11 @@
 
 #include <base/ids.h>
 #include <mesh/length_unit.h>
+#include <mesh/model_volume.h>
 #include <mesh/placement.h>
 #include <mesh/soup.h>
+
+#include "project/project_config.h"
 
 namespace meshrepair {
 
@@ -55,13 +58,19 @@ struct ObjectReference {
 
 struct ModelObject {
   std::uint32_t id = kNone;
-  bool is_left_out = false;  // of the types that are not built, or no part of the solid
+  VolumeRole role = VolumeRole::model;
   std::string name;
   std::shared_ptr<const ModelMarks> marks;  // null: none
   PropertyUse property;                     // of triangles that say nothing
   TriangleSoup mesh;
   std::vector<PropertyUse> properties;  // of the triangles, if asked for
+  std::vector<std::uint32_t> bad;       // numbers in the file of triangles that are left out
   std::vector<ObjectReference> components;
+  const ProjectObject* project = nullptr;  // what a slicer says of it; null: nothing
+  // What split_volumes() made: an object of ranges of its mesh, and of such a range the number of
+  // its volume; kNone: of what belongs to none.
+  bool is_split = false;
+  std::uint32_t volume = kNone;
 };
 
 // Entries that triangles refer to by their number.
@@ -109,6 +118,7 @@ struct ModelOddities {
   std::size_t bad_triangles = 0;
   std::size_t bad_points = 0;
   std::size_t doubled_ids = 0;
+  std::size_t bad_ranges = 0;      // volumes whose triangles are not there, or others' as well
   std::size_t painted = 0;         // triangles with attributes of other programs
   std::size_t unknown_groups = 0;  // compositematerials, and layers beyond those that are read
   std::vector<std::string> unknown_extensions;

@@ -140,6 +140,25 @@ std::shared_ptr<const ModelMarks> shared(ModelMarks marks) {
   return std::make_shared<const ModelMarks>(std::move(marks));
 }
 
+// Settings of an object, as Cura has them.
+VolumeRole role_of_settings(const std::vector<ModelMetadata>& settings) {
+  constexpr std::string_view kCuraSpace = "http://software.ultimaker.com/xml/cura/3mf/";
+  constexpr std::array<std::pair<std::string_view, VolumeRole>, 4> kRoles = {{
+      {"support_mesh", VolumeRole::support},
+      {"anti_overhang_mesh", VolumeRole::support_blocker},
+      {"infill_mesh", VolumeRole::modifier},
+      {"cutting_mesh", VolumeRole::modifier},
+  }};
+  for (const ModelMetadata& one : settings) {
+    if (!one.space.starts_with(kCuraSpace) || in_lower_case(one.value) != "true") continue;
+    const std::string_view key = std::string_view(one.name).substr(one.name.find(':') + 1);
+    const auto* const role = std::find_if(kRoles.begin(), kRoles.end(),
+                                          [&](const auto& known) { return known.first == key; });
+    if (role != kRoles.end()) return role->second;
+  }
+  return VolumeRole::model;
+}
+
 bool is_truth(std::string_view word) {
   return word == "0" || word == "1" || word == "false" || word == "true";
 }
@@ -185,9 +204,8 @@ void ModelReader::end() {
 }
 
 void ModelReader::text(std::string_view piece) {
-  if (properties_ && !open_.empty() && open_.back() == Element::metadata) {
-    metadata().back().value += piece;
-  }
+  if (open_.empty() || open_.back() != Element::metadata) return;
+  if (properties_ || is_in_group()) metadata().back().value += piece;
 }
 
 void ModelReader::open(Element element, const XmlAttributes& attributes) {
@@ -208,7 +226,7 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
     case Element::item:
       return read_reference(attributes, part_.items);
     case Element::metadata:
-      if (properties_) {
+      if (properties_ || is_in_group()) {
         metadata().push_back({attributes.text("name"),
                               {},
                               attributes.text("preserve"),
@@ -221,10 +239,13 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
   }
 }
 
+bool ModelReader::is_in_group() const {
+  return std::find(open_.begin(), open_.end(), Element::metadatagroup) != open_.end();
+}
+
 // Those of the model, or of the object or item that is open.
 std::vector<ModelMetadata>& ModelReader::metadata() {
-  const auto is_group = [](Element element) { return element == Element::metadatagroup; };
-  return std::any_of(open_.begin(), open_.end(), is_group) ? metadata_of_group_ : part_.metadata;
+  return is_in_group() ? metadata_of_group_ : part_.metadata;
 }
 
 std::string ModelReader::space_of_prefix(std::string_view name) const {
@@ -239,6 +260,8 @@ std::string ModelReader::space_of_prefix(std::string_view name) const {
 void ModelReader::end_group(bool is_of_item) {
   std::vector<ModelMetadata> found = std::exchange(metadata_of_group_, {});
   if (found.empty()) return;
+  if (!is_of_item && object().role == VolumeRole::model) object().role = role_of_settings(found);
+  if (!properties_) return;
   auto& known = is_of_item ? part_.items.back().marks : object().marks;
   ModelMarks marks = known ? *known : ModelMarks();
   std::move(found.begin(), found.end(), std::back_inserter(marks.metadata));
@@ -313,7 +336,8 @@ void ModelReader::read_object(const XmlAttributes& attributes) {
   fresh.id = index_in(attributes, "id");
   fresh.name = attributes.text("name");
   const std::string type = attributes.text("type");
-  fresh.is_left_out = type == "other" || type == "support";
+  if (type == "support" || type == "solidsupport") fresh.role = VolumeRole::support;
+  if (type == "other") fresh.role = VolumeRole::other;
   ModelMarks marks{.part_number = attributes.text("partnumber"), .uuid = uuid_in(attributes)};
   if (is_object_type(type)) marks.type = type;
   if (const auto path = attributes.find("thumbnail"))
@@ -363,6 +387,7 @@ void ModelReader::end_mesh() {
     const IndexTriangle triangle = mesh.triangles[t];
     if (std::any_of(triangle.begin(), triangle.end(),
                     [&](std::uint32_t corner) { return corner >= points; })) {
+      object().bad.push_back(static_cast<std::uint32_t>(t));
       continue;
     }
     mesh.triangles[kept] = triangle;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model_part.h"
-#include "xml_stream.h"
+#include "common/xml_stream.h"
 
 namespace meshrepair {
 
@@ -53,6 +53,7 @@ class ModelReader final : public XmlHandler {
   void end_mesh();
   void end_group(bool is_of_item);
 
+  [[nodiscard]] bool is_in_group() const;
   [[nodiscard]] std::vector<ModelMetadata>& metadata();
   [[nodiscard]] std::string space_of_prefix(std::string_view name) const;
   [[nodiscard]] ModelObject& object() { return part_.objects.back(); }

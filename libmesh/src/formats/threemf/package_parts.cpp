@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "formats/common/part_names.h"
-#include "xml_stream.h"
+#include "common/xml_stream.h"
 
 namespace meshrepair {
 namespace {

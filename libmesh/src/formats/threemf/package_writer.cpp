@@ -7,7 +7,7 @@
 
 #include "formats/common/part_names.h"
 #include "package_parts.h"
-#include "xml_text.h"
+#include "common/xml_text.h"
 
 namespace meshrepair {
 
