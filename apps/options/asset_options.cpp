@@ -77,7 +77,11 @@ void add_drop_option(CommandLine& app, AssetOptions& options) {
 
 void add_scene_option(CommandLine& app, AssetOptions& options, const std::string& group) {
   add_choice(
-      app, "--scene", kScenes, [&options](bool value) { options.by_mesh = value; },
+      app, "--scene", kScenes,
+      [&options](bool value) {
+        options.by_mesh = value;
+        options.scene_chosen = true;
+      },
       "How to treat the meshes of a scene (glTF, 3MF) or the objects of an OBJ file:\n"
       "  join  place all of them and merge them into one mesh\n"
       "  each  process every mesh separately and keep the scene")

@@ -14,6 +14,7 @@
 #include <mesh/read_guard.h>
 
 #include "model_values.h"
+#include "volume_ranges.h"
 
 namespace meshrepair {
 namespace {
@@ -276,8 +277,10 @@ class InstancePlacer {
       const std::string& object =
           has_name ? project->name : parts_[around.part].objects[around.object].name;
       const bool has_words = !name.empty() || !object.empty();
-      const std::string by_id =
-          "object " + std::to_string(parts_[around.part].objects[around.object].id);
+      const std::uint32_t own_id = parts_[part].objects[number].id;
+      const std::uint32_t id = is_range_id(own_id) ? parts_[around.part].objects[around.object].id
+                                                   : own_id;
+      const std::string by_id = "object " + std::to_string(id);
       result_.volumes.push_back(
           {has_words ? name : by_id, object, role, printed, 0, 0, fate_of(role, printed)});
     }

@@ -106,13 +106,16 @@ class ConfigReader final : public XmlHandler {
     spot.size = stream_->tag().end() - spot.at;
   }
 
-  // To be called at the end: objects may stand behind what names them.
+  // To be called at the end: objects may stand behind what names them, or nothing else be said of
+  // them.
   void resolve() {
     std::unordered_map<std::uint32_t, std::uint32_t> number_of;
     for (std::uint32_t i = 0; i < objects_.size(); ++i) number_of.try_emplace(objects_[i].id, i);
     for (const auto& [spot, id] : references_) {
-      const auto found = number_of.find(id);
-      spots_[spot].object = found == number_of.end() ? kNone : found->second;
+      const auto fresh = static_cast<std::uint32_t>(objects_.size());
+      const auto [found, is_new] = number_of.try_emplace(id, fresh);
+      if (is_new) objects_.emplace_back().id = id;
+      spots_[spot].object = found->second;
     }
   }
 
