@@ -14,7 +14,7 @@
 #include "steps/run_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -49,8 +49,10 @@ void convert(StepOptions options, Run& run, Findings& findings) {
   if (options.assets.by_mesh) still_held.objects = all.objects;
   const std::string lost = lost_words(soup, all, still_held, *format.format);
   if (!lost.empty()) {
-    logger().warn("{}: {} cannot store these attributes of {}: {}", findings.output_name(),
-                  format_name(*format.format), findings.input_name(), lost);
+    warn(findings.output_name(),
+         {WarningCode::attributes_lost,
+          fmt::format("{} cannot store these attributes of {}: {}", format_name(*format.format),
+                      findings.input_name(), lost)});
   }
   format.extras.attributes = held.empty() ? nullptr : &held;
   if (options.assets.by_mesh) {

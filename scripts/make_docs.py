@@ -3,8 +3,8 @@
 """Makes the tables of docs/options.md and docs/report.md, and docs/python-reference.md.
 
 The tables of options are made from what the programs print with --help-all, the tables of keys from the descriptions in
-docs/report.schema.json. Only the text between the markers "<!-- made by scripts/make_docs.py: NAME -->" and
-"<!-- end -->" is replaced. The reference of Python is made from the docstrings of the package.
+docs/report.schema.json, that of warnings from --version --json. Only the text between the markers
+"<!-- made by scripts/make_docs.py: NAME -->" and "<!-- end -->" is replaced. The reference of Python is made from the docstrings of the package.
 """
 
 import argparse
@@ -270,6 +270,14 @@ def key_lines(schema: dict) -> list[str]:
     return lines
 
 
+# Warnings, from a program
+
+def warning_lines(folder: pathlib.Path) -> list[str]:
+    facts = json.loads(subprocess.run([folder / "meshrepair", "--version", "--json"], check=True, capture_output=True).stdout)
+    rows = [(f"`{kind['code']}`", "x" if kind["changes_object"] else "", kind["meaning"] + ".") for kind in facts["warnings"]]
+    return table(("code", "may change the object", "meaning"), rows)
+
+
 # Documents
 
 def replaced(text: str, name: str, lines: list[str]) -> str:
@@ -291,7 +299,8 @@ def made(programs: pathlib.Path) -> dict[pathlib.Path, str]:
     for name, lines in (("programs", program_lines(helps)), ("options", shared_lines(helps)),
                         ("matrix", matrix_lines(helps))):
         text = replaced(text, name, lines)
-    return {options: text, report: replaced(report.read_text(encoding="utf-8"), "keys", key_lines(schema)),
+    told = replaced(report.read_text(encoding="utf-8"), "keys", key_lines(schema))
+    return {options: text, report: replaced(told, "warnings", warning_lines(programs)),
             DOCS / "python-reference.md": python_reference.page(table)}
 
 

@@ -24,7 +24,7 @@
 #include "report/words.h"
 #include "steps/mesh_steps.h"
 #include "steps/run_steps.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -110,10 +110,9 @@ void say(const BlockPlan& plan, const PartGroups& groups, const PlanOptions& opt
       "blocks", {{"count", plan.blocks.size()}, {"groups", groups.size()}, {"largest", largest}});
   run.report.set_output({{"path", options.folder}, {"format", "blocks"}});
   if (plan.blocks.size() == 1 && plan.triangles > options.triangles) {
-    logger().warn(
-        "all parts of {} are one, or near each other: there is one block, and several machines do "
-        "not help",
-        options.input);
+    warn(options.input, {WarningCode::one_block,
+                         "all parts are one, or near each other: there is one block, and several "
+                         "machines do not help"});
   }
   run.progress.finish();
   if (run.options.quiet || run.options.report == "-") return;
@@ -132,7 +131,8 @@ ExitCode plan(const PlanOptions& options, Run& run) {
   return with_findings(run, findings, [&] {
     const ReadResult input = read_mesh_stage(reading, run, findings);
     if (!input.attributes.empty()) {
-      logger().warn("{}: its colours, textures and names are not in the blocks", options.input);
+      warn(options.input,
+           {WarningCode::attributes_lost, "its colours, textures and names are not in the blocks"});
     }
     folder.create();
     StageMeter meter(findings.repair.stages, &run.progress);

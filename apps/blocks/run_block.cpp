@@ -18,7 +18,7 @@
 #include "resume/resumable.h"
 #include "steps/repair_command.h"
 #include "steps/run_steps.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -95,7 +95,7 @@ std::optional<BlockResult> repaired(RunOptions& options, const CommandLine& app,
     result.file = std::filesystem::path(steps.output).filename().string();
     result.result = file_checksum(steps.output);
   } catch (const NoSolidError& error) {
-    logger().warn("{}", error.what());
+    warn("", {WarningCode::area_lost, error.what()});
     result.certified = true;
   }
   return result;

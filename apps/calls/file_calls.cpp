@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <spdlog/fmt/ranges.h>
-#include <spdlog/logger.h>
 
 #include <base/error.h>
 #include <mesh/lost_attributes.h>
@@ -16,7 +15,7 @@
 #include "steps/mesh_steps.h"
 #include "steps/run_steps.h"
 #include "steps/step_options.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -36,8 +35,9 @@ void warn_of_lost(const GivenForFile& given, const Attributes& held, SoupFormat 
   const std::vector<std::string> lost =
       lost_attributes(*given.soup, *given.attributes, held, format);
   if (lost.empty()) return;
-  logger().warn("{}: {} cannot store these attributes: {}", findings.output_name(),
-                format_name(format), fmt::join(lost, ", "));
+  warn(findings.output_name(),
+       {WarningCode::attributes_lost, fmt::format("{} cannot store these attributes: {}",
+                                                  format_name(format), fmt::join(lost, ", "))});
 }
 
 }  // namespace

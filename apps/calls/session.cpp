@@ -3,12 +3,8 @@
 
 #include <algorithm>
 #include <exception>
-#include <memory>
 #include <new>
 #include <optional>
-
-#include <spdlog/logger.h>
-#include <spdlog/sinks/base_sink.h>
 
 #include <base/error.h>
 #include <base/parallel.h>
@@ -17,23 +13,10 @@
 #include "options/command_line.h"
 #include "options/removed_options.h"
 #include "process/memory_limit.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
-
-// Of the call whose work this thread does.
-thread_local std::vector<std::string>* warnings_of_call = nullptr;
-
-class WarningSink : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
- protected:
-  // An error is in the outcome of the call already.
-  void sink_it_(const spdlog::details::log_msg& message) override {
-    if (warnings_of_call == nullptr || message.level != spdlog::level::warn) return;
-    warnings_of_call->emplace_back(message.payload.data(), message.payload.size());
-  }
-  void flush_() override {}
-};
 
 // Those of the programs that are about their process, or about what they print.
 constexpr std::string_view kOfPrograms[] = {"report", "quiet",    "verbose",     "version", "help",
@@ -63,12 +46,6 @@ std::string word_of(const CommandOption& option, const Keyword& keyword) {
 }
 
 }  // namespace
-
-void collect_warnings() {
-  auto collecting = std::make_shared<spdlog::logger>("meshrepair", std::make_shared<WarningSink>());
-  collecting->set_level(spdlog::level::warn);
-  set_logger(std::move(collecting));
-}
 
 Session::Session(const std::string& program) : app_("", program), command_({program}) {
   common_.max_memory = "0";  // the process is the caller's
@@ -103,7 +80,7 @@ ProgressBar::Options Session::limits() const {
 
 Outcome Session::run(CallProgress& progress, const Body& body) const {
   Outcome outcome;
-  warnings_of_call = &outcome.warnings;
+  const WarningLog warnings;
   JsonReport report(command_.front(), command_);
   std::exception_ptr error;
   try {
@@ -117,7 +94,8 @@ Outcome Session::run(CallProgress& progress, const Body& body) const {
   } catch (...) {
     error = std::current_exception();
   }
-  warnings_of_call = nullptr;
+  for (const ToldWarning& told : warnings.told()) outcome.warnings.push_back(text_of(told));
+  report.set_warnings(warnings.told());
   progress.finish();
   std::optional<Failure> failure;
   if (error) failure = describe_failure(error);

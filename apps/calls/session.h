@@ -26,14 +26,10 @@ using Keywords = std::vector<Keyword>;
 // What came of a call, whether it went well or not.
 struct Outcome {
   ExitCode code = ExitCode::internal;
-  std::string error;   // one line; empty where nothing was wrong
-  std::string report;  // JSON
-  std::vector<std::string> warnings;
+  std::string error;                  // one line; empty where nothing was wrong
+  std::string report;                 // JSON
+  std::vector<std::string> warnings;  // with their codes; the report has their numbers, too
 };
-
-// Takes the warnings of the programs' code off stderr: each goes to the call on whose thread it is
-// said. To be called once.
-void collect_warnings();
 
 class Session {
  public:

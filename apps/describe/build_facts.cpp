@@ -18,6 +18,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/version.h>
 
+#include <base/warning.h>
 #include <mesh/mesh_limits.h>
 #include <mesh/point_io.h>
 #include <mesh/soup_format.h>
@@ -79,6 +80,15 @@ Json list_of(std::string_view extensions) {
   return list;
 }
 
+Json warnings() {
+  Json list = Json::array();
+  for (const WarningKind& kind : warning_kinds()) {
+    list.push_back(
+        {{"code", kind.code}, {"changes_object", kind.changes_object}, {"meaning", kind.meaning}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json build_facts(const std::string& program) {
@@ -97,7 +107,8 @@ Json build_facts(const std::string& program) {
             {"points", list_of(known_point_extensions())},
             {"packed", list_of(kPackedExtensions)}}},
           {"limits",
-           {{"points", kMostPoints}, {"triangles", kMostTriangles}, {"threads", kMostThreads}}}};
+           {{"points", kMostPoints}, {"triangles", kMostTriangles}, {"threads", kMostThreads}}},
+          {"warnings", warnings()}};
 }
 
 }  // namespace meshrepair

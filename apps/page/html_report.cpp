@@ -22,6 +22,7 @@
 #include "report/findings.h"
 #include "report/report_sections.h"
 #include "report/words.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -139,6 +140,7 @@ void write_page(const HtmlRequest& request, PageContent content, Run& run) {
                {"looks", looks_of_defects()},       {"meshes", maker.facts()},
                {"left_out", maker.left_out()}};
   page.update(content.more);
+  content.report["warnings"] = warnings_section(told_warnings());
   page["report"] = std::move(content.report);
   write_file_atomically(request.path, html_page(page, maker.texts()), &run.progress);
   run.report.set_section("html", std::move(section));

@@ -24,8 +24,9 @@
 #include "program/command_files.h"
 #include "program/program.h"
 #include "report/findings.h"
-#include "terminal/logging.h"
+#include "report/report_sections.h"
 #include "terminal/terminal_pictures.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -105,12 +106,12 @@ Shown shown_for(const PictureRequest& request, Run& run) {
 }
 
 void write_picture(const PictureRequest& request, const Pixels& pixels,
-                   const std::vector<std::string>& warnings, Run& run) {
+                   const std::vector<Warning>& warnings, Run& run) {
   write_file_atomically(request.path, format_png(pixels), &run.progress);
   run.report.set_section("picture", {{"path", request.path},
                                      {"width", pixels.size.width},
                                      {"height", pixels.size.height},
-                                     {"warnings", warnings}});
+                                     {"warnings", texts_of(warnings)}});
 }
 
 }  // namespace
@@ -226,7 +227,7 @@ void draw_picture_stage(const PictureRequest& request, View::Up up,
   findings.shows_bar = shown == Shown::bar;
   const std::optional<Pixels> picture =
       request.path.empty() ? std::nullopt : std::optional(drawn(request.size));
-  log_warnings(findings.input_name(), textures.warnings());
+  warn(findings.input_name(), textures.warnings());
   if (picture) write_picture(request, *picture, textures.warnings(), run);
 }
 

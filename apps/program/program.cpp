@@ -5,6 +5,7 @@
 #include <new>
 #include <optional>
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/logger.h>
 
 #include <base/atomic_file.h>
@@ -16,6 +17,7 @@
 #include "process/watchdog.h"
 #include "spill/spilling.h"
 #include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -61,6 +63,7 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
   std::optional<Spilling> spilling;
   ExitCode code = ExitCode::done;
   std::exception_ptr error;
+  const WarningLog warnings;
   try {
     add_common_options(command_line_, options_);
     if (!parse(argc, argv)) return ExitCode::done;
@@ -84,6 +87,8 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
     error = std::current_exception();
   }
   progress->finish();
+  show_held_warnings();
+  report.set_warnings(warnings.told());
   if (spilling && spilling->most_bytes() > 0) {
     report.set_section("temp_file", {{"bytes", spilling->most_bytes()}});
   }
@@ -113,7 +118,7 @@ void Program::write_report(const JsonReport& report, ExitCode code, const std::e
     write_file_atomically(options_.report, text, error ? nullptr : &progress);
   } catch (const OutputError& e) {
     if (!error) throw;
-    logger().warn("no report: {}", e.what());
+    warn("", {WarningCode::report_not_written, fmt::format("no report: {}", e.what())});
   }
 }
 

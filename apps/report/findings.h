@@ -62,6 +62,7 @@ struct Findings {
   std::size_t output_points = 0;
   std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
   bool withheld = false;           // not written because of these
+  bool told = false;               // what is to be warned of
   Purpose purpose;
   std::string explained;   // the file that says what became of the triangles; may be empty
   std::string summary;     // instead of that of summary_of(), if it is not empty

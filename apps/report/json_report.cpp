@@ -10,8 +10,8 @@
 namespace meshrepair {
 namespace {
 
-constexpr const char* kTailKeys[] = {"stages", "seconds", "peak_memory_bytes", "exit_code",
-                                     "error"};
+constexpr const char* kTailKeys[] = {"stages",    "seconds", "peak_memory_bytes",
+                                     "exit_code", "error",   "warnings"};
 
 // A program that measures the peak of each stage sets the system's count back in between.
 std::size_t peak_memory_bytes(const Json& stages) {
@@ -37,8 +37,25 @@ Json stages_of(const ProgressBar& progress) {
 
 std::string program_version() { return MESHREPAIR_VERSION; }
 
+Json warnings_section(const std::vector<ToldWarning>& warnings) {
+  Json section = Json::array();
+  for (const auto& [about, warning] : warnings) {
+    const WarningKind& kind = kind_of(warning.code);
+    Json numbers = Json::object();
+    for (const WarningNumber& number : warning.numbers) {
+      numbers[std::string(number.name)] = number.value;
+    }
+    section.push_back({{"code", kind.code},
+                       {"about", about.empty() ? Json() : Json(about)},
+                       {"text", warning.text},
+                       {"changes_object", kind.changes_object},
+                       {"numbers", std::move(numbers)}});
+  }
+  return section;
+}
+
 JsonReport::JsonReport(const std::string& program, const std::vector<std::string>& command)
-    : head_(Json::object()), sections_(Json::object()) {
+    : head_(Json::object()), sections_(Json::object()), warnings_(Json::array()) {
   head_["program"] = program;
   head_["version"] = program_version();
   head_["report_version"] = kReportVersion;
@@ -50,6 +67,10 @@ JsonReport::JsonReport(const std::string& program, const std::vector<std::string
 void JsonReport::set_input(Json input) { head_["input"] = std::move(input); }
 
 void JsonReport::set_output(Json output) { head_["output"] = std::move(output); }
+
+void JsonReport::set_warnings(const std::vector<ToldWarning>& warnings) {
+  warnings_ = warnings_section(warnings);
+}
 
 void JsonReport::set_stages(Json stages) { stages_ = std::move(stages); }
 
@@ -65,6 +86,7 @@ std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failur
                              const ProgressBar& progress) const {
   Json report = head_;
   report.update(sections_);
+  report["warnings"] = warnings_;
   report["stages"] = stages_.is_null() ? stages_of(progress) : stages_;
   report["seconds"] = progress.seconds();
   report["peak_memory_bytes"] = peak_memory_bytes(report["stages"]);

@@ -7,6 +7,7 @@
 //   input         what was read, or null
 //   output        what was written, or null
 //   ...           the program's own sections, in the order in which they were added
+//   warnings      [{"code", "about", "text", "changes_object", "numbers"}]
 //   stages        [{"name", "seconds"}], more of each where a program measures more
 //   seconds       wall time of the whole run
 //   peak_memory_bytes
@@ -27,14 +28,18 @@
 #include "process/exit_code.h"
 #include "process/progress_bar.h"
 #include "report/json.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 
 // Of what reports hold: see docs/stability.md. It changes together with docs/report.schema.json.
-inline constexpr std::string_view kReportVersion = "1.0";
+inline constexpr std::string_view kReportVersion = "1.1";
 
 // The version of the project, "1.2.3".
 [[nodiscard]] std::string program_version();
+
+// As the section "warnings" has them.
+[[nodiscard]] Json warnings_section(const std::vector<ToldWarning>& warnings);
 
 class JsonReport {
  public:
@@ -44,6 +49,9 @@ class JsonReport {
   void set_output(Json output);
   // Adds a section, or replaces it. Pre: not one of the keys above.
   void set_section(const std::string& key, Json section);
+
+  // What was told so far.
+  void set_warnings(const std::vector<ToldWarning>& warnings);
 
   // Hands over all sections; the report is without them then.
   [[nodiscard]] Json take_sections();
@@ -66,7 +74,8 @@ class JsonReport {
  private:
   Json head_;      // program to output
   Json sections_;  // the program's own
-  Json stages_;    // null: those of the progress
+  Json warnings_;
+  Json stages_;  // null: those of the progress
   std::optional<std::string> error_;
   bool withheld_ = false;
 };

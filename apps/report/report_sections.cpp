@@ -54,7 +54,7 @@ Json section_of(const ReadReport& read) {
           {"trailing_bytes", read.trailing_bytes},
           {"names", names_of(read.names)},
           {"volumes", volumes_of(read.volumes)},
-          {"warnings", read.warnings}};
+          {"warnings", texts_of(read.warnings)}};
 }
 
 Json section_of(const PointReadReport& read) {
@@ -67,7 +67,7 @@ Json section_of(const PointReadReport& read) {
           {"trailing_bytes", read.trailing_bytes},
           {"normals", read.normals},
           {"colours", read.colours},
-          {"warnings", read.warnings}};
+          {"warnings", texts_of(read.warnings)}};
 }
 
 Json section_of(const PointSoupReport& points) {
@@ -373,6 +373,12 @@ Json result_of(const Findings& findings) {
 }
 
 }  // namespace
+
+Json texts_of(const std::vector<Warning>& warnings) {
+  Json texts = Json::array();
+  for (const Warning& warning : warnings) texts.push_back(warning.text);
+  return texts;
+}
 
 Json read_section(const ReadReport& read) { return section_of(read); }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <base/stage_meter.h>
+#include <base/warning.h>
 
 #include "report/findings.h"
 #include "report/json_report.h"
@@ -16,6 +17,9 @@ void add_sections(const Findings& findings, JsonReport& report);
 
 // Name, times and peak of each.
 [[nodiscard]] Json stages_section(const std::vector<StageReport>& stages);
+
+// Without the codes.
+[[nodiscard]] Json texts_of(const std::vector<Warning>& warnings);
 
 // What a reader found in one mesh, as in the section "read".
 [[nodiscard]] Json read_section(const ReadReport& read);

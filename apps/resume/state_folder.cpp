@@ -21,6 +21,7 @@
 #include "process/file_checksum.h"
 #include "resume/state_file.h"
 #include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -133,7 +134,7 @@ bool StateFolder::load(const std::string& name,
   const fs::path file = path_of(name, kExtension);
   if (!has(name)) return false;
   if (!read_state(file, read)) {
-    logger().warn("--resume: {} is damaged and ignored", file.string());
+    warn("--resume", {WarningCode::states_not_saved, file.string() + " is damaged and ignored"});
     drop(name);
     return false;
   }
@@ -153,8 +154,9 @@ void StateFolder::save(const std::string& name, const std::function<void(std::os
     saved_.push_back(name);
   } catch (const fs::filesystem_error& error) {
     may_save_ = false;
-    logger().warn("--resume: {} cannot be written; later progress is not saved: {}",
-                  unfinished.string(), error.code().message());
+    warn("--resume", {WarningCode::states_not_saved,
+                      unfinished.string() + " cannot be written; later progress is not saved: " +
+                          error.code().message()});
     std::error_code failed;
     fs::remove(unfinished, failed);
   }

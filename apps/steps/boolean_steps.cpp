@@ -21,7 +21,7 @@
 #include "steps/mesh_steps.h"
 #include "steps/run_steps.h"
 #include "summary/warnings.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -70,9 +70,12 @@ void warn_of_common_grid(const BooleanCommand& command, const BooleanReport& rep
   for (std::size_t i = 0; i < report.operands.size(); ++i) {
     const OperandReport& operand = report.operands[i];
     if (operand.clean.dropped_below_grid > 0) {
-      logger().warn("{}: {} left out: narrower than the step of the common grid, {:.3g}",
-                    command.inputs[i], number_of(operand.clean.dropped_below_grid, "triangle"),
-                    operand.clean.grid_unit);
+      warn(command.inputs[i],
+           {WarningCode::below_grid,
+            fmt::format("{} left out: narrower than the step of the common grid, {:.3g}",
+                        number_of(operand.clean.dropped_below_grid, "triangle"),
+                        operand.clean.grid_unit),
+            {{"triangles", operand.clean.dropped_below_grid}, {"step", operand.clean.grid_unit}}});
     }
   }
 }
@@ -167,13 +170,14 @@ Operand make_operand(TriangleSoup soup, Attributes attributes, RepairOptions opt
   return {std::move(solid.mesh), std::move(attributes), false, std::move(solid.source)};
 }
 
-void end_operand(const Operand& operand, const Findings& findings, Run& run, Json& facts) {
+void end_operand(const Operand& operand, Findings& findings, Run& run, Json& facts) {
   warn_of_findings(findings);
   if (!is_certified(operand, findings)) {
-    logger().warn("{}: could not be certified as a solid", findings.input_name());
+    warn(findings.input_name(),
+         {WarningCode::operand_uncertified, "could not be certified as a solid"});
   } else if (findings.mesh_read && !operand.as_given) {
-    logger().warn("{}: not a valid solid by these rules; it is repaired first",
-                  findings.input_name());
+    warn(findings.input_name(),
+         {WarningCode::operand_repaired, "not a valid solid by these rules; it is repaired first"});
   }
   facts.push_back(facts_of_operand(operand, findings, run.report.take_sections()));
 }

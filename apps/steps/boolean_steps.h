@@ -51,7 +51,7 @@ struct Operand {
                                    Run& run, Findings& findings);
 // Warns of what became of it, and appends its facts and the sections of the report, which are taken
 // out of that.
-void end_operand(const Operand& operand, const Findings& findings, Run& run, Json& facts);
+void end_operand(const Operand& operand, Findings& findings, Run& run, Json& facts);
 
 // All solids, and what their triangles carry, one after the other.
 struct Operands {

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/logger.h>
 
 #include <base/error.h>
 #include <base/stage_meter.h>
 
 #include "steps/guarantees.h"
-#include "terminal/logging.h"
+#include "summary/warnings.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 
@@ -60,7 +60,7 @@ ReadResult read_mesh_stage(const ReadOptions& options, Run& run, Findings& findi
 void keep_read_report(ReadReport report, Findings& findings) {
   findings.unit = report.unit;
   findings.mesh_read = std::move(report);
-  log_warnings(findings.input_name(), findings.mesh_read->warnings);
+  warn(findings.input_name(), findings.mesh_read->warnings);
 }
 
 Tree read_tree_stage(Run& run, Findings& findings) {
@@ -94,8 +94,10 @@ void write_with_files(const TriangleSoup& soup, const WriteOptions& format, Run&
   const Attributes* const attributes = format.extras.attributes;
   if (findings.output == "-" && attributes != nullptr &&
       has_files_beside(*format.format, *attributes)) {
-    logger().warn("{}: {} has its materials and pictures in files beside it, and OUT has no name",
-                  findings.output_name(), format_name(*format.format));
+    warn(findings.output_name(),
+         {WarningCode::attributes_lost,
+          fmt::format("{} has its materials and pictures in files beside it, and OUT has no name",
+                      format_name(*format.format))});
   }
   findings.staging = format.staging.string();
   write_soup(soup, findings.output, format);
@@ -114,6 +116,7 @@ void write_mesh_stage(const Surface& surface, const Attributes& attributes, Writ
   look_at_file(surface, *format.format, findings);
   findings.missing_guarantees = missing_guarantees(findings, *format.format);
   findings.withheld = options.strict && !findings.missing_guarantees.empty();
+  warn_of_findings(findings);
   if (findings.withheld) return;
   if (!options.sources) {
     format.extras.sources = {};

@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include <spdlog/logger.h>
-
 #include <base/error.h>
 #include <base/stage_meter.h>
 #include <boolean/boolean.h>
@@ -16,7 +14,7 @@
 #include <mesh/mesh_source.h>
 #include <repair/transfer_attributes.h>
 
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -50,9 +48,8 @@ class NegativeVolumeSubtractor {
           .push_back(placed);
     }
     for (const auto& [number, object] : objects) {
-      const auto difference = object.negative.empty() || object.filled.empty()
-                                  ? std::nullopt
-                                  : difference_of(object);
+      const auto difference =
+          object.negative.empty() || object.filled.empty() ? std::nullopt : difference_of(object);
       if (difference) {
         append_surface(all_, *difference);
       } else {
@@ -99,11 +96,11 @@ class NegativeVolumeSubtractor {
 
   // Nothing where nothing can be subtracted.
   std::optional<Surface> difference_of(const VolumesOfObject& object) {
-    const auto base = solid_of(object.filled, "is not subtracted from");
+    const auto base = solid_of(object.filled, ": nothing is subtracted");
     std::vector<Surface> operands;
     std::vector<PlacedVolume> used;
     for (const PlacedVolume& negative : object.negative) {
-      auto solid = base ? solid_of({negative}, "is not subtracted") : std::nullopt;
+      auto solid = base ? solid_of({negative}, " is not subtracted") : std::nullopt;
       if (!solid) {
         volume_of(negative).fate = VolumeFate::left_out;
         continue;
@@ -124,8 +121,9 @@ class NegativeVolumeSubtractor {
     Surface difference = boolean(solids, SetOperation::subtract, options, report);
     compose(difference.source, source);
     if (difference.mesh.triangles.empty()) {
-      logger().warn("{}: nothing is left of {} once its negative volumes are subtracted",
-                    findings_.input_name(), words_of(object.filled.front()));
+      warn(findings_.input_name(),
+           {WarningCode::not_subtracted, "nothing is left of " + words_of(object.filled.front()) +
+                                             " once its negative volumes are subtracted"});
     }
     return difference;
   }
@@ -144,8 +142,8 @@ class NegativeVolumeSubtractor {
       compose(solid.source, given.source);
       return solid;
     } catch (const NoSolidError&) {
-      logger().warn("{}: {} {}: it encloses nothing", findings_.input_name(),
-                    words_of(volumes.front()), what);
+      warn(findings_.input_name(), {WarningCode::not_subtracted,
+                                    words_of(volumes.front()) + what + ": it encloses nothing"});
       return std::nullopt;
     }
   }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/logger.h>
 
 #include <base/error.h>
 #include <repair/repair_on_base.h>
@@ -18,7 +17,7 @@
 #include "report/findings.h"
 #include "report/words.h"
 #include "steps/mesh_steps.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -40,14 +39,18 @@ constexpr double kManyUnused = 0.1;
 void warn_of_points(const Findings& findings) {
   const PointSoupReport& soup = *findings.point_soup;
   const std::string noisy = why_noisy(soup);
-  if (!noisy.empty()) logger().warn("{}: {}{}", findings.input_name(), noisy, kHowToSmooth);
+  if (!noisy.empty()) {
+    warn(findings.input_name(),
+         {WarningCode::points_noisy, noisy + kHowToSmooth, {{"agreement", soup.agreement()}}});
+  }
   if (findings.repair.thicken.triangles > 0) return;  // they are within walls
   const std::size_t unused = soup.points - std::min(soup.points, findings.points_in_result);
   if (static_cast<double>(unused) <= kManyUnused * static_cast<double>(soup.points)) return;
-  logger().warn(
-      "{}: {} of {} are not on the result: do they lie along lines, or inside, or is there more "
-      "than one surface?",
-      findings.input_name(), unused, number_of(soup.points, "point"));
+  warn(findings.input_name(), {WarningCode::points_unused,
+                               fmt::format("{} of {} are not on the result: do they lie along "
+                                           "lines, or inside, or is there more than one surface?",
+                                           unused, number_of(soup.points, "point")),
+                               {{"unused", unused}, {"points", soup.points}}});
 }
 
 // What has not been tried yet.
@@ -67,7 +70,7 @@ std::string advice(const Findings& findings) {
 
 PointCloud keep(PointReadResult result, Findings& findings) {
   findings.points_read = std::move(result.report);
-  log_warnings(findings.input_name(), findings.points_read->warnings);
+  warn(findings.input_name(), findings.points_read->warnings);
   return std::move(result.cloud);
 }
 

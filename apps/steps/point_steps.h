@@ -37,10 +37,10 @@ void add_point_repair_options(CommandLine& app, PointOptions& options);
 
 // What is to be repaired.
 struct AnySoup {
-  TriangleSoup soup;                // of points, once they are triangulated
-  std::optional<PointCloud> cloud;  // it is one
-  Attributes attributes;            // of a mesh, if they are asked for
-  Scene scene;                      // the same
+  TriangleSoup soup;                      // of points, once they are triangulated
+  std::optional<PointCloud> cloud;        // it is one
+  Attributes attributes;                  // of a mesh, if they are asked for
+  Scene scene;                            // the same
   std::vector<PlacedVolume> placed = {};  // see ReadResult
 };
 

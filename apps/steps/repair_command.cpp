@@ -3,10 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
-
-#include <spdlog/logger.h>
 
 #include <base/error.h>
 
@@ -22,7 +21,7 @@
 #include "steps/negative_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
-#include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -58,8 +57,9 @@ void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base)
 // Of points, and of sheets that get walls, several soups are tried.
 void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
   if (options.states == nullptr || !(input.cloud || options.thicken.wanted())) return;
-  logger().warn("--resume: saves nothing if {}",
-                input.cloud ? "points become a mesh" : "sheets get walls");
+  warn("--resume", {WarningCode::states_not_saved,
+                    std::string("saves nothing if ") +
+                        (input.cloud ? "points become a mesh" : "sheets get walls")});
   options.states = nullptr;
 }
 

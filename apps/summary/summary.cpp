@@ -11,6 +11,7 @@
 #include "summary/volumes_words.h"
 #include "summary/change_bar.h"
 #include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -512,6 +513,7 @@ void print_summary(Run& run, const Findings& findings) {
   if (run.options.quiet) return;
   const double seconds = run.progress.seconds();
   run.progress.finish();
+  show_held_warnings();
   std::string text = summary_of(findings, seconds);
   if (findings.shows_bar) text += change_bar(findings.repair);
   print_summary(text + findings.shown);

@@ -13,7 +13,8 @@ namespace {
 std::string counted_volumes(std::size_t count, VolumeRole role, bool printed) {
   std::string noun(role_name(role));
   if (role == VolumeRole::model) noun = printed ? "volume" : "unprinted volume";
-  return number_of(count, noun, role == VolumeRole::other ? "objects that are not built" : noun + "s");
+  return number_of(count, noun,
+                   role == VolumeRole::other ? "objects that are not built" : noun + "s");
 }
 
 }  // namespace

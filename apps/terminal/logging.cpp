@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "terminal/logging.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -33,8 +32,6 @@ std::shared_ptr<spdlog::logger>& the_logger() {
   return logger;
 }
 
-constexpr std::size_t kMostWarnings = 10;
-
 bool environment_has(const char* variable) {
   const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): before any thread
   return value != nullptr && *value != '\0';
@@ -63,14 +60,6 @@ void set_up_logging(const std::string& program, Verbosity verbosity) {
   const std::string clear_line = stderr_is_terminal() ? "\r\x1b[K" : "";
   made->set_pattern(clear_line + "%n: %^%l%$: %v");
   set_logger(std::move(made));
-}
-
-void log_warnings(const std::string& name, const std::vector<std::string>& warnings) {
-  const std::size_t shown = std::min(warnings.size(), kMostWarnings);
-  for (std::size_t i = 0; i < shown; ++i) logger().warn("{}: {}", name, warnings[i]);
-  if (warnings.size() > shown) {
-    logger().warn("{}: {} more warnings, all in the report", name, warnings.size() - shown);
-  }
 }
 
 void print_summary(std::string_view lines) {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace spdlog {
 class logger;
@@ -27,9 +26,6 @@ void set_logger(std::shared_ptr<spdlog::logger> logger);
 // Makes the logger write "<program>: <level>: <text>" to stderr, in colours only if
 // stderr is a terminal and NO_COLOR is not set.
 void set_up_logging(const std::string& program, Verbosity verbosity);
-
-// The first warnings of a reader, and how many more there are.
-void log_warnings(const std::string& name, const std::vector<std::string>& warnings);
 
 // Prints lines for the user to stderr as they are, unless the verbosity is quiet.
 void print_summary(std::string_view lines);

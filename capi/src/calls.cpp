@@ -46,8 +46,6 @@ template <class Work>
 meshrepair_result* called(const meshrepair_options* options, const Work& work) noexcept {
   meshrepair_result* result = nullptr;
   (void)guarded([&] {
-    static const bool once = (collect_warnings(), true);
-    (void)once;
     auto made = std::make_unique<meshrepair_result>();
     try {
       work(*made, options == nullptr ? Keywords() : options->keywords,

@@ -318,9 +318,9 @@ Tree read_tree(const std::filesystem::path& path, const ReadOptions& options) {
   CancelOnly cancel_only(options.progress);
   ReadOptions unpacking;
   unpacking.progress = &cancel_only;
-  std::vector<std::string> warnings;  // a tree is followed by nothing
+  std::vector<Warning> warnings;  // a tree is followed by nothing
   const TrivialVector<char> bytes = unpack({file.bytes(), name, unpacking}, packing, warnings);
-  if (!warnings.empty()) throw InputError(name + ": is followed by " + warnings.front());
+  if (!warnings.empty()) throw InputError(name + ": is followed by " + warnings.front().text);
   return parse_tree({bytes.begin(), bytes.size()}, name, options);
 }
 

@@ -8,7 +8,7 @@ namespace meshrepair {
 
 std::string_view role_name(VolumeRole role) {
   constexpr std::array<std::string_view, 7> kNames = {
-      "model",   "negative volume", "modifier", "support blocker", "support enforcer",
+      "model",   "negative volume",         "modifier", "support blocker", "support enforcer",
       "support", "object that is not built"};
   return kNames.at(static_cast<std::size_t>(role));
 }

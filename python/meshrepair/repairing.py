@@ -132,7 +132,7 @@ def repair_file(source: Any, target: Any, *, progress: Progress | bool | None = 
 
     Returns:
         The report as a dict. ``exit_code`` is 0 if every guarantee holds, else 1, and ``error`` names the missing one.
-        ``warnings`` is a list of lines.
+        ``warnings`` are those of the report: ``code``, ``text``, ``numbers``, ...
 
     Raises:
         The exceptions of :func:`repair`, InputError, and OutputError.
@@ -142,7 +142,8 @@ def repair_file(source: Any, target: Any, *, progress: Progress | bool | None = 
     with observer(progress) as told:
         outcome = _core.repair_file(*names, keywords, told, bool(distance))
     _certified_or_raise(outcome, options)
-    return {**json.loads(outcome["report"]), "warnings": outcome["warnings"]}
+    report: dict[str, Any] = json.loads(outcome["report"])
+    return report
 
 
 def boolean(meshes: Any, op: str, *, progress: Progress | bool | None = None, nan: str = "raise",

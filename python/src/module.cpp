@@ -41,7 +41,6 @@ void translate(std::exception_ptr error) {
 PYBIND11_MODULE(_core, module) {
   using namespace meshrepair;
   namespace py = pybind11;
-  collect_warnings();
   stop_work_at_exit();
   py::register_exception_translator(&translate);
   const py::class_<KeptAttributes> kept(module, "KeptAttributes");

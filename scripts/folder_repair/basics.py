@@ -18,7 +18,7 @@ BY_ITSELF = "repair it by itself, as IN_DIR"
 
 GUARANTEES = ("closed", "manifold", "oriented", "no_self_intersections", "no_degenerate_triangles")
 SAME_IN_EACH_RUN = ("path", "output", "exit_code", *GUARANTEES, "triangles_in", "triangles_out",
-                    "bytes_in", "bytes_out", "error")
+                    "bytes_in", "bytes_out", "error", "warnings")
 MEASURED = ("seconds", "peak_memory_bytes")
 ROW = SAME_IN_EACH_RUN + MEASURED
 FIRST_VERDICT = ROW.index(GUARANTEES[0])
@@ -93,6 +93,14 @@ def value_of(report, *keys):
     for key in keys:
         report = report.get(key) if isinstance(report, dict) else None
     return report if isinstance(report, (int, float, str)) else None
+
+
+def warnings_of(report):
+    """The codes of its warnings, each once, those that change the object first; None without any."""
+    told = report.get("warnings") if isinstance(report, dict) else None
+    told = [one for one in told if isinstance(one, dict)] if isinstance(told, list) else []
+    codes = dict.fromkeys(str(one.get("code")) for one in sorted(told, key=lambda one: not one.get("changes_object")))
+    return " ".join(codes) or None
 
 
 def names_of(report, kind):

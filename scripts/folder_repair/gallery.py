@@ -22,7 +22,7 @@ GAP = 2  # pixels between before and after
 PAGE, PICTURE = b".html", b".png"
 LONGEST = 240  # bytes of a name, so that there is room for an ending
 COLUMNS = ("path", "url", "output", "output_url", "page", "picture", "exit_code", "triangles_in", "triangles_out",
-           "bytes_out", "volume_in", "volume_out", "error", "seconds", "peak_memory_bytes")
+           "bytes_out", "volume_in", "volume_out", "error", "warnings", "seconds", "peak_memory_bytes")
 PARTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery")
 
 

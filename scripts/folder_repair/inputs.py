@@ -9,7 +9,7 @@ import time
 import zipfile
 
 from .basics import (ARCHIVE, BY_ITSELF, EXTENSION_OF_FORMAT, FORMAT_OF_EXTENSION, GUARANTEES, PACKINGS,
-                     READS_OTHERS, ROW, TAR_ENDINGS, USAGE, Stop, text, value_of)
+                     READS_OTHERS, ROW, TAR_ENDINGS, USAGE, Stop, text, value_of, warnings_of)
 
 STATE = b".repair_folder"  # of a run, in its OUT_DIR; folders of this name are no input
 UNKNOWN = "unknown"  # how a file was when it was read; it is like no other
@@ -274,5 +274,5 @@ class Job:
         row = dict.fromkeys(ROW)
         row.update({name: value_of(report, "certificate", name) for name in GUARANTEES})
         row.update(path=text(self.name), exit_code=code, error=error, bytes_in=self.size,
-                   triangles_in=value_of(report, "clean", "triangles_in"))
+                   triangles_in=value_of(report, "clean", "triangles_in"), warnings=warnings_of(report))
         return row

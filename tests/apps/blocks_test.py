@@ -161,12 +161,12 @@ class Blocks(unittest.TestCase):
             plan.write_text(text)
             said = self.run_verb("join", self.blocks, self.out, code=3)
             self.assertEqual(said.count("\n"), 1)
-            self.assertIn("plan.json: is ", said)
+            self.assertIn("plan.json: not a plan", said)
 
     def test_blocks_that_are_missing_are_named(self):
         self.plan_rings()
         self.run_all(order=[1, 3])
-        self.assertIn("not repaired: blocks 2, 4, 5; do", self.join(code=3)[0])
+        self.assertIn("not repaired: blocks 2, 4, 5; run", self.join(code=3)[0])
         self.assertFalse(self.out.exists())
 
     def test_all_blocks_have_the_same_options(self):
@@ -190,7 +190,7 @@ class Blocks(unittest.TestCase):
         done = self.blocks / "repaired" / "3.done"
         result = json.loads(done.read_text())
         done.write_text(json.dumps({**result, "program": result["program"] + 1}))
-        self.assertIn("block 3 was repaired by another build of meshrepair-blocks than block 1; do", self.join(code=3)[0])
+        self.assertIn("block 3 was repaired by another build of meshrepair-blocks than block 1; run", self.join(code=3)[0])
         self.run_all(order=[3])
         self.assertEqual(json.loads(done.read_text()), result)
         self.join()
@@ -280,7 +280,7 @@ class Blocks(unittest.TestCase):
         self.plan_rings()
         self.run_all()
         said, _ = self.join(code=2, out=self.folder / "out.stl")
-        self.assertIn("run them with its --format", said)
+        self.assertIn("repair them with its --format", said)
         self.run_all("--precision", "float32")
         self.join(code=2, out=self.folder / "out.stl")
         self.run_all("--format", "stl")

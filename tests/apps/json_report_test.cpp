@@ -28,7 +28,7 @@ TEST(JsonReport, FrameIsCompleteAndInOrder) {
   report.set_input({{"path", "in.stl"}});
   const Parsed json = Parsed::parse(report.text(ExitCode::done, std::nullopt, ProgressBar()));
   EXPECT_THAT(keys_of(json), ElementsAre("program", "version", "report_version", "command", "input",
-                                         "output", "repair", "stages", "seconds",
+                                         "output", "repair", "warnings", "stages", "seconds",
                                          "peak_memory_bytes", "exit_code", "error"));
   EXPECT_EQ(json["repair"]["cells"], 5);
   EXPECT_EQ(json["input"]["path"], "in.stl");

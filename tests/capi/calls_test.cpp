@@ -236,7 +236,7 @@ TEST(CCalls, WarningsAreThoseOfTheCall) {
   ASSERT_EQ(code_of(lossy), MESHREPAIR_DONE) << error_of(lossy);
   ASSERT_EQ(meshrepair_result_warning_count(lossy.get()), 1U);
   EXPECT_EQ(meshrepair_result_warning(lossy.get(), 0),
-            path + ": binary STL cannot store these attributes: groups");
+            path + ": binary STL cannot store these attributes: groups [W-ATTRIBUTES-LOST]");
   EXPECT_EQ(meshrepair_result_warning(lossy.get(), 1), nullptr);
   const Result next(meshrepair_check(mesh.get(), nullptr));
   EXPECT_EQ(meshrepair_result_warning_count(next.get()), 0U);

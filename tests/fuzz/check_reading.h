@@ -41,7 +41,7 @@ inline void require_consistent(const ReadResult& result, std::size_t bytes) {
   require(report.polygons <= result.soup.triangles.size(), "more polygons than triangles");
   require(report.missing_faces <= report.declared_triangles, "more missing than declared");
   require(report.trailing_bytes < report.bytes, "more trailing bytes than bytes");
-  for (const std::string& warning : report.warnings) require_one_line(warning);
+  for (const Warning& warning : report.warnings) require_one_line(warning.text);
   const std::size_t lost =
       report.bad_faces + report.bad_points + report.missing_faces + report.trailing_bytes;
   require(lost == 0 || !report.warnings.empty(), "something was lost without a warning");

@@ -20,7 +20,7 @@ constexpr std::size_t kMostTriangles = 20000;
 void check_round_trip(std::string_view bytes, Packing packing) {
   const std::string packed = pack_bytes(bytes, packing);
   testing::require(packing_of_content(packed) == packing, "is not taken for what it is");
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   const MeshSource source{packed, "back"};
   const TrivialVector<char> back = unpack(source, packing, warnings);
   testing::require(std::string_view(back.begin(), back.size()) == bytes, "other bytes come out");
@@ -31,12 +31,12 @@ void check_unpacking(std::string_view bytes) {
   const Packing packing = packing_of_content(bytes);
   if (packing != Packing::gzip && packing != Packing::zstd) return;
   try {
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
     const MeshSource source{bytes, "any"};
     const TrivialVector<char> unpacked = unpack(source, packing, warnings);
     testing::require(unpacked.size() <= (std::size_t{32} << 20) + 200 * bytes.size(),
                      "more came out than may");
-    for (const std::string& warning : warnings) testing::require_one_line(warning);
+    for (const Warning& warning : warnings) testing::require_one_line(warning.text);
   } catch (const InputError& error) {
     testing::require_one_line(error.what());
   }

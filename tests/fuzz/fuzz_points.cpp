@@ -19,7 +19,7 @@ void require_consistent(const PointReadResult& result) {
           "not as many normals as points");
   require(cloud.colours.empty() || cloud.colours.size() == cloud.points.size(),
           "not as many colours as points");
-  for (const std::string& warning : report.warnings) require_one_line(warning);
+  for (const Warning& warning : report.warnings) require_one_line(warning.text);
   const std::size_t lost = report.bad_points + report.missing_points + report.trailing_bytes;
   require(lost == 0 || !report.warnings.empty(), "something was lost without a warning");
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include <base/warning.h>
 #include <mesh/reading.h>
 
 namespace meshrepair {
@@ -61,6 +62,13 @@ struct FirstBad {
 // Puts the report's bad faces, of which `why` says what is wrong, and points into its warnings.
 void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& first,
                  std::string_view face, std::string_view why, std::string_view point = "point");
+
+// Of who promises more, or fewer, things than are there.
+[[nodiscard]] Warning cut_off(std::string_view who, std::uint64_t promised, std::string_view noun,
+                              std::uint64_t found);
+
+// `where`: "after the last face".
+[[nodiscard]] Warning bytes_ignored(std::size_t count, std::string_view where);
 
 // How many of what a header promises there is room for.
 [[nodiscard]] inline std::size_t within(std::uint64_t promised, std::size_t room) {

@@ -11,6 +11,7 @@
 
 #include <base/progress.h>
 #include <base/trivial_vector.h>
+#include <base/warning.h>
 
 namespace meshrepair {
 
@@ -47,6 +48,6 @@ struct PackedFile {
 // bytes but zeros is left out, with a warning. Throws InputError when they are damaged, cut off, or
 // hold more than a file of this size should; Cancelled.
 [[nodiscard]] TrivialVector<char> unpack(const MeshSource& source, Packing packing,
-                                         std::vector<std::string>& warnings);
+                                         std::vector<Warning>& warnings);
 
 }  // namespace meshrepair

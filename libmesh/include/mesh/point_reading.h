@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <base/warning.h>
 #include <mesh/packing.h>
 #include <mesh/point_cloud.h>
 
@@ -36,7 +37,7 @@ struct PointReadReport {
   bool normals = false;               // the file has some, asked for or not
   bool colours = false;
   // One sentence for each kind of oddity, for the user, without the file's name.
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 struct PointReadResult {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <base/progress.h>
+#include <base/warning.h>
 #include <mesh/attributes.h>
 #include <mesh/length_unit.h>
 #include <mesh/model_volume.h>
@@ -46,7 +47,7 @@ struct ReadReport {
   NamesInFile names;
   std::vector<ModelVolume> volumes;  // empty: all that is there is the model
   // One sentence for each kind of oddity, for the user, without the file's name.
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 struct ReadResult {

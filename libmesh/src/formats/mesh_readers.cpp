@@ -34,7 +34,7 @@ void require_some(const MeshSource& source, const ReadResult& result) {
   } else if (!welds_points(report.format) && !result.soup.points.empty()) {
     what = "holds " + counted(result.soup.points.size(), "point") + " but no faces";
   }
-  if (!report.warnings.empty()) what += " (" + report.warnings.front() + ")";
+  if (!report.warnings.empty()) what += " (" + report.warnings.front().text + ")";
   source.fail(what);
 }
 

@@ -54,7 +54,7 @@ class OpenedFile {
   MeshSource source_;
   std::size_t size_ = 0;
   PackedFile packed_;
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
   NamesInFile names_;
 };
 

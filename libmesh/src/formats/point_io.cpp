@@ -70,7 +70,7 @@ void judge(const MeshSource& source, const PointReadResult& result) {
   if (points > 0) return;
   const auto& warnings = result.report.warnings;
   source.fail("holds no readable points" +
-              (warnings.empty() ? std::string() : " (" + warnings.front() + ")"));
+              (warnings.empty() ? std::string() : " (" + warnings.front().text + ")"));
 }
 
 PointReadResult read_points_of(const OpenedFile& file, PointReadOptions options) {

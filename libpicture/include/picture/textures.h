@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <base/warning.h>
 #include <mesh/attributes.h>
 #include <picture/texture.h>
 
@@ -26,7 +27,7 @@ class Textures {
   [[nodiscard]] std::vector<std::shared_ptr<const Texture>> of(const Attributes& attributes);
 
   // A sentence for each picture that could not be had.
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
  private:
   [[nodiscard]] std::shared_ptr<const Texture> get(const Image& image);
@@ -37,7 +38,7 @@ class Textures {
 
   std::vector<std::filesystem::path> folders_;
   std::map<Key, std::shared_ptr<const Texture>> known_;
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
   std::size_t pixels_ = 0;  // of all
 };
 

@@ -53,7 +53,8 @@ std::shared_ptr<const Texture> Textures::get(const Image& image) {
     pixels_ += pixels.size.pixels();
     place->second = std::make_shared<const Texture>(std::move(pixels));
   } catch (const InputError& error) {
-    warnings_.push_back(name_of(image) + " " + error.what() + "; not drawn");
+    warnings_.push_back(
+        {WarningCode::picture_unreadable, name_of(image) + " " + error.what() + "; not drawn"});
   }
   return place->second;
 }

@@ -67,7 +67,8 @@
     const name = mesh.page ? make('a', {href: page(mesh)}, mesh.path) : mesh.path;
     const out = mesh.output === null ? null : make('small', {}, make('a', {href: `./${mesh.output_url}`, download: ''}, 'result'),
         ` ${size(mesh.bytes_out)}`);
-    return [name, out, mesh.error === null ? null : make('small', {title: mesh.error}, mesh.error)];
+    const lines = [mesh.error, mesh.warnings].filter((line) => line !== null);
+    return [name, out, ...lines.map((line) => make('small', {title: line}, line))];
   }
 
   function triangles(mesh) {

@@ -14,6 +14,7 @@
 #include "each_seed.h"
 #include "soup_fixtures.h"
 #include "textured.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -249,7 +250,7 @@ TEST(ObjAttributes, IndicesOutsideLeaveCornersWithoutValues) {
   const CornerAttribute& texture = result.attributes.corners.at(0);
   EXPECT_EQ(texture.of_corner, (std::vector<std::uint32_t>{kNone, kNone, kNone, kNone, 0, 0}));
   ASSERT_EQ(result.report.warnings.size(), 1u);
-  EXPECT_EQ(result.report.warnings[0],
+  EXPECT_EQ(texts(result.report.warnings)[0],
             "4 corners name texture coordinates or normals that are not there: left without");
 }
 
@@ -260,7 +261,7 @@ TEST(ObjAttributes, IndicesOfValuesThatNoLineHasAreCounted) {
     EXPECT_EQ(result.soup.triangles.size(), 1u);
     EXPECT_TRUE(result.attributes.corners.empty());
     ASSERT_EQ(result.report.warnings.size(), 1u) << corner;
-    EXPECT_EQ(result.report.warnings[0],
+    EXPECT_EQ(texts(result.report.warnings)[0],
               "1 corner names texture coordinates or normals that are not there: left without");
   }
 }

@@ -14,6 +14,7 @@
 #include "packed_bytes.h"
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -151,7 +152,7 @@ TEST(MeshArchive, SaysWhichLibraryIsNotThere) {
   ReadOptions options;
   options.attributes = true;
   const ReadResult mesh = read_soup(std::string_view(bytes), "a.zip", options);
-  EXPECT_THAT(mesh.report.warnings,
+  EXPECT_THAT(texts(mesh.report.warnings),
               ::testing::ElementsAre("the library of materials part.mtl is not in its archive"));
 }
 

@@ -14,6 +14,7 @@
 #include "shapes.h"
 #include "temporary_folder.h"
 #include "textured.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -71,7 +72,8 @@ TEST(TexturesOfMesh, OpensNothingElsewhere) {
                                mesh / "link.png", mesh / "folder.png", fs::path("/dev/zero")}) {
     Textures textures({mesh});
     EXPECT_EQ(textures.of(with_file(path))[0], nullptr) << path;
-    EXPECT_THAT(textures.warnings(), ElementsAre(HasSubstr("is not there, or not in the mesh's")));
+    EXPECT_THAT(texts(textures.warnings()),
+                ElementsAre(HasSubstr("is not there, or not in the mesh's")));
   }
   Textures without_folder;
   EXPECT_EQ(without_folder.of(with_file(folder.path() / "secret.png"))[0], nullptr);
@@ -90,7 +92,7 @@ TEST(TexturesOfMesh, SaysOnceWhatCannotBeRead) {
   const Attributes attributes = with_bytes("GIF89a");
   EXPECT_EQ(textures.of(attributes)[0], nullptr);
   EXPECT_EQ(textures.of(attributes)[0], nullptr);
-  EXPECT_THAT(textures.warnings(),
+  EXPECT_THAT(texts(textures.warnings()),
               ElementsAre("the picture 'a.png' is neither PNG nor JPEG; not drawn"));
 }
 

@@ -34,6 +34,15 @@ function sides(page, facts) {
   return facts.size.map((steps) => rough(steps / (2 ** grid.bits - 1) * grid.half * 2)).join(' \u00d7 ');
 }
 
+// What may have made another object of it, first.
+export function warnings(page) {
+  const list = page.report.warnings;
+  if (list.length === 0) return null;
+  const sorted = [...list].sort((a, b) => b.changes_object - a.changes_object);
+  return make('section', {id: 'warnings'}, make('h2', {}, 'Warnings'),
+      make('ul', {}, ...sorted.map(({code, text}) => make('li', {'data-code': code}, `${text} [${code}]`))));
+}
+
 export function numbers(page) {
   const heads = ['', ...page.meshes.map(({role}) => subjectOf(page).roles[role])];
   const row = (words, of) => [words, ...page.meshes.map((facts) => of(facts.check, facts))];

@@ -46,7 +46,7 @@ export class Viewer {
     const first = page.ways ? distances(page, (m) => this.flyToLargest(m)) : this.layers.section();
     const aside = make('aside', {'aria-label': 'Report', tabindex: '0'}, first, facts.omitted(page), facts.leftOut(page), facts.operands(page),
         facts.objects(page, (i) => this.flyToObject(i)), facts.legend(page),
-        facts.numbers(page), facts.parts(page, (m, place) => this.flyToPart(m, place)), keysSection(), facts.raw(page));
+        facts.warnings(page), facts.numbers(page), facts.parts(page, (m, place) => this.flyToPart(m, place)), keysSection(), facts.raw(page));
     root.append(page.ways ? heatHeader(page) : facts.header(page), main, aside);
     if (page.scale) this.frame.append(scaleBox(page, (share) => this.setTop(share)));
     this.stage = new Stage(this.canvas, this.surfaces, this.cut, page.up);

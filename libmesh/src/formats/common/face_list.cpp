@@ -27,8 +27,10 @@ struct Dropped {
   void report(ReadReport& report, const std::string& reason) const {
     if (count == 0) return;
     report.bad_faces += count;
-    report.warnings.push_back(counted(count, "face") + " left out: " + reason + " (first: face " +
-                              std::to_string(first + 1) + ")");
+    report.warnings.push_back({WarningCode::faces_unreadable,
+                               counted(count, "face") + " left out: " + reason + " (first: face " +
+                                   std::to_string(first + 1) + ")",
+                               {{"faces", count}}});
   }
 };
 

@@ -28,13 +28,31 @@ void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& f
     return " (first: line " + std::to_string(source.line_at(position)) + ")";
   };
   if (report.bad_faces > 0) {
-    report.warnings.push_back(counted(report.bad_faces, face) + " left out: " + std::string(why) +
-                              line_of(first.face));
+    report.warnings.push_back(
+        {WarningCode::faces_unreadable,
+         counted(report.bad_faces, face) + " left out: " + std::string(why) + line_of(first.face),
+         {{"faces", report.bad_faces}}});
   }
   if (report.bad_points > 0) {
-    report.warnings.push_back("coordinates of " + counted(report.bad_points, point) +
-                              " are not numbers" + line_of(first.point));
+    report.warnings.push_back({WarningCode::points_unreadable,
+                               "coordinates of " + counted(report.bad_points, point) +
+                                   " are not numbers" + line_of(first.point),
+                               {{"points", report.bad_points}}});
   }
+}
+
+Warning cut_off(std::string_view who, std::uint64_t promised, std::string_view noun,
+                std::uint64_t found) {
+  return {WarningCode::file_cut_off,
+          std::string(who) + " promises " + counted(promised, noun) + ", the file holds " +
+              std::to_string(found),
+          {{"promised", promised}, {"found", found}}};
+}
+
+Warning bytes_ignored(std::size_t count, std::string_view where) {
+  return {WarningCode::bytes_ignored,
+          counted(count, "byte") + " " + std::string(where) + " ignored",
+          {{"bytes", count}}};
 }
 
 std::string counted(std::uint64_t count, std::string_view noun) {

@@ -202,14 +202,18 @@ class PrimitiveReader {
 }  // namespace
 
 void GltfOddities::report(ReadReport& report) const {
-  const auto warn = [&](std::size_t count, std::string_view noun, std::string_view what) {
-    if (count > 0) report.warnings.push_back(counted(count, noun) + " " + std::string(what));
+  const auto warn = [&](WarningCode code, std::size_t count, std::string_view noun,
+                        std::string_view what) {
+    if (count == 0) return;
+    report.warnings.push_back(
+        {code, counted(count, noun) + " " + std::string(what), {{"count", count}}});
   };
   report.bad_faces += bad_triangles;
-  warn(not_triangles, "primitive", "of points or lines left out");
-  warn(without_positions, "primitive", "without positions left out");
-  warn(bad_triangles, "triangle", "left out: corners that are not there");
-  warn(morphed, "primitive", "read without morph targets");
+  warn(WarningCode::content_ignored, not_triangles, "primitive", "of points or lines left out");
+  warn(WarningCode::content_ignored, without_positions, "primitive", "without positions left out");
+  warn(WarningCode::faces_unreadable, bad_triangles, "triangle",
+       "left out: corners that are not there");
+  warn(WarningCode::attributes_unreadable, morphed, "primitive", "read without morph targets");
 }
 
 std::optional<GltfPrimitive> read_primitive(const GltfDocument& document, GltfBuffers& buffers,

@@ -164,8 +164,10 @@ class GltfReader {
       if (variants != nullptr && !mixed.contains(key)) kept_->variants.emplace(key, *variants);
     }
     if (mixed.empty()) return;
-    result_.report.warnings.push_back("the variants of " + counted(mixed.size(), "material") +
-                                      " left out: primitives have different ones");
+    result_.report.warnings.push_back({WarningCode::attributes_unreadable,
+                                       "the variants of " + counted(mixed.size(), "material") +
+                                           " left out: primitives have different ones",
+                                       {{"materials", mixed.size()}}});
   }
 
   [[nodiscard]] std::string name_of(const GltfInstance& instance) const {
@@ -225,12 +227,13 @@ class GltfReader {
     ReadReport& report = result_.report;
     oddities_.report(report);
     if (std::any_of(instances_.begin(), instances_.end(), [](const auto& i) { return i.has_skin; }))
-      report.warnings.emplace_back("meshes with skins are read as without joints");
+      report.warnings.push_back(
+          {WarningCode::attributes_unreadable, "meshes with skins are read as without joints"});
     if (!is_by_mesh()) warn_of_other_scenes();
     report.trailing_bytes = document_.trailing_bytes();
     if (report.trailing_bytes > 0) {
-      report.warnings.push_back(counted(report.trailing_bytes, "byte") +
-                                " after the end of the binary glTF ignored");
+      report.warnings.push_back(
+          bytes_ignored(report.trailing_bytes, "after the end of the binary glTF"));
     }
     Attributes& attributes = result_.attributes;
     if (!wants_attributes()) {
@@ -253,8 +256,10 @@ class GltfReader {
       if (has_mesh && !shown.contains(n)) ++others;
     }
     if (others == 0) return;
-    result_.report.warnings.push_back(counted(others, "node") +
-                                      " with meshes left out: not in the scene that is shown");
+    result_.report.warnings.push_back(
+        {WarningCode::objects_left_out,
+         counted(others, "node") + " with meshes left out: not in the scene that is shown",
+         {{"count", others}}});
   }
 
   const MeshSource& source_;

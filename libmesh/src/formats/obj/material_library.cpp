@@ -155,7 +155,7 @@ MaterialLibraries::Library read_library(const MeshSource& source, const std::str
     std::string warning = "the library of materials " + printable(name) + " is not ";
     warning += has_place ? "in " : "looked for: the mesh is no file in a folder";
     if (has_place) warning += place_of_named(source);
-    report.warnings.push_back(std::move(warning));
+    report.warnings.push_back({WarningCode::materials_undefined, std::move(warning)});
   }
   return library;
 }
@@ -199,9 +199,11 @@ void warn_of_undefined(const MaterialLibraries& libraries, const std::vector<std
   const auto first = std::find_if(names.begin(), names.end(), is_undefined);
   if (first == names.end()) return;
   const auto count = static_cast<std::size_t>(std::count_if(first, names.end(), is_undefined));
-  report.warnings.push_back(count == 1 ? "no library defines the material " + printable(*first)
-                                       : "no library defines " + counted(count, "material") + ": " +
-                                             printable(*first) + ", ...");
+  report.warnings.push_back({WarningCode::materials_undefined,
+                             count == 1 ? "no library defines the material " + printable(*first)
+                                        : "no library defines " + counted(count, "material") +
+                                              ": " + printable(*first) + ", ...",
+                             {{"materials", count}}});
 }
 
 }  // namespace

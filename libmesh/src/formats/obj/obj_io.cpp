@@ -48,8 +48,10 @@ class ObjReader {
     guard_.step(faces_.triangles(), source_.bytes.size());
     warn_of_bad(result_.report, source_, first_bad_, "face", "corners that are not numbers");
     if (left_out_ > 0) {
-      result_.report.warnings.push_back(counted(left_out_, "element") +
-                                        " left out: lines, points, curves or surfaces");
+      result_.report.warnings.push_back(
+          {WarningCode::content_ignored,
+           counted(left_out_, "element") + " left out: lines, points, curves or surfaces",
+           {{"elements", left_out_}}});
     }
     if (wants_attributes()) {
       std::vector<FaceList::Origin> origins;
@@ -70,8 +72,10 @@ class ObjReader {
     const std::size_t bad = attributes_.bad_corners();
     if (bad == 0) return;
     result_.report.warnings.push_back(
-        std::to_string(bad) + (bad == 1 ? " corner names" : " corners name") +
-        " texture coordinates or normals that are not there: left without");
+        {WarningCode::attributes_unreadable,
+         std::to_string(bad) + (bad == 1 ? " corner names" : " corners name") +
+             " texture coordinates or normals that are not there: left without",
+         {{"corners", bad}}});
   }
 
   void read_point() {

@@ -80,9 +80,11 @@ class ObjPoints {
       for (const std::size_t owner : owners_) cloud.normals.push_back(normals_[owner]);
     }
     if (report.bad_points > 0) {
-      report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
-                                " are not numbers (first: line " +
-                                std::to_string(source_.line_at(first_bad_)) + ")");
+      report.warnings.push_back({WarningCode::points_unreadable,
+                                 "coordinates of " + counted(report.bad_points, "point") +
+                                     " are not numbers (first: line " +
+                                     std::to_string(source_.line_at(first_bad_)) + ")",
+                                 {{"points", report.bad_points}}});
     }
   }
 

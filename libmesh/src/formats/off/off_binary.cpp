@@ -102,13 +102,15 @@ class BinaryOffReader {
     report.missing_faces = header_.faces - faces_.size();
     report.trailing_bytes = source_.bytes.size() - at_;
     if (points < header_.points || report.missing_faces > 0) {
-      report.warnings.push_back("the header promises " + counted(header_.points, "point") +
-                                " and " + counted(header_.faces, "face") + ", the file holds " +
-                                std::to_string(points) + " and " + std::to_string(faces_.size()));
+      report.warnings.push_back({WarningCode::file_cut_off,
+                                 "the header promises " + counted(header_.points, "point") +
+                                     " and " + counted(header_.faces, "face") +
+                                     ", the file holds " + std::to_string(points) + " and " +
+                                     std::to_string(faces_.size()),
+                                 {{"promised", header_.faces}, {"found", faces_.size()}}});
     }
     if (report.trailing_bytes > 0) {
-      report.warnings.push_back(counted(report.trailing_bytes, "byte") +
-                                " after the last whole face ignored");
+      report.warnings.push_back(bytes_ignored(report.trailing_bytes, "after the last whole face"));
     }
   }
 

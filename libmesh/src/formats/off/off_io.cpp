@@ -118,9 +118,11 @@ class OffReader {
 
   void ignore_rest(std::size_t start) {
     result_.report.trailing_bytes = source_.bytes.size() - start;
-    result_.report.warnings.push_back(counted(result_.report.trailing_bytes, "byte") +
-                                      " after the last face ignored (from line " +
-                                      std::to_string(source_.line_at(start)) + ")");
+    result_.report.warnings.push_back({WarningCode::bytes_ignored,
+                                       counted(result_.report.trailing_bytes, "byte") +
+                                           " after the last face ignored (from line " +
+                                           std::to_string(source_.line_at(start)) + ")",
+                                       {{"bytes", result_.report.trailing_bytes}}});
   }
 
   void report_losses() {
@@ -129,9 +131,12 @@ class OffReader {
     const std::size_t lines = faces_.size() + report.bad_faces;
     report.missing_faces = header_.faces > lines ? header_.faces - lines : 0;
     if (points != header_.points || lines != header_.faces) {
-      report.warnings.push_back("the header promises " + counted(header_.points, "point") +
-                                " and " + counted(header_.faces, "face") + ", the file holds " +
-                                std::to_string(points) + " and " + std::to_string(lines));
+      report.warnings.push_back({WarningCode::file_cut_off,
+                                 "the header promises " + counted(header_.points, "point") +
+                                     " and " + counted(header_.faces, "face") +
+                                     ", the file holds " + std::to_string(points) + " and " +
+                                     std::to_string(lines),
+                                 {{"promised", header_.faces}, {"found", lines}}});
     }
     warn_of_bad(report, source_, first_bad_, "face", "cut or not numbers");
   }

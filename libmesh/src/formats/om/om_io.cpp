@@ -64,7 +64,7 @@ class OmReader {
     while (!done_ && source_.bytes.size() - at_ >= 2) read_chunk();
     if (!has_faces_) source_.fail("the .om file ends before its faces");
     faces_.append_to(result_, source_.options.progress);
-    if (!result_.report.warnings.empty()) source_.fail(result_.report.warnings.front());
+    if (!result_.report.warnings.empty()) source_.fail(result_.report.warnings.front().text);
     if (result_.soup.triangles.empty()) source_.fail("holds no triangles");
     return std::move(result_.soup);
   }

@@ -57,14 +57,16 @@ std::string pack_bytes(std::string_view bytes, Packing packing, ProgressObserver
 }
 
 TrivialVector<char> unpack(const MeshSource& source, Packing packing,
-                           std::vector<std::string>& warnings) {
+                           std::vector<Warning>& warnings) {
   UnpackTarget target(source);
   const std::string_view rest =
       packing == Packing::gzip ? unpack_gzip(source, target) : unpack_zstd(source, target);
   // Tapes and some programs fill up with zeros.
   if (rest.find_first_not_of('\0') != std::string_view::npos) {
-    warnings.push_back(counted(rest.size(), "byte") + " behind what " +
-                       std::string(packing_name(packing)) + " packed, left out");
+    warnings.push_back({WarningCode::bytes_ignored,
+                        counted(rest.size(), "byte") + " behind what " +
+                            std::string(packing_name(packing)) + " packed, left out",
+                        {{"bytes", rest.size()}}});
   }
   return target.take();
 }

@@ -199,17 +199,17 @@ class PcdReader {
   void warn() {
     PointReadReport& report = result_.report;
     if (report.bad_points > 0) {
-      report.warnings.push_back(counted(report.bad_points, "line") +
-                                " left out: cut, or values that are not numbers");
+      report.warnings.push_back(
+          {WarningCode::points_unreadable,
+           counted(report.bad_points, "line") + " left out: cut, or values that are not numbers",
+           {{"points", report.bad_points}}});
     }
     if (report.missing_points > 0) {
-      report.warnings.push_back("the header promises " + counted(report.declared_points, "point") +
-                                ", the file holds " +
-                                std::to_string(report.declared_points - report.missing_points));
+      report.warnings.push_back(cut_off("the header", report.declared_points, "point",
+                                        report.declared_points - report.missing_points));
     }
     if (report.trailing_bytes > 0) {
-      report.warnings.push_back(counted(report.trailing_bytes, "byte") +
-                                " after the last point ignored");
+      report.warnings.push_back(bytes_ignored(report.trailing_bytes, "after the last point"));
     }
   }
 

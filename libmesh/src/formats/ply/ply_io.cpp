@@ -104,9 +104,11 @@ class PlyBody {
       cursor_.end_item();
     }
     if (items < element.count) {
-      result_.report.warnings.push_back("the header promises " + std::to_string(element.count) +
-                                        " of the element " + printable(element.name) +
-                                        ", the file holds " + std::to_string(items));
+      result_.report.warnings.push_back({WarningCode::file_cut_off,
+                                         "the header promises " + std::to_string(element.count) +
+                                             " of the element " + printable(element.name) +
+                                             ", the file holds " + std::to_string(items),
+                                         {{"promised", element.count}, {"found", items}}});
     }
     return items;
   }
@@ -117,7 +119,8 @@ class PlyBody {
       names += (names.empty() ? "" : ", ") + printable(name);
     }
     if (names.empty()) return;
-    result_.report.warnings.push_back("what is not known here is left out: " + names);
+    result_.report.warnings.push_back(
+        {WarningCode::content_ignored, "what is not known here is left out: " + names});
   }
 
   bool pass_over(const PlyElement& element) {
@@ -227,8 +230,10 @@ class PlyBody {
   void report_unreadable(std::size_t count) {
     if (count == 0) return;
     result_.report.bad_faces += count;
-    result_.report.warnings.push_back(counted(count, "face") +
-                                      " left out: cut, or a list longer than its line");
+    result_.report.warnings.push_back(
+        {WarningCode::faces_unreadable,
+         counted(count, "face") + " left out: cut, or a list longer than its line",
+         {{"faces", count}}});
   }
 
   // Every value after the second of a strip makes a triangle with the two before; every other one
@@ -266,12 +271,14 @@ class PlyBody {
     ReadReport& report = result_.report;
     if (cursor_.more()) report.trailing_bytes = cursor_.remaining();
     if (report.trailing_bytes > 0) {
-      report.warnings.push_back(counted(report.trailing_bytes, "byte") +
-                                " after the last whole element ignored");
+      report.warnings.push_back(
+          bytes_ignored(report.trailing_bytes, "after the last whole element"));
     }
     if (report.bad_points > 0) {
-      report.warnings.push_back("coordinates of " + counted(report.bad_points, "point") +
-                                " are not numbers");
+      report.warnings.push_back(
+          {WarningCode::points_unreadable,
+           "coordinates of " + counted(report.bad_points, "point") + " are not numbers",
+           {{"points", report.bad_points}}});
     }
   }
 

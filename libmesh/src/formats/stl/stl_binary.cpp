@@ -41,12 +41,11 @@ void report_sizes(const MeshSource& source, std::size_t found, ReadReport& repor
   report.missing_faces = declared > found ? declared - found : 0;
   report.trailing_bytes = source.bytes.size() - kStlHeaderSize - found * kStlTriangleSize;
   if (declared != found) {
-    report.warnings.push_back("the header promises " + counted(declared, "triangle") +
-                              ", the file holds " + std::to_string(found));
+    report.warnings.push_back(cut_off("the header", declared, "triangle", found));
   }
   if (report.trailing_bytes > 0) {
-    report.warnings.push_back(counted(report.trailing_bytes, "byte") +
-                              " after the last whole triangle ignored");
+    report.warnings.push_back(
+        bytes_ignored(report.trailing_bytes, "after the last whole triangle"));
   }
 }
 

@@ -36,10 +36,10 @@ bool belongs_to_old_meshes(std::string_view key, std::string_view media_type) {
 bool belongs_to_objects(std::string_view key) {
   if (is_project_config(key)) return true;
   return key.starts_with("metadata/") &&
-         ends_with_one_of(key, {"cut_information.xml", "layer_heights_profile.txt",
-                                "layer_config_ranges.xml", "layer_config_ranges.txt",
-                                "sla_support_points.txt", "sla_drain_holes.txt",
-                                "brim_ear_points.txt"});
+         ends_with_one_of(
+             key, {"cut_information.xml", "layer_heights_profile.txt", "layer_config_ranges.xml",
+                   "layer_config_ranges.txt", "sla_support_points.txt", "sla_drain_holes.txt",
+                   "brim_ear_points.txt"});
 }
 
 class PartKeeper {
@@ -76,8 +76,7 @@ class PartKeeper {
       return;
     }
     const auto is_it = [&](const KeptPackage::Config& one) { return one.name == entry.name; };
-    if (is_project_config(key) &&
-        std::none_of(kept_.configs.begin(), kept_.configs.end(), is_it)) {
+    if (is_project_config(key) && std::none_of(kept_.configs.begin(), kept_.configs.end(), is_it)) {
       return;  // it could not be read, and that is told
     }
     try {
@@ -107,14 +106,15 @@ class PartKeeper {
     constexpr std::size_t kMostNamed = 20;
     if (names.empty()) return;
     const std::string lost = " will not be written again";
+    const auto tell = [&](const std::string& text, std::size_t parts) {
+      report.warnings.push_back({WarningCode::package_parts_lost, text, {{"parts", parts}}});
+    };
     const std::size_t named = kept_.graph ? std::min(names.size(), kMostNamed) : 0;
-    for (std::size_t i = 0; i < named; ++i) {
-      report.warnings.push_back(printable(names[i]) + lost + ": " + why);
-    }
+    for (std::size_t i = 0; i < named; ++i) tell(printable(names[i]) + lost + ": " + why, 1);
     if (names.size() == named) return;
-    report.warnings.push_back(counted(names.size() - named, named == 0 ? "part" : "more part") +
-                              " of the package " + which + lost +
-                              " (first: " + printable(names[named]) + ")");
+    tell(counted(names.size() - named, named == 0 ? "part" : "more part") + " of the package " +
+             which + lost + " (first: " + printable(names[named]) + ")",
+         names.size() - named);
   }
 
   const MeshSource& source_;

@@ -45,7 +45,7 @@ struct KeptPackage final : Keepsake {
   std::vector<ModelNamespace> namespaces;
   std::vector<ModelMetadata> metadata;
   std::vector<Part> parts;
-  std::vector<Config> configs;  // only with a graph
+  std::vector<Config> configs;                            // only with a graph
   std::vector<PackageRelationship> of_package, of_model;  // to these parts
   std::vector<Tiling> tilings;
 
@@ -60,9 +60,10 @@ struct KeptPackage final : Keepsake {
 };
 
 // Reads all parts but those that are written anew: models, relationships, types of content and the
-// parts in `taken` (by part_key()). Left out, with a warning for each, is what belongs to the meshes
-// as they were: toolpaths and what was found with them, signatures; and where there is no graph,
-// what slicers say of objects by their ids or their order. `model` is the name of the first model.
+// parts in `taken` (by part_key()). Left out, with a warning for each, is what belongs to the
+// meshes as they were: toolpaths and what was found with them, signatures; and where there is no
+// graph, what slicers say of objects by their ids or their order. `model` is the name of the first
+// model.
 void keep_parts(const MeshSource& source, ZipReader& archive, const ContentTypes& types,
                 const std::string& model, const std::unordered_set<std::string>& taken,
                 KeptPackage& kept, ReadReport& report);

@@ -255,7 +255,8 @@ class InstancePlacer {
     if (is_new) volume.triangles = object.mesh.triangles.size();
     if (volume.fate == VolumeFate::left_out) return;
     if (source_.options.by_mesh) {
-      if (name.empty() && named.object != kNone) name = parts_[named.part].objects[named.object].name;
+      if (name.empty() && named.object != kNone)
+        name = parts_[named.part].objects[named.object].name;
       return add_instance(part, number, placement, named, name);
     }
     result_.placed.push_back({number_of_volume_, around.group, result_.soup.triangles.size(),
@@ -278,8 +279,8 @@ class InstancePlacer {
           has_name ? project->name : parts_[around.part].objects[around.object].name;
       const bool has_words = !name.empty() || !object.empty();
       const std::uint32_t own_id = parts_[part].objects[number].id;
-      const std::uint32_t id = is_range_id(own_id) ? parts_[around.part].objects[around.object].id
-                                                   : own_id;
+      const std::uint32_t id =
+          is_range_id(own_id) ? parts_[around.part].objects[around.object].id : own_id;
       const std::string by_id = "object " + std::to_string(id);
       result_.volumes.push_back(
           {has_words ? name : by_id, object, role, printed, 0, 0, fate_of(role, printed)});
@@ -310,9 +311,8 @@ class InstancePlacer {
     auto& volumes = result_.volumes;
     if (std::none_of(volumes.begin(), volumes.end(), is_subtracted)) result_.placed = {};
     result_.none_printed = result_.none_printed && !volumes.empty();
-    if (!result_.none_printed && std::all_of(volumes.begin(), volumes.end(), [](const auto& one) {
-          return one.is_plain();
-        })) {
+    if (!result_.none_printed && std::all_of(volumes.begin(), volumes.end(),
+                                             [](const auto& one) { return one.is_plain(); })) {
       volumes = {};
     }
   }
@@ -341,8 +341,8 @@ class InstancePlacer {
 
   const MeshSource& source_;
   const std::vector<ModelPart>& parts_;
-  using VolumeKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t,
-                               VolumeRole, bool>;
+  using VolumeKey =
+      std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, VolumeRole, bool>;
 
   std::vector<std::vector<Known>> known_;
   MeshTotal in_file_;

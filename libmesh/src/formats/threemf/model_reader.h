@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "model_part.h"
 #include "common/xml_stream.h"
+#include "model_part.h"
 
 namespace meshrepair {
 

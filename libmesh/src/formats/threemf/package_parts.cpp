@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "formats/common/part_names.h"
 #include "common/xml_stream.h"
+#include "formats/common/part_names.h"
 
 namespace meshrepair {
 namespace {

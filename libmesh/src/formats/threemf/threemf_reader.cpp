@@ -8,6 +8,7 @@
 
 #include <base/error.h>
 
+#include "common/xml_stream.h"
 #include "formats/common/part_names.h"
 #include "formats/common/zip_reader.h"
 #include "kept_parts.h"
@@ -18,7 +19,6 @@
 #include "property_labels.h"
 #include "threemf_io.h"
 #include "volume_ranges.h"
-#include "common/xml_stream.h"
 
 namespace meshrepair {
 namespace {
@@ -30,8 +30,9 @@ class ThreemfReader {
   ReadResult run() {
     result_.report.format = SoupFormat::threemf;
     if (archive_.passed_over() > 0) {
-      warn(counted(archive_.passed_over(), "part") +
-           " ignored: names that lead out of the package, or duplicate names");
+      warn(WarningCode::content_ignored,
+           counted(archive_.passed_over(), "part") +
+               " ignored: names that lead out of the package, or duplicate names");
     }
     read_parts(find_start());
     read_projects();
@@ -47,7 +48,9 @@ class ThreemfReader {
   }
 
  private:
-  void warn(std::string_view text) { result_.report.warnings.emplace_back(text); }
+  void warn(WarningCode code, std::string text) {
+    result_.report.warnings.push_back({code, std::move(text)});
+  }
 
   const ZipReader::Entry& find_start() {
     std::vector<std::string> targets;
@@ -56,13 +59,14 @@ class ThreemfReader {
         if (one.type == kModelRelationship) targets.push_back(one.target);
       }
     } catch (const InputError&) {
-      warn("the relationships of the package cannot be read");
+      warn(WarningCode::start_unclear, "the relationships of the package cannot be read");
     }
-    if (targets.size() > 1) warn("the package names several first models: the first is read");
+    if (targets.size() > 1)
+      warn(WarningCode::start_unclear, "the package names several first models: the first is read");
     for (const std::string& target : targets) {
       if (const ZipReader::Entry* const entry = archive_.find(target)) return *entry;
     }
-    warn("the package does not say which part is its model");
+    warn(WarningCode::start_unclear, "the package does not say which part is its model");
     if (const ZipReader::Entry* const usual = archive_.find(kUsualModelPart)) return *usual;
     const auto& entries = archive_.entries();
     const auto any = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
@@ -123,7 +127,8 @@ class ThreemfReader {
         for (const ProjectObject& object : config->objects()) apply(object);
         configs_.push_back({entry.name, std::move(config)});
       } catch (const InputError&) {
-        warn("what " + printable(entry.name) + " says of objects and volumes cannot be read");
+        warn(WarningCode::project_unreadable,
+             "what " + printable(entry.name) + " says of objects and volumes cannot be read");
       }
     }
   }
@@ -154,45 +159,54 @@ class ThreemfReader {
     ReadReport& report = result_.report;
     report.bad_faces = oddities_.bad_triangles;
     report.bad_points = oddities_.bad_points;
-    warn_if(oddities_.bad_triangles, "triangle", left_out + "they name points that do not exist");
-    warn_if(oddities_.bad_points, "point", " with coordinates that are not numbers");
-    warn_if(oddities_.doubled_ids, "object", " passed over: no number of their own");
-    warn_if(missing_parts_, "part", " with objects missing");
-    warn_if(placed.missing, "reference", " to objects that are not there");
-    warn_if(oddities_.bad_ranges, "volume",
+    warn_if(WarningCode::faces_unreadable, oddities_.bad_triangles, "triangle",
+            left_out + "they name points that do not exist");
+    warn_if(WarningCode::points_unreadable, oddities_.bad_points, "point",
+            " with coordinates that are not numbers");
+    warn_if(WarningCode::references_missing, oddities_.doubled_ids, "object",
+            " passed over: no number of their own");
+    warn_if(WarningCode::references_missing, missing_parts_, "part", " with objects missing");
+    warn_if(WarningCode::references_missing, placed.missing, "reference",
+            " to objects that are not there");
+    warn_if(WarningCode::references_missing, oddities_.bad_ranges, "volume",
             " taken for model: their triangles are not there, or those of others");
     if (!oddities_.unknown_unit.empty()) {
-      warn("the unit " + printable(oddities_.unknown_unit) +
-           " is not known: taken for millimeters");
+      warn(WarningCode::unit_unknown, "the unit " + printable(oddities_.unknown_unit) +
+                                          " is not known: taken for millimeters");
     }
     if (!oddities_.unknown_elements.empty()) {
       std::string names;
       for (const std::string& name : oddities_.unknown_elements) {
         names += (names.empty() ? "" : ", ") + printable(name);
       }
-      warn("what is not known here is left out: " + names);
+      warn(WarningCode::content_ignored, "what is not known here is left out: " + names);
     }
     for (const std::string& extension : oddities_.unknown_extensions) {
-      warn("the file needs the extension " + printable(extension) + ", which is not known here");
+      warn(WarningCode::extension_unknown,
+           "the file needs the extension " + printable(extension) + ", which is not known here");
     }
   }
 
   void tell_volumes(InstanceResult& placed) {
     constexpr std::size_t kMostNamed = 20;
     if (placed.none_printed && !source_.options.by_mesh) {
-      warn("none of its items is to be printed: all are taken for the model");
+      warn(WarningCode::none_printed,
+           "none of its items is to be printed: all are taken for the model");
     }
     std::size_t left_out = 0;
     for (const ModelVolume& volume : placed.volumes) {
       if (volume.fate != VolumeFate::left_out || ++left_out > kMostNamed) continue;
-      warn(volume_words(volume) + " left out: " + why_left_out(volume));
+      warn(volume.role == VolumeRole::negative && volume.printed ? WarningCode::not_subtracted
+                                                                 : WarningCode::objects_left_out,
+           volume_words(volume) + " left out: " + why_left_out(volume));
     }
     if (left_out > kMostNamed) {
-      warn(counted(left_out - kMostNamed, "more volume") + " left out: no part of the model");
+      warn_if(WarningCode::objects_left_out, left_out - kMostNamed, "more volume",
+              " left out: no part of the model");
     }
     const bool is_empty = placed.soup.triangles.empty() && !source_.options.may_be_empty;
     if (is_empty && left_out > 0) {
-      source_.fail("holds nothing of a model: " + result_.report.warnings.back());
+      source_.fail("holds nothing of a model: " + result_.report.warnings.back().text);
     }
     result_.report.volumes = std::move(placed.volumes);
   }
@@ -203,8 +217,10 @@ class ThreemfReader {
     return "it is no part of the model";
   }
 
-  void warn_if(std::size_t count, std::string_view noun, const std::string& what) {
-    if (count > 0) warn(counted(count, noun) + what);
+  void warn_if(WarningCode code, std::size_t count, std::string_view noun,
+               const std::string& what) {
+    if (count == 0) return;
+    result_.report.warnings.push_back({code, counted(count, noun) + what, {{"count", count}}});
   }
 
   void keep_rest(InstanceResult& placed) {
@@ -223,11 +239,15 @@ class ThreemfReader {
     };
     PropertyOddities oddities;
     result_.attributes = attributes_of(parts_, placed, find, oddities);
-    warn_if(oddities.missing, "triangle", " with properties that are not there");
-    warn_if(oddities.gradients, "triangle", " with several materials: that of the first corner");
-    warn_if(oddities.unreadable, "texture", " without a picture that can be read");
-    warn_if(oddities_.painted, "triangle", " with painted data of other programs: not kept");
-    warn_if(oddities_.unknown_groups, "group",
+    warn_if(WarningCode::attributes_unreadable, oddities.missing, "triangle",
+            " with properties that are not there");
+    warn_if(WarningCode::attributes_unreadable, oddities.gradients, "triangle",
+            " with several materials: that of the first corner");
+    warn_if(WarningCode::attributes_unreadable, oddities.unreadable, "texture",
+            " without a picture that can be read");
+    warn_if(WarningCode::attributes_unreadable, oddities_.painted, "triangle",
+            " with painted data of other programs: not kept");
+    warn_if(WarningCode::attributes_unreadable, oddities_.unknown_groups, "group",
             " of properties left out: mixtures of materials, or too many layers");
     ModelPart& first = parts_.front();
     for (const ModelPart& part : parts_) add_namespaces(part.namespaces, kept.namespaces);

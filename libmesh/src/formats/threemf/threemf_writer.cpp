@@ -9,6 +9,7 @@
 #include <base/error.h>
 #include <mesh/edge_table.h>
 
+#include "common/xml_text.h"
 #include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
 #include "kept_parts.h"
@@ -17,7 +18,6 @@
 #include "threemf_io.h"
 #include "written_configs.h"
 #include "written_properties.h"
-#include "common/xml_text.h"
 #include "zip_writer.h"
 
 namespace meshrepair {
@@ -409,8 +409,8 @@ class ModelWriter {
     std::size_t first = 0, end = 0;  // triangles
   };
 
-  std::uint32_t write_mesh(const MeshRange& range, const std::string& name,
-                           const ModelMarks* marks, std::uint32_t kept_id) {
+  std::uint32_t write_mesh(const MeshRange& range, const std::string& name, const ModelMarks* marks,
+                           std::uint32_t kept_id) {
     const std::uint32_t id = open_object(name, marks, kept_id);
     const auto& property = properties_.of_object;
     if (property.group != kNone) {

@@ -31,9 +31,8 @@ std::vector<VolumeRange> ranges_of(const ModelObject& object, const ProjectObjec
     if (volume.first == kNone && volume.last == kNone) continue;
     all.push_back({v, volume.first, std::size_t{volume.last} + 1});
   }
-  std::stable_sort(all.begin(), all.end(), [](const VolumeRange& a, const VolumeRange& b) {
-    return a.first < b.first;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const VolumeRange& a, const VolumeRange& b) { return a.first < b.first; });
   std::vector<VolumeRange> ranges;
   const std::size_t triangles = object.mesh.triangles.size() + object.bad.size();
   std::size_t end = 0;
@@ -62,7 +61,8 @@ void add_triangles(const ModelObject& from, std::size_t first, std::size_t end, 
 void take_points(const std::vector<Vec3d>& points, TriangleSoup& mesh) {
   std::vector<std::uint32_t> used;
   used.reserve(3 * mesh.triangles.size());
-  for (const auto& corners : mesh.triangles) used.insert(used.end(), corners.begin(), corners.end());
+  for (const auto& corners : mesh.triangles)
+    used.insert(used.end(), corners.begin(), corners.end());
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   for (const std::uint32_t point : used) mesh.points.push_back(points[point]);

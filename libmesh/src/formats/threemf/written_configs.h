@@ -15,7 +15,6 @@ namespace meshrepair {
 // The text of one of kept.configs. `ids` has the new id of each object of the graph, or kNone for
 // one that is not written; `scene` the meshes of the graph as they are now.
 [[nodiscard]] std::string written_config(const KeptPackage& kept, const ProjectConfig& config,
-                                         const std::vector<std::uint32_t>& ids,
-                                         const Scene& scene);
+                                         const std::vector<std::uint32_t>& ids, const Scene& scene);
 
 }  // namespace meshrepair

@@ -14,12 +14,12 @@
 #include <base/error.h>
 #include <base/file_bytes.h>
 
+#include "common/xml_text.h"
 #include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
 #include "model_values.h"
 #include "property_labels.h"
 #include "threemf_io.h"
-#include "common/xml_text.h"
 
 namespace meshrepair {
 namespace {

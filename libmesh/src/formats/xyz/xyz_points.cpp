@@ -227,9 +227,11 @@ class XyzReader {
     if (all % 2 == 0 && wrong <= half / 20 && are_of_length_one(half)) {
       take_normals(half);
     } else if (all > promised && all < 2 * promised && are_of_length_one(promised)) {
-      result_.report.warnings.push_back("of " + counted(promised, "point") + " the normals of " +
-                                        std::to_string(all - promised) +
-                                        " are there: none are taken");
+      result_.report.warnings.push_back({WarningCode::attributes_unreadable,
+                                         "of " + counted(promised, "point") + " the normals of " +
+                                             std::to_string(all - promised) +
+                                             " are there: none are taken",
+                                         {{"promised", promised}, {"found", all - promised}}});
       points.resize(promised);
     }
   }
@@ -263,14 +265,15 @@ class XyzReader {
                                       " without three numbers, " + std::to_string(good) + " with");
     }
     if (report.bad_points > 0) {
-      report.warnings.push_back(counted(report.bad_points, "line") +
-                                " without three numbers left out (first: line " +
-                                std::to_string(source_.line_at(first_bad_)) + ")");
+      report.warnings.push_back({WarningCode::points_unreadable,
+                                 counted(report.bad_points, "line") +
+                                     " without three numbers left out (first: line " +
+                                     std::to_string(source_.line_at(first_bad_)) + ")",
+                                 {{"points", report.bad_points}}});
     }
     if (report.declared_points > good) report.missing_points = report.declared_points - good;
     if (report.declared_points > 0 && report.declared_points != good) {
-      report.warnings.push_back("the file promises " + counted(report.declared_points, "point") +
-                                " and holds " + std::to_string(good));
+      report.warnings.push_back(cut_off("the file", report.declared_points, "point", good));
     }
   }
 

@@ -253,7 +253,7 @@ TEST_P(GltfOddFiles, AreRefusedWithOneLineOrReadWithAWarning) {
     try {
       const ReadResult read = read_soup(std::string_view(file.bytes), "a.gltf", options);
       expect_valid_indices(read.soup);
-      for (const std::string& warning : read.report.warnings) message += warning;
+      for (const Warning& warning : read.report.warnings) message += warning.text;
       EXPECT_TRUE(file.is_read);
     } catch (const InputError& error) {
       message = error.what();

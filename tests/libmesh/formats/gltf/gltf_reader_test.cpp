@@ -14,6 +14,7 @@
 #include "gltf_maker.h"
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -139,7 +140,7 @@ TEST(GltfReader, StripsAndFansBecomeTriangles) {
 TEST(GltfReader, PointsAndLinesAreLeftOutWithAWarning) {
   GltfMaker maker = one_triangle();
   maker.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
-  EXPECT_THAT(read_text(maker.glb(), "a").report.warnings,
+  EXPECT_THAT(texts(read_text(maker.glb(), "a").report.warnings),
               ElementsAre("1 primitive of points or lines left out"));
 }
 
@@ -151,7 +152,7 @@ TEST(GltfReader, TrianglesThatNameNoVerticesAreCounted) {
   const ReadResult read = read_text(maker.glb(), "a");
   EXPECT_EQ(read.soup.triangles.size(), 1u);
   EXPECT_EQ(read.report.bad_faces, 2u);
-  EXPECT_THAT(read.report.warnings, ElementsAre(HasSubstr("corners that are not there")));
+  EXPECT_THAT(texts(read.report.warnings), ElementsAre(HasSubstr("corners that are not there")));
 }
 
 TEST(GltfReader, NodesMoveTheirMeshes) {

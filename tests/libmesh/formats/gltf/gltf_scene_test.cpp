@@ -14,6 +14,7 @@
 
 #include "gltf_maker.h"
 #include "soup_fixtures.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -125,7 +126,7 @@ TEST(GltfScene, MeshesOfOtherScenesAreLeftOutWithAWarning) {
   const ReadResult joined = read_soup(std::string_view(maker.glb()), "a.glb", {.attributes = true});
   EXPECT_EQ(joined.soup.points[2], Vec3d(5, 0, 0));
   EXPECT_EQ(joined.soup.triangles.size(), 4u);
-  EXPECT_THAT(joined.report.warnings,
+  EXPECT_THAT(texts(joined.report.warnings),
               ::testing::Contains("4 nodes with meshes left out: not in the scene that is shown"));
   const TestJson root =
       root_of(format_soup(joined.soup, SoupFormat::glb, {.attributes = &joined.attributes}));
@@ -133,7 +134,7 @@ TEST(GltfScene, MeshesOfOtherScenesAreLeftOutWithAWarning) {
   EXPECT_EQ(root["scenes"][0], maker.root["scenes"][0]);
   EXPECT_EQ(root["meshes"].size(), 1u);
   const ReadResult each = read_by_mesh(maker.glb());
-  EXPECT_THAT(each.report.warnings, Not(::testing::Contains(HasSubstr("not in the scene"))));
+  EXPECT_THAT(texts(each.report.warnings), Not(::testing::Contains(HasSubstr("not in the scene"))));
   EXPECT_EQ(root_of(write_scene(each, SoupFormat::glb))["nodes"][0]["mesh"], 0);
 }
 

@@ -17,6 +17,7 @@
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
 #include "textured_soups.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -369,7 +370,7 @@ TEST(GltfWriter, VariantsThatPrimitivesOfOneMaterialDoNotShareGoWithAWarning) {
   for (const int other : {-1, 2}) {
     const GltfMaker maker = with_variants({{0, 1}, {1, 2}, {0, other}});
     const ReadResult read = read_with_attributes(maker.glb(), "a");
-    EXPECT_EQ(read.report.warnings,
+    EXPECT_EQ(texts(read.report.warnings),
               (std::vector<std::string>{
                   "the variants of 1 material left out: primitives have different ones"}));
     const TestJson root =

@@ -13,6 +13,7 @@
 #include <mesh/soup_io.h>
 
 #include "temporary_folder.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -280,7 +281,7 @@ TEST_F(ObjLibraries, OneLineMayNameSeveralLibraries) {
   write("in/c.mtl", "newmtl tin\nKd 0 1 0\n");
   write("in/several.obj", "mtllib a b.mtl c.mtl\n" + mesh);
   const ReadResult read = read_with_attributes(folder_.path() / "in/several.obj");
-  EXPECT_EQ(read.report.warnings, std::vector<std::string>{});
+  EXPECT_EQ(texts(read.report.warnings), std::vector<std::string>{});
   ASSERT_EQ(read.attributes.looks.size(), 2u);
   EXPECT_EQ(read.attributes.looks[0].colour[0], 1);
   EXPECT_EQ(read.attributes.looks[0].colour[1], 0);
@@ -307,7 +308,7 @@ TEST_F(ObjLibraries, AMeshThatIsNoFileHasNone) {
   options.attributes = true;
   const ReadResult read = read_soup(kCube, "-", options);
   ASSERT_EQ(read.report.warnings.size(), 1u);
-  EXPECT_NE(read.report.warnings[0].find("lib/cube.mtl"), std::string::npos);
+  EXPECT_NE(texts(read.report.warnings)[0].find("lib/cube.mtl"), std::string::npos);
 }
 
 // Else they would have the next line as a part of them.
@@ -329,7 +330,7 @@ TEST_F(ObjLibraries, NamesMayHaveNumberSigns) {
   for (const char* name : {"out/no #5.obj", "out/#5.obj", "out/a#5.obj", "out/a\nv 0.obj"}) {
     write_soup(read.soup, folder_.path() / name, {.extras = {.attributes = &read.attributes}});
     const ReadResult back = read_with_attributes(folder_.path() / name);
-    EXPECT_EQ(back.report.warnings, std::vector<std::string>{}) << name;
+    EXPECT_EQ(texts(back.report.warnings), std::vector<std::string>{}) << name;
     EXPECT_EQ(back.attributes.materials.names, read.attributes.materials.names) << name;
     ASSERT_EQ(back.attributes.looks.size(), 1u) << name;
     EXPECT_EQ(back.attributes.looks[0].colour[0], 0) << name;

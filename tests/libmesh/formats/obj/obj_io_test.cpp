@@ -8,6 +8,7 @@
 #include <mesh/soup_io.h>
 
 #include "soup_fixtures.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -52,7 +53,7 @@ TEST(ReadObj, OtherElementsAreSaidAndNoFileIsOpened) {
       kPoints + "l 1 2 3\np 1\ncstype bezier\nf 1 2 3\n";
   const ReadResult result = read_text(text, "a.obj");
   EXPECT_EQ(result.soup.triangles, kFirst);
-  EXPECT_EQ(result.report.warnings,
+  EXPECT_EQ(texts(result.report.warnings),
             std::vector<std::string>{"3 elements left out: lines, points, curves or surfaces"});
 }
 
@@ -79,7 +80,7 @@ TEST(ReadObj, GarbageIsCounted) {
   EXPECT_EQ(result.report.bad_points, 1u);
   ASSERT_EQ(result.soup.points.size(), 5u);
   EXPECT_TRUE(std::isnan(result.soup.points[4].x()));
-  EXPECT_THAT(result.report.warnings.at(0), HasSubstr("(first: line 5)"));
+  EXPECT_THAT(texts(result.report.warnings).at(0), HasSubstr("(first: line 5)"));
 }
 
 TEST(ReadObj, CommentIsNotContinued) {

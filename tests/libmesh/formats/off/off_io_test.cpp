@@ -11,6 +11,7 @@
 #include <mesh/soup_io.h>
 
 #include "soup_fixtures.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -111,7 +112,7 @@ TEST(ReadOff, FaceThatClaimsMoreCornersThanItsLineHasIsLeftOut) {
       read_text("OFF\n" + kCounts + kPoints + "2000000000 0 1 2\n3 2 1 0\n", "a.off");
   EXPECT_EQ(result.soup.triangles, (std::vector<Triangle>{{2, 1, 0}}));
   EXPECT_EQ(result.report.bad_faces, 1u);
-  EXPECT_THAT(result.report.warnings.at(0), HasSubstr("line 6"));
+  EXPECT_THAT(texts(result.report.warnings).at(0), HasSubstr("line 6"));
 }
 
 TEST(ReadOff, IndexOutOfRangeIsCounted) {

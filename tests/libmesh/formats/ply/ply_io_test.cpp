@@ -14,6 +14,7 @@
 #include <mesh/soup_io.h>
 
 #include "soup_fixtures.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -137,7 +138,7 @@ TEST(ReadPly, OtherElementsArePassedOverAndSaid) {
           kIndices + "end_header\n0.5 2 7 8\n" + kPoints + "1\n2\n" + kFaces,
       "a.ply");
   EXPECT_EQ(result.soup.triangles, kTriangles);
-  EXPECT_EQ(result.report.warnings,
+  EXPECT_EQ(texts(result.report.warnings),
             std::vector<std::string>{"what is not known here is left out: camera, material"});
 }
 
@@ -164,7 +165,7 @@ TEST(ReadPly, CountsAreNotTrusted) {
       read_text(replaced(kHeader, "face 2", "face 4000000000") + kPoints + kFaces, "a.ply");
   EXPECT_EQ(ascii.soup.triangles, kTriangles);
   EXPECT_EQ(ascii.report.missing_faces, 3999999998u);
-  EXPECT_EQ(ascii.report.warnings.at(0),
+  EXPECT_EQ(texts(ascii.report.warnings).at(0),
             "the header promises 4000000000 of the element face, the file holds 2");
 
   const std::string bytes =

@@ -9,6 +9,7 @@
 #include <mesh/soup_io.h>
 
 #include "soup_fixtures.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -43,7 +44,7 @@ TEST(ReadStl, CountInHeaderIsNotTrusted) {
     EXPECT_EQ(result.report.declared_triangles, count);
     EXPECT_EQ(result.report.missing_faces, count > 4 ? count - 4 : 0);
     ASSERT_EQ(result.report.warnings.size(), 1u);
-    EXPECT_THAT(result.report.warnings[0], HasSubstr("the file holds 4"));
+    EXPECT_THAT(texts(result.report.warnings)[0], HasSubstr("the file holds 4"));
   }
 }
 
@@ -53,7 +54,8 @@ TEST(ReadStl, CutBinarySaysHowManyTrianglesAreMissing) {
   EXPECT_EQ(result.soup.triangles.size(), 2u);
   EXPECT_EQ(result.report.missing_faces, 2u);
   EXPECT_EQ(result.report.trailing_bytes, 17u);
-  EXPECT_EQ(result.report.warnings.at(0), "the header promises 4 triangles, the file holds 2");
+  EXPECT_EQ(texts(result.report.warnings).at(0),
+            "the header promises 4 triangles, the file holds 2");
 }
 
 TEST(ReadStl, TrailingBytesAreCounted) {
@@ -175,7 +177,7 @@ TEST(ReadStl, LettersForNumbersAreCountedAsBadPoint) {
   EXPECT_EQ(result.soup.triangles.size(), 1u);
   EXPECT_EQ(result.report.bad_points, 2u);
   EXPECT_EQ(result.soup.points.back(), Vec3d(4, 5, 6));
-  EXPECT_THAT(result.report.warnings.at(0), HasSubstr("line 4"));
+  EXPECT_THAT(texts(result.report.warnings).at(0), HasSubstr("line 4"));
 }
 
 TEST(ReadStl, LoopOfFourIsAPolygon) {
@@ -192,7 +194,7 @@ TEST(ReadStl, FacetInWhichTheFileEndsIsLeftOut) {
   const ReadResult result = read_text(ascii.substr(0, ascii.rfind("endloop") - 6), "a.stl");
   EXPECT_EQ(result.soup.triangles.size(), 3u);
   EXPECT_EQ(result.report.bad_faces, 1u);
-  EXPECT_THAT(result.report.warnings.at(0), HasSubstr("1 facet left out"));
+  EXPECT_THAT(texts(result.report.warnings).at(0), HasSubstr("1 facet left out"));
 }
 
 TEST(ReadStl, TextWithoutFacetsIsRefused) {

@@ -12,6 +12,7 @@
 #include "package_bytes.h"
 #include "soup_fixtures.h"
 #include "threemf_soups.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -140,7 +141,7 @@ TEST(JoinedPackages, PartsOfOneNameGetDifferentNames) {
   EXPECT_EQ(parts[4].second, "settings of one");
   EXPECT_EQ(parts[7].second, "two");
   EXPECT_THAT(parts[1].second, HasSubstr("/Other/notes_2.txt"));
-  EXPECT_THAT(read_package(bytes).report.warnings, ElementsAre());
+  EXPECT_THAT(texts(read_package(bytes).report.warnings), ElementsAre());
 }
 
 }  // namespace

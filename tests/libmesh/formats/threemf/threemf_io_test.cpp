@@ -15,6 +15,7 @@
 #include "soup_fixtures.h"
 #include "temporary_folder.h"
 #include "threemf_soups.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -79,7 +80,7 @@ TEST(Threemf, RandomSoupsComeBackBitForBit) {
     const ReadResult back = read_all(format_soup(soup, SoupFormat::threemf));
     EXPECT_EQ(point_bits(back.soup), point_bits(soup));
     EXPECT_EQ(back.soup.triangles, soup.triangles);
-    EXPECT_THAT(back.report.warnings, ElementsAre());
+    EXPECT_THAT(texts(back.report.warnings), ElementsAre());
   });
 }
 
@@ -88,7 +89,7 @@ TEST(Threemf, MaterialsColoursAndTexturesComeBackBitForBit) {
     const ThreemfSoup made = random_threemf_soup(seed);
     const std::string bytes = write_all(made.soup, made.attributes);
     const ReadResult back = read_all(bytes);
-    EXPECT_THAT(back.report.warnings, ElementsAre());
+    EXPECT_THAT(texts(back.report.warnings), ElementsAre());
     EXPECT_EQ(back.soup.triangles, made.soup.triangles);
     EXPECT_EQ(point_bits(back.soup), point_bits(made.soup));
     expect_same_attributes(back.attributes, made.attributes, made.soup.triangles.size());
@@ -154,7 +155,7 @@ TEST(Threemf, SameInputSameBytes) {
 TEST(Threemf, CommentsAreTheDescription) {
   const std::string bytes = format_soup(tetrahedron(), SoupFormat::threemf, {{"a < b", "c"}});
   const ReadResult back = read_all(bytes);
-  EXPECT_THAT(read_all(write_all(back.soup, back.attributes, {"d"})).report.warnings,
+  EXPECT_THAT(texts(read_all(write_all(back.soup, back.attributes, {"d"})).report.warnings),
               ElementsAre());
 }
 
@@ -184,10 +185,10 @@ TEST(Threemf, OtherPartsUnitAndMetadataAreKept) {
               {"Metadata/model_settings.config", "<config><object id=\"1\"/></config>"},
               {"Metadata/plate_1.gcode", "G28"}});
   const ReadResult first = read_all(bytes);
-  EXPECT_THAT(first.report.warnings, ElementsAre(HasSubstr("2 parts of the package")));
+  EXPECT_THAT(texts(first.report.warnings), ElementsAre(HasSubstr("2 parts of the package")));
   const std::string again = write_all(first.soup, first.attributes);
   const ReadResult second = read_all(again);
-  EXPECT_THAT(second.report.warnings, ElementsAre());
+  EXPECT_THAT(texts(second.report.warnings), ElementsAre());
   EXPECT_EQ(write_all(second.soup, second.attributes), again);
   EXPECT_THAT(again, HasSubstr("Metadata/thumbnail.png"));
   EXPECT_THAT(again, HasSubstr("Metadata/project_settings.config"));
@@ -211,7 +212,8 @@ TEST(Threemf, PropertiesOfTheObjectHoldWhereTrianglesSayNothing) {
   EXPECT_EQ(name_at(materials, 1), "a");
   EXPECT_EQ(name_at(materials, 2), "-");
   EXPECT_EQ(result.attributes.looks[1].colour[3], 128 / 255.0);
-  EXPECT_THAT(result.report.warnings, ElementsAre("1 triangle with properties that are not there"));
+  EXPECT_THAT(texts(result.report.warnings),
+              ElementsAre("1 triangle with properties that are not there"));
 }
 
 TEST(Threemf, MaterialsOfOneNameAreToldApart) {
@@ -235,7 +237,8 @@ TEST(Threemf, LayersOfPropertiesAreTakenApart) {
   const ReadResult result = read_all(package_of(model_of(resources, item_of(1))));
   EXPECT_EQ(name_at(result.attributes.materials, 0), "a");
   EXPECT_THAT(find_kind(result.attributes, Kind::colour)->of_corner, ElementsAre(1u, 0u, 0u));
-  EXPECT_THAT(result.report.warnings, ElementsAre(HasSubstr("1 group of properties left out")));
+  EXPECT_THAT(texts(result.report.warnings),
+              ElementsAre(HasSubstr("1 group of properties left out")));
 }
 
 }  // namespace

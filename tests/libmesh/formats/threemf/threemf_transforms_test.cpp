@@ -9,6 +9,7 @@
 
 #include "package_bytes.h"
 #include "soup_fixtures.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -31,7 +32,7 @@ TEST(ReadThreemf, ReadsAnObjectWithoutTransform) {
   EXPECT_EQ(result.soup.points, tetrahedron().points);
   EXPECT_EQ(result.soup.triangles, tetrahedron().triangles);
   EXPECT_EQ(result.report.format, SoupFormat::threemf);
-  EXPECT_THAT(result.report.warnings, ElementsAre());
+  EXPECT_THAT(texts(result.report.warnings), ElementsAre());
 }
 
 TEST(ReadThreemf, ItemsArePutWhereTheirTransformsSay) {
@@ -86,7 +87,7 @@ TEST(ReadThreemf, WhatTheBuildDoesNotNameIsLeftOut) {
   const ReadResult result =
       read_bytes(package_of(model_of(tetrahedron_object(1) + tetrahedron_object(2), item_of(2))));
   EXPECT_EQ(result.soup.triangles.size(), 4u);
-  EXPECT_THAT(result.report.warnings, ElementsAre());
+  EXPECT_THAT(texts(result.report.warnings), ElementsAre());
 }
 
 TEST(ReadThreemf, SupportsAndOtherObjectsAreLeftOutWithAWarning) {
@@ -97,7 +98,7 @@ TEST(ReadThreemf, SupportsAndOtherObjectsAreLeftOutWithAWarning) {
                               assembly_of(5, component_of(1) + component_of(2)),
                           item_of(5) + item_of(3) + item_of(4))));
   EXPECT_EQ(result.soup.triangles.size(), 4u);
-  EXPECT_THAT(result.report.warnings,
+  EXPECT_THAT(texts(result.report.warnings),
               ElementsAre(HasSubstr("object that is not built 'object 2' left out"),
                           HasSubstr("support 'object 3' left out"),
                           HasSubstr("support 'object 4' left out")));
@@ -110,7 +111,7 @@ TEST(ReadThreemf, ObjectsInOtherPartsAreFound) {
   const std::string other = model_of(tetrahedron_object(1));
   const ReadResult result = read_bytes(package_of(model, {{"3D/Objects/object_1.model", other}}));
   EXPECT_EQ(result.soup.triangles, tetrahedron().triangles);
-  EXPECT_THAT(result.report.warnings, ElementsAre());
+  EXPECT_THAT(texts(result.report.warnings), ElementsAre());
 }
 
 TEST(ReadThreemf, OtherPartsMayHaveOtherUnits) {

@@ -11,6 +11,7 @@
 
 #include "formats/common/zip_reader.h"
 #include "package_bytes.h"
+#include "warning_texts.h"
 
 namespace meshrepair {
 namespace {
@@ -91,8 +92,8 @@ std::string type_of(const std::string& type) {
 
 std::string config_of(int id, const std::string& inside) {
   return "<config>\n <object id=\"" + std::to_string(id) +
-         "\" instances_count=\"1\"><metadata type=\"object\" key=\"name\" value=\"lid\"/>" + inside +
-         "</object>\n</config>";
+         "\" instances_count=\"1\"><metadata type=\"object\" key=\"name\" value=\"lid\"/>" +
+         inside + "</object>\n</config>";
 }
 
 std::string prusa_package(const std::string& more = {}) {
@@ -115,10 +116,11 @@ TEST(ThreemfVolumes, RangesOfTrianglesAreVolumes) {
                           "modifier dense: left_out", "modifier old: left_out",
                           "support blocker block: left_out", "support enforcer here: left_out"));
   EXPECT_EQ(result.report.volumes[0].object, "lid");
-  EXPECT_THAT(result.report.warnings,
-              ElementsAre("negative volume 'cut' of the object 'lid' left out: it is not subtracted",
-                          HasSubstr("modifier 'dense' of the object 'lid' left out"),
-                          HasSubstr("'old'"), HasSubstr("'block'"), HasSubstr("'here'")));
+  EXPECT_THAT(
+      texts(result.report.warnings),
+      ElementsAre("negative volume 'cut' of the object 'lid' left out: it is not subtracted",
+                  HasSubstr("modifier 'dense' of the object 'lid' left out"), HasSubstr("'old'"),
+                  HasSubstr("'block'"), HasSubstr("'here'")));
 }
 
 TEST(ThreemfVolumes, NegativeOnesAreLeftOutOrKeptOrToldApart) {
@@ -144,7 +146,7 @@ TEST(ThreemfVolumes, RangesAreOneMeshAgainWithTheirNewTriangles) {
   ASSERT_EQ(result.scene.meshes.size(), 7u);  // and what is in no volume
   EXPECT_EQ(result.scene.meshes[0].name, "body");
   EXPECT_EQ(result.scene.meshes[0].triangles, 2u);
-  EXPECT_THAT(result.report.warnings, ElementsAre(HasSubstr("2 triangles left out")));
+  EXPECT_THAT(texts(result.report.warnings), ElementsAre(HasSubstr("2 triangles left out")));
   const std::string package = project_again(result);
   const std::string config = text_in(package, kPrusa);
   EXPECT_THAT(config, HasSubstr("<object id=\"7\" instances_count=\"1\">"));
@@ -164,21 +166,20 @@ TEST(ThreemfVolumes, RangesThatAreNotThereOrOverlapAreModel) {
   for (const std::string& volume :
        {volume_of(4, 99, "far", cut), volume_of(5, 4, "back", cut), volume_of(3, 7, "both", cut),
         std::string("<volume firstid=\"4\">") + cut + "</volume>"}) {
-    const std::string config =
-        config_of(1, volume_of(0, 3, "body", type_of("ModelPart")) + volume);
-    const ReadResult result = read_project(
-        package_of(model_of(tetrahedra_object(1, 2), item_of(1)), {{kPrusa, config}}));
+    const std::string config = config_of(1, volume_of(0, 3, "body", type_of("ModelPart")) + volume);
+    const ReadResult result =
+        read_project(package_of(model_of(tetrahedra_object(1, 2), item_of(1)), {{kPrusa, config}}));
     EXPECT_EQ(result.soup.triangles.size(), 8u) << volume;
-    EXPECT_THAT(result.report.warnings, ElementsAre(HasSubstr("1 volume taken for model")));
+    EXPECT_THAT(texts(result.report.warnings), ElementsAre(HasSubstr("1 volume taken for model")));
   }
 }
 
 std::string orca_package() {
   const std::string path = "p:path=\"/3D/Objects/object_1.model\" ";
-  const std::string model =
-      model_of(assembly_of(8, component_of(1, path) + component_of(2, path) + component_of(1, path)) +
-                   assembly_of(9, component_of(1, path)),
-               item_of(8) + item_of(9), "requiredextensions=\"p\"");
+  const std::string model = model_of(
+      assembly_of(8, component_of(1, path) + component_of(2, path) + component_of(1, path)) +
+          assembly_of(9, component_of(1, path)),
+      item_of(8) + item_of(9), "requiredextensions=\"p\"");
   const std::string config =
       "<?xml version=\"1.0\"?>\n<config>\n<!-- kept --><object id=\"8\">"
       "<metadata key=\"name\" value=\"box\"/><metadata face_count=\"99\"/>"
@@ -199,8 +200,9 @@ std::string orca_package() {
 
 TEST(ThreemfVolumes, ComponentsAreVolumesAndMayBeSeveral) {
   const ReadResult result = read_negative(orca_package(), NegativeVolumes::subtract);
-  EXPECT_THAT(roles_of(result), ElementsAre("model body: joined", "negative volume : subtracted",
-                                            "support blocker : left_out", "model object 1: joined"));
+  EXPECT_THAT(roles_of(result),
+              ElementsAre("model body: joined", "negative volume : subtracted",
+                          "support blocker : left_out", "model object 1: joined"));
   EXPECT_EQ(result.soup.triangles.size(), 4u + 8u + 4u);
   ASSERT_EQ(result.placed.size(), 3u);
   EXPECT_EQ(result.placed[0].object, result.placed[1].object);
@@ -209,7 +211,7 @@ TEST(ThreemfVolumes, ComponentsAreVolumesAndMayBeSeveral) {
 
 TEST(ThreemfVolumes, ProjectsFollowIdsAndLoseWhatIsGone) {
   const ReadResult result = read_each(orca_package());
-  EXPECT_THAT(result.report.warnings,
+  EXPECT_THAT(texts(result.report.warnings),
               ElementsAre(HasSubstr("plate_1.gcode will not be written again: it belongs to")));
   EXPECT_EQ(text_in(project_again(result), kOrca),
             "<?xml version=\"1.0\"?>\n<config>\n<!-- kept --><object id=\"8\">"
@@ -231,10 +233,10 @@ TEST(ThreemfVolumes, ObjectsOfOneIdInTwoPartsGetNewOnesInTheirProjects) {
   const std::string config =
       "<config><object id=\"5\"><part id=\"1\" subtype=\"normal_part\"/>"
       "<part id=\"1\" subtype=\"modifier_part\"/></object></config>";
-  const ReadResult result = read_each(
-      package_of(model, {{"3D/b.model", model_of(tetrahedron_object(1))},
-                         {"3D/c.model", model_of(tetrahedra_object(1, 2))},
-                         {kOrca, config}}));
+  const ReadResult result =
+      read_each(package_of(model, {{"3D/b.model", model_of(tetrahedron_object(1))},
+                                   {"3D/c.model", model_of(tetrahedra_object(1, 2))},
+                                   {kOrca, config}}));
   const std::string package = project_again(result);
   EXPECT_EQ(text_in(package, kOrca),
             "<config><object id=\"5\"><part id=\"1\" subtype=\"normal_part\"/>"
@@ -252,20 +254,20 @@ TEST(ThreemfVolumes, SettingsOfCuraSayWhatAMeshIs) {
                                                     "\" preserve=\"true\">" + value +
                                                     "</metadata></metadatagroup>");
   };
-  std::string model = model_of(
-      cura(1, "drop_to_buildplate", "True") + cura(2, "support_mesh", "True") +
-          cura(3, "anti_overhang_mesh", "True") + cura(4, "infill_mesh", "True") +
-          cura(5, "cutting_mesh", "true") + cura(6, "infill_mesh", "False"),
-      item_of(1) + item_of(2) + item_of(3) + item_of(4) + item_of(5) + item_of(6));
+  std::string model =
+      model_of(cura(1, "drop_to_buildplate", "True") + cura(2, "support_mesh", "True") +
+                   cura(3, "anti_overhang_mesh", "True") + cura(4, "infill_mesh", "True") +
+                   cura(5, "cutting_mesh", "true") + cura(6, "infill_mesh", "False"),
+               item_of(1) + item_of(2) + item_of(3) + item_of(4) + item_of(5) + item_of(6));
   const std::string space = "xmlns:cura=\"http://software.ultimaker.com/xml/cura/3mf/2015/10\" ";
   model.insert(model.find("<model ") + 7, space);
   const ReadResult result = read_project(package_of(model));
   EXPECT_EQ(result.soup.triangles.size(), 8u);
-  EXPECT_THAT(roles_of(result),
-              ElementsAre("model drop_to_buildplate: joined", "support support_mesh: left_out",
-                          "support blocker anti_overhang_mesh: left_out",
-                          "modifier infill_mesh: left_out", "modifier cutting_mesh: left_out",
-                          "model infill_mesh: joined"));
+  EXPECT_THAT(
+      roles_of(result),
+      ElementsAre("model drop_to_buildplate: joined", "support support_mesh: left_out",
+                  "support blocker anti_overhang_mesh: left_out", "modifier infill_mesh: left_out",
+                  "modifier cutting_mesh: left_out", "model infill_mesh: joined"));
 }
 
 TEST(ThreemfVolumes, ItemsThatAreNotPrintedAreLeftOutUnlessAllAre) {
@@ -273,12 +275,13 @@ TEST(ThreemfVolumes, ItemsThatAreNotPrintedAreLeftOutUnlessAllAre) {
   const ReadResult some =
       read_project(package_of(model_of(objects, item_of(1) + item_of(2, "printable=\"0\""))));
   EXPECT_EQ(some.soup.triangles.size(), 4u);
-  EXPECT_THAT(some.report.warnings,
+  EXPECT_THAT(texts(some.report.warnings),
               ElementsAre("volume 'object 2' left out: it is not to be printed"));
   const ReadResult all = read_project(
       package_of(model_of(objects, item_of(1, "printable=\"0\"") + item_of(2, "printable=\"0\""))));
   EXPECT_EQ(all.soup.triangles.size(), 12u);
-  EXPECT_THAT(all.report.warnings, ElementsAre(HasSubstr("none of its items is to be printed")));
+  EXPECT_THAT(texts(all.report.warnings),
+              ElementsAre(HasSubstr("none of its items is to be printed")));
 }
 
 TEST(ThreemfVolumes, AProjectWithoutAModelSaysWhy) {
@@ -299,7 +302,7 @@ TEST(ThreemfVolumes, ProjectsThatCannotBeReadAreTold) {
         package_of(model_of(tetrahedron_object(1), item_of(1)), {{kOrca, config}});
     const ReadResult result = read_each(package);
     EXPECT_EQ(result.soup.triangles.size(), 4u);
-    EXPECT_THAT(result.report.warnings, ElementsAre(HasSubstr("cannot be read")));
+    EXPECT_THAT(texts(result.report.warnings), ElementsAre(HasSubstr("cannot be read")));
     EXPECT_EQ(text_in(project_again(result), kOrca), "");
   }
 }

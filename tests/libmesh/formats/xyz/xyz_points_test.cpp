@@ -6,6 +6,8 @@
 #include <base/error.h>
 #include <mesh/point_io.h>
 
+#include "warning_texts.h"
+
 namespace meshrepair {
 namespace {
 
@@ -97,7 +99,8 @@ TEST(XyzPoints, NormalsOfPwnThatAreNotAllThereAreLeftOut) {
   EXPECT_EQ(result.cloud.points, std::vector<Vec3d>(100, Vec3d(1, 2, 3)));
   EXPECT_TRUE(result.cloud.normals.empty());
   ASSERT_EQ(result.report.warnings.size(), 1u);
-  EXPECT_EQ(result.report.warnings[0], "of 100 points the normals of 60 are there: none are taken");
+  EXPECT_EQ(texts(result.report.warnings)[0],
+            "of 100 points the normals of 60 are there: none are taken");
 }
 
 TEST(XyzPoints, PureColoursAreNoNormals) {
@@ -140,7 +143,8 @@ TEST(XyzPoints, BadLinesAreLeftOutAndCounted) {
   const PointReadResult result = read("1 2 3\nabc\n1 2\n-4.5 5e-3 6\n7 x 8\n1 1 1\n2 2 2\n");
   EXPECT_EQ(result.cloud.points.size(), 4U);
   EXPECT_EQ(result.report.bad_points, 3U);
-  EXPECT_EQ(result.report.warnings[0], "3 lines without three numbers left out (first: line 2)");
+  EXPECT_EQ(texts(result.report.warnings)[0],
+            "3 lines without three numbers left out (first: line 2)");
 }
 
 TEST(XyzPoints, NaNIsKept) {

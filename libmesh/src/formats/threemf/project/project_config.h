@@ -85,10 +85,10 @@ class ProjectConfig {
   // A place in the text that may change: a value, or an element.
   struct Spot {
     enum class Kind : std::uint8_t {
-      object,          // the element
-      volume,          // the same
-      instance,        // an element that is nothing without its object
-      object_id,       // values
+      object,     // the element
+      volume,     // the same
+      instance,   // an element that is nothing without its object
+      object_id,  // values
       part_id,
       first,
       last,
