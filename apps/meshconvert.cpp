@@ -28,9 +28,11 @@ ReadResult read_input(SoupFormat output, StepOptions& options, Run& run, Finding
   if (output != SoupFormat::threemf || options.assets.scene_chosen || options.input == "-") {
     return read_mesh_stage(reading, run, findings);
   }
+  reading.may_be_empty = true;  // of a model
   ReadResult input = read_soup(options.input, reading);
-  if (!input.report.volumes.empty()) {
-    reading.by_mesh = options.assets.by_mesh = true;
+  reading.may_be_empty = false;
+  if (!input.report.volumes.empty()) reading.by_mesh = options.assets.by_mesh = true;
+  if (reading.by_mesh || input.soup.triangles.empty()) {
     return read_mesh_stage(reading, run, findings);
   }
   keep_read_report(input.report, findings);

@@ -45,7 +45,7 @@ struct ReadReport {
   std::uint64_t missing_faces = 0;  // promised by the header, not in the file
   std::size_t trailing_bytes = 0;   // after the last element of a binary file
   NamesInFile names;
-  std::vector<ModelVolume> volumes;  // empty: all that is there is the model
+  std::vector<ModelVolume> volumes;  // of a slicer's project; empty: there is only a model
   // One sentence for each kind of oddity, for the user, without the file's name.
   std::vector<Warning> warnings;
 };

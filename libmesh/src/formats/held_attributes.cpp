@@ -84,6 +84,7 @@ Attributes held_by(SoupFormat format, Attributes attributes) {
     attributes.looks.clear();
     attributes.images.clear();
   }
+  if (format != SoupFormat::threemf) attributes.paints.clear();
   if (!held.groups) attributes.groups = attributes.objects = attributes.smoothing = {};
   return attributes;
 }

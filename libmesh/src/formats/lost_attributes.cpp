@@ -94,6 +94,8 @@ class Finder {
     for (const auto& [words, labels] : kLabels) {
       if (!(all_.*labels).empty() && (held_.*labels).empty()) add(std::string(words));
     }
+    if (!held_.paints.empty()) return;
+    for (const TrianglePaint& paint : all_.paints) add("'" + paint.name + "'");
   }
 
   // Of an attribute that the format does hold.

@@ -311,10 +311,13 @@ class InstancePlacer {
     auto& volumes = result_.volumes;
     if (std::none_of(volumes.begin(), volumes.end(), is_subtracted)) result_.placed = {};
     result_.none_printed = result_.none_printed && !volumes.empty();
-    if (!result_.none_printed && std::all_of(volumes.begin(), volumes.end(),
-                                             [](const auto& one) { return one.is_plain(); })) {
-      volumes = {};
-    }
+    const auto& objects = parts_.front().objects;
+    const bool is_project =
+        std::any_of(objects.begin(), objects.end(),
+                    [](const ModelObject& object) { return object.project != nullptr; });
+    const bool is_plain = std::all_of(volumes.begin(), volumes.end(),
+                                      [](const ModelVolume& volume) { return volume.is_plain(); });
+    if (is_plain && !is_project && !result_.none_printed) volumes = {};
   }
 
   // The mesh itself once, and where it stands.

@@ -61,7 +61,7 @@ struct InstanceResult {
   // In the soup. Mesh by mesh each stands there once, where it is.
   std::vector<MeshInstance> instances;
   std::size_t missing = 0;  // references to objects that are not there
-  // All; none if they are all plain.
+  // All; none if they are all plain, and no project says anything of them.
   std::vector<ModelVolume> volumes;
   std::vector<PlacedVolume> placed;  // if there are negative volumes to subtract
   bool none_printed = false;         // no item is to be printed: all are taken

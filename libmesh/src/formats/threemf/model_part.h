@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -26,7 +27,29 @@ namespace meshrepair {
 struct PropertyUse {
   std::uint32_t group = kNone;  // its id; kNone: that of the object
   std::array<std::uint32_t, 3> index = {kNone, kNone, kNone};
+  std::uint32_t paint = kNone;  // of triangles: a number of ModelPart::painted
 };
+
+// Attributes of triangles that slicers paint: as they are read, and as they are written.
+struct PaintName {
+  std::string_view read, written;
+};
+
+inline constexpr std::string_view kPrusaSpace = "http://schemas.slic3r.org/3mf/2017/06";
+inline constexpr std::string_view kPrusaPrefix = "slic3rpe";
+inline constexpr std::array<PaintName, 8> kPaintNames = {{
+    {"paint_color", "paint_color"},
+    {"paint_supports", "paint_supports"},
+    {"paint_seam", "paint_seam"},
+    {"paint_fuzzy_skin", "paint_fuzzy_skin"},
+    {"http://schemas.slic3r.org/3mf/2017/06|mmu_segmentation", "slic3rpe:mmu_segmentation"},
+    {"http://schemas.slic3r.org/3mf/2017/06|custom_supports", "slic3rpe:custom_supports"},
+    {"http://schemas.slic3r.org/3mf/2017/06|custom_seam", "slic3rpe:custom_seam"},
+    {"http://schemas.slic3r.org/3mf/2017/06|fuzzy_skin", "slic3rpe:fuzzy_skin"},
+}};
+
+// Of a triangle: numbers of ModelPart::codes, by kPaintNames; kNone: no paint.
+using PaintCodes = std::array<std::uint32_t, kPaintNames.size()>;
 
 // "Title", "Designer", ...
 struct ModelMetadata {
@@ -111,6 +134,8 @@ struct ModelPart {
   std::vector<ModelTexture> textures;
   std::vector<ObjectReference> items;  // of the build
   std::string build_uuid;
+  std::vector<std::string> codes;  // of paint, each once
+  std::vector<PaintCodes> painted;
 };
 
 // Of all parts of a package: what could not be taken.

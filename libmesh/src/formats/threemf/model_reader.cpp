@@ -366,7 +366,7 @@ void ModelReader::read_triangle(const XmlAttributes& attributes) {
   bool is_painted = false;
   attributes.visit([&](std::string_view name, std::string_view value) {
     if (name == "pid") property.group = read_model_index(value);
-    is_painted = is_painted || name.size() > 3;
+    if (name.size() > 3 && !add_paint(name, value, property)) is_painted = true;
     if (name.size() != 2 || name[1] < '1' || name[1] > '3') return;
     const auto corner = static_cast<std::size_t>(name[1] - '1');
     if (name[0] == 'v') triangle[corner] = read_model_index(value);
@@ -375,6 +375,24 @@ void ModelReader::read_triangle(const XmlAttributes& attributes) {
   object().mesh.triangles.push_back(triangle);
   if (is_painted) ++oddities_.painted;
   if (properties_) object().properties.push_back(property);
+}
+
+// False if it is none that is known.
+bool ModelReader::add_paint(std::string_view name, std::string_view value, PropertyUse& property) {
+  const auto* const known =
+      std::find_if(kPaintNames.begin(), kPaintNames.end(),
+                   [&](const PaintName& candidate) { return candidate.read == name; });
+  if (known == kPaintNames.end()) return false;
+  if (!properties_ || value.empty()) return true;
+  if (property.paint == kNone) {
+    property.paint = static_cast<std::uint32_t>(part_.painted.size());
+    part_.painted.emplace_back().fill(kNone);
+  }
+  const auto fresh = static_cast<std::uint32_t>(part_.codes.size());
+  const auto [code, is_new] = number_of_code_.try_emplace(std::string(value), fresh);
+  if (is_new) part_.codes.push_back(code->first);
+  part_.painted.back()[static_cast<std::size_t>(known - kPaintNames.begin())] = code->second;
+  return true;
 }
 
 // The points are known: triangles that name others are left out.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "common/xml_stream.h"
@@ -50,6 +51,7 @@ class ModelReader final : public XmlHandler {
   void read_layer_entries(const XmlAttributes& attributes);
   void add_group(PropertyGroup::Kind kind, const XmlAttributes& attributes);
   void add_colour(std::string_view text);
+  bool add_paint(std::string_view name, std::string_view value, PropertyUse& property);
   void end_mesh();
   void end_group(bool is_of_item);
 
@@ -67,6 +69,7 @@ class ModelReader final : public XmlHandler {
   const XmlStream* stream_ = nullptr;
   std::vector<Element> open_;
   std::vector<ModelMetadata> metadata_of_group_;
+  std::unordered_map<std::string, std::uint32_t> number_of_code_;
   bool saw_model_ = false;
 };
 

@@ -133,6 +133,10 @@ class ModelWriter {
       append_xml_attribute(xml_, "xmlns:" + production_, kProductionSpace);
       declared_.emplace(production_, kProductionSpace);
     }
+    if (has_prusa_paint()) {
+      append_xml_attribute(xml_, "xmlns:" + std::string(kPrusaPrefix), kPrusaSpace);
+      declared_.emplace(kPrusaPrefix, kPrusaSpace);
+    }
     if (kept_ != nullptr) {
       for (const ModelNamespace& one : kept_->namespaces) {
         if (one.prefix.empty() || one.space.empty() || !is_in_use(one.prefix)) continue;
@@ -161,6 +165,12 @@ class ModelWriter {
              return has_one(object) ||
                     std::any_of(object.components.begin(), object.components.end(), has_one);
            });
+  }
+
+  [[nodiscard]] bool has_prusa_paint() const {
+    return attributes_ != nullptr &&
+           std::any_of(attributes_->paints.begin(), attributes_->paints.end(),
+                       [](const auto& paint) { return paint.name.starts_with(kPrusaPrefix); });
   }
 
   void append_uuid(const std::string& uuid) {
@@ -454,7 +464,16 @@ class ModelWriter {
         append("\" p3=\"", index[2]);
       }
     }
-    lines += "\"/>\n";
+    lines += '"';
+    if (attributes_ != nullptr) append_paint(lines, t);
+    lines += "/>\n";
+  }
+
+  void append_paint(std::string& lines, std::size_t t) const {
+    for (const TrianglePaint& paint : attributes_->paints) {
+      const std::uint32_t code = paint.codes.empty() ? kNone : paint.codes.of_triangle[t];
+      if (code != kNone) append_xml_attribute(lines, paint.name, paint.codes.names[code]);
+    }
   }
 
   const TriangleSoup& soup_;
