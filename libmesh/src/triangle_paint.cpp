@@ -14,7 +14,8 @@ namespace {
 
 using PaintCorners = std::array<PaintPlace, 3>;
 
-constexpr std::size_t kDeepestPaint = 24;  // as far as halves of halves are exact, and no stack ends
+constexpr std::size_t kDeepestPaint =
+    24;  // as far as halves of halves are exact, and no stack ends
 constexpr int kDeepestPiece = 5;
 // Two triangles have less in common where they only touch; the sides of the painted one are 1 long.
 constexpr double kTouch = 1e-9;
@@ -33,7 +34,8 @@ PaintPlace middle(const PaintPlace& a, const PaintPlace& b) {
 
 std::array<PaintCorners, 4> pieces_of(std::uint32_t sides, std::uint32_t first,
                                       const PaintCorners& corners) {
-  const PaintPlace &a = corners[first], &b = corners[(first + 1) % 3], &c = corners[(first + 2) % 3];
+  const PaintPlace &a = corners[first], &b = corners[(first + 1) % 3],
+                   &c = corners[(first + 2) % 3];
   const PaintPlace ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
   if (sides == 1) return {{{a, b, bc}, {bc, c, a}, {}, {}}};
   if (sides == 2) return {{{a, ab, ca}, {ab, b, ca}, {b, c, ca}, {}}};
@@ -221,13 +223,10 @@ class PaintResample {
     for (std::size_t k = 0; k < 3; ++k) {
       const PaintPlace &a = triangle[k], &b = triangle[(k + 1) % 3], &c = triangle[(k + 2) % 3];
       const double x = b[1] - a[1], y = b[2] - a[2], length = std::hypot(x, y);
-      const auto side = [&](const PaintPlace& p) {
-        return x * (p[2] - a[2]) - y * (p[1] - a[1]);
-      };
+      const auto side = [&](const PaintPlace& p) { return x * (p[2] - a[2]) - y * (p[1] - a[1]); };
       const double sign = side(c) < 0 ? -1 : 1;
-      if (std::all_of(other.begin(), other.end(), [&](const PaintPlace& p) {
-            return sign * side(p) <= kTouch * length;
-          })) {
+      if (std::all_of(other.begin(), other.end(),
+                      [&](const PaintPlace& p) { return sign * side(p) <= kTouch * length; })) {
         return true;
       }
     }
@@ -258,7 +257,8 @@ class PaintResample {
       return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
     };
     const double all = area(triangle[0], triangle[1], triangle[2]);
-    return std::min({area(p, triangle[1], triangle[2]) / all, area(triangle[0], p, triangle[2]) / all,
+    return std::min({area(p, triangle[1], triangle[2]) / all,
+                     area(triangle[0], p, triangle[2]) / all,
                      area(triangle[0], triangle[1], p) / all});
   }
 

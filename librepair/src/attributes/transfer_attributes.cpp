@@ -206,8 +206,7 @@ class PaintTransfer {
     std::unordered_map<std::string, std::uint32_t> numbers;
     for (std::size_t t = 0; t < sources_.size(); ++t) {
       const std::uint32_t source = sources_[t];
-      std::uint32_t code =
-          source == Surface::kNoSource ? kNone : given.codes.of_triangle[source];
+      std::uint32_t code = source == Surface::kNoSource ? kNone : given.codes.of_triangle[source];
       if (code != kNone && !is_whole(t, source)) {
         code = number_of(code_of(given.codes.names[code], t, source), result.codes.names, numbers);
       }
