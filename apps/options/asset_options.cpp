@@ -57,6 +57,7 @@ void drop_chosen(const std::vector<std::string>& drops, bool keeps_scene, Attrib
     attributes.images.clear();
     if (!keeps_scene) attributes.keepsake = nullptr;  // it has materials, too
   }
+  if (is_among(drops, "others")) attributes.paints.clear();
   if (is_among(drops, "groups")) attributes.groups = attributes.smoothing = {};
 }
 
@@ -67,8 +68,8 @@ bool AssetOptions::drops_all() const { return is_among(drops, kAllKinds); }
 void add_drop_option(CommandLine& app, AssetOptions& options) {
   app.add_option("--drop", options.drops,
                  "Do not write these attributes of IN: textures, normals, tangents, colours,\n"
-                 "others, materials, groups; separated by commas. all: read and write none of\n"
-                 "them")
+                 "others (also paint), materials, groups; separated by commas. all: read and\n"
+                 "write none of them")
       ->delimiter(',')
       ->check(is_one_of(kinds()))
       ->type_name("KIND,...")

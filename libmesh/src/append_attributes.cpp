@@ -239,6 +239,7 @@ void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
     append_labels(all.*labels, triangles, other.*labels, triangles_of_other, names);
   }
   append_paints(all, triangles, other, triangles_of_other);
+  if (all.filaments.empty()) all.filaments = std::move(other.filaments);
 }
 
 }  // namespace meshrepair

@@ -324,6 +324,11 @@ std::optional<std::uint32_t> main_state(std::string_view code) {
       ->first;
 }
 
+bool is_divided(std::string_view code) {
+  const PaintTree tree(code);
+  return tree.is_good() && tree[0].sides > 0;
+}
+
 void turn_paint(TrianglePaint& paint, std::span<const std::size_t> triangles) {
   TriangleLabels& codes = paint.codes;
   if (codes.empty()) return;

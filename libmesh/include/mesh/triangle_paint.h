@@ -36,6 +36,9 @@ using PaintPlace = std::array<double, 3>;
 // The state of most of the area; nothing where the code is none.
 [[nodiscard]] std::optional<std::uint32_t> main_state(std::string_view code);
 
+// Whether there is a code, and it divides the triangle.
+[[nodiscard]] bool is_divided(std::string_view code);
+
 // For triangles whose second and third corners change places.
 void turn_paint(TrianglePaint& paint, std::span<const std::size_t> triangles);
 

@@ -9,6 +9,7 @@
 #include <mesh/soup_io.h>
 
 #include "formats/obj/obj_io.h"
+#include "formats/painted_materials.h"
 
 namespace meshrepair {
 namespace {
@@ -71,6 +72,10 @@ std::optional<Attributes> placed_for(SoupFormat format, const Attributes& attrib
 
 Attributes held_by(SoupFormat format, Attributes attributes) {
   const Held held = held_by(format);
+  if (format != SoupFormat::threemf) {
+    if (held.materials) make_materials_of_paint(attributes);
+    attributes.paints.clear();
+  }
   // Before sets go that pictures may lie by.
   if (held.materials && held.textures == 1) {
     if (auto placed = placed_for(format, attributes)) attributes = std::move(*placed);
@@ -84,7 +89,6 @@ Attributes held_by(SoupFormat format, Attributes attributes) {
     attributes.looks.clear();
     attributes.images.clear();
   }
-  if (format != SoupFormat::threemf) attributes.paints.clear();
   if (!held.groups) attributes.groups = attributes.objects = attributes.smoothing = {};
   return attributes;
 }

@@ -8,8 +8,10 @@
 
 #include <mesh/lost_attributes.h>
 #include <mesh/precision.h>
+#include <mesh/triangle_paint.h>
 
 #include "formats/obj/obj_io.h"
+#include "formats/painted_materials.h"
 #include "formats/threemf/threemf_io.h"
 
 namespace meshrepair {
@@ -95,7 +97,15 @@ class Finder {
       if (!(all_.*labels).empty() && (held_.*labels).empty()) add(std::string(words));
     }
     if (!held_.paints.empty()) return;
-    for (const TrianglePaint& paint : all_.paints) add("'" + paint.name + "'");
+    const TrianglePaint* const filaments = filament_paint(all_);
+    const bool are_materials = all_.materials.empty() && !held_.materials.empty();
+    for (const TrianglePaint& paint : all_.paints) {
+      if (&paint != filaments || !are_materials) {
+        add("'" + paint.name + "'");
+      } else if (std::any_of(paint.codes.names.begin(), paint.codes.names.end(), is_divided)) {
+        add("'" + paint.name + "' of parts of triangles");
+      }
+    }
   }
 
   // Of an attribute that the format does hold.

@@ -272,6 +272,7 @@ Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attr
   for (const TrianglePaint& paint : attributes.paints) {
     result.paints.push_back(PaintTransfer(input, surface, sources).run(paint));
   }
+  result.filaments = attributes.filaments;
   result.keepsake = attributes.keepsake;
   internal::fill_patches(surface, result);
   return result;

@@ -9,6 +9,7 @@
 #include <base/error.h>
 
 #include "common/xml_stream.h"
+#include "filament_colours.h"
 #include "formats/common/part_names.h"
 #include "formats/common/zip_reader.h"
 #include "kept_parts.h"
@@ -254,6 +255,11 @@ class ThreemfReader {
     kept.metadata = std::move(first.metadata);
     if (source_.options.by_mesh) kept.configs = configs_;
     keep_parts(source_, archive_, types_, first.name, taken, kept, result_.report);
+    for (const KeptPackage::Part& part : kept.parts) {
+      if (!result_.attributes.paints.empty() && is_print_settings(part_key(part.name))) {
+        result_.attributes.filaments = read_filament_colours(*part.bytes);
+      }
+    }
   }
 
   // A prefix means what it meant first.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <mesh/lost_attributes.h>
 #include <mesh/soup_io.h>
 
 #include "formats/common/zip_reader.h"
@@ -311,6 +312,60 @@ TEST(ThreemfVolumes, FormatsWithoutProjectsSayWhatIsLost) {
   const ReadResult result = read_each(orca_package());
   EXPECT_THAT(result.attributes.keepsake->lost_in(SoupFormat::glb),
               ElementsAre("what slicers say of objects and volumes"));
+}
+
+// Of the four triangles the first two are painted.
+std::string painted_package(const std::string& settings_name, const std::string& settings) {
+  std::string object = tetrahedron_object(1);
+  object.insert(object.find("/>", object.find("<triangle ")), " paint_color=\"0C\"");
+  object.insert(object.find("/>", object.find("<triangle v1=\"0\" v2=\"1\"")),
+                " paint_color=\"841\" paint_seam=\"4\"");
+  const std::string mirror = "transform=\"-1 0 0 0 1 0 0 0 1 9 0 0\"";
+  return package_of(model_of(object, item_of(1) + item_of(1, mirror)), {{settings_name, settings}});
+}
+
+TEST(ThreemfPaint, StaysAndIsTurnedInAMirror) {
+  ReadOptions options;
+  options.attributes = true;
+  const ReadResult result =
+      read_project(painted_package("Metadata/project_settings.config", "{}"), options);
+  ASSERT_EQ(result.attributes.paints.size(), 2u);
+  const TriangleLabels& codes = result.attributes.paints[0].codes;
+  const auto code = [&](std::size_t t) {
+    return codes.of_triangle[t] == kNone ? std::string() : codes.names[codes.of_triangle[t]];
+  };
+  EXPECT_EQ(code(0), "0C");
+  EXPECT_EQ(code(1), "841");
+  EXPECT_EQ(code(2), "");
+  EXPECT_EQ(code(4), "0C");
+  EXPECT_EQ(result.attributes.paints[1].name, "paint_seam");
+  const std::string again =
+      format_soup(result.soup, SoupFormat::threemf, {.attributes = &result.attributes});
+  EXPECT_THAT(text_in(again, "3D/3dmodel.model"),
+              HasSubstr(" paint_color=\"841\" paint_seam=\"4\"/>"));
+}
+
+TEST(ThreemfPaint, FilamentsAreMaterialsElsewhere) {
+  ReadOptions options;
+  options.attributes = true;
+  for (const auto& [name, settings] :
+       {std::pair("Metadata/project_settings.config",
+                  "{\"a\": 1, \"filament_colour\": [\"#FF0000\", \"#00FF00\",\n \"#0000FF\"]}"),
+        std::pair("Metadata/Slic3r_PE.config",
+                  "; first line\n; extruder_colour = \"\";\"\";#0000FF\n; filament_colour = "
+                  "#FF0000;#00FF00;#000000\n")}) {
+    const ReadResult result = read_project(painted_package(name, settings), options);
+    const Attributes held = held_by(SoupFormat::obj, result.attributes);
+    EXPECT_THAT(held.materials.names, ElementsAre("filament 1", "filament 3"));
+    EXPECT_EQ(held.looks[0].colour, (std::array<double, 4>{1, 0, 0, 1}));
+    EXPECT_EQ(held.looks[1].colour, (std::array<double, 4>{0, 0, 1, 1}));
+    EXPECT_EQ(held.materials.of_triangle[0], 1u);
+    EXPECT_EQ(held.materials.of_triangle[1], 0u);
+    EXPECT_EQ(held.materials.of_triangle[2], kNone);
+    EXPECT_THAT(lost_attributes(result.soup, result.attributes, held, SoupFormat::obj),
+                ElementsAre("'paint_color' of parts of triangles", "'paint_seam'",
+                            "other parts of the package"));
+  }
 }
 
 }  // namespace
