@@ -7,6 +7,7 @@
 
 #include <base/error.h>
 
+#include "report/words.h"
 #include "steps/boolean_steps.h"
 #include "steps/run_steps.h"
 #include "summary/warnings.h"
@@ -40,6 +41,7 @@ RepairOutcome run_in_memory(const Session& session, const Runner& runner, const 
   static_cast<Outcome&>(outcome) = runner(session, [&](Run& run) {
     Findings findings(name, "the result");
     findings.purpose = steps.purpose;
+    findings.wants_fidelity = asks_for_distance(steps.required);
     steps.repair.progress = &run.progress;
     (void)with_findings(run, findings, [&] {
       run.report.set_input(nullptr);
@@ -47,8 +49,10 @@ RepairOutcome run_in_memory(const Session& session, const Runner& runner, const 
       return ExitCode::done;
     });
     warn_of_findings(findings);
-    if (findings.missing_guarantees.empty()) return ExitCode::done;
-    run.report.set_error("the result is " + findings.missing_guarantees);
+    if (findings.missing_guarantees.empty() && findings.not_met.empty()) return ExitCode::done;
+    run.report.set_error(findings.missing_guarantees.empty()
+                             ? "the result: " + joined_with("; ", findings.not_met)
+                             : "the result is " + findings.missing_guarantees);
     return ExitCode::not_certified;
   });
   return outcome;

@@ -16,6 +16,7 @@
 #include <repair/repair_points.h>
 
 #include "options/purposes.h"
+#include "report/json.h"
 
 namespace meshrepair {
 
@@ -57,12 +58,15 @@ struct Findings {
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
-  bool has_walls = false;  // of sheets, in some mesh of a scene
+  bool has_walls = false;       // of sheets, in some mesh of a scene
+  bool wants_fidelity = false;  // though there is no report
   std::optional<Fidelity> fidelity;
   std::size_t output_points = 0;
-  std::string missing_guarantees;  // of that mesh, for people; empty: it holds all
-  bool withheld = false;           // not written because of these
-  bool told = false;               // what is to be warned of
+  std::string missing_guarantees;    // of that mesh, for people; empty: it holds all
+  bool withheld = false;             // not written because of these, or of what is not met
+  bool told = false;                 // what is to be warned of
+  Json required;                     // what became of each requirement; null: there are none
+  std::vector<std::string> not_met;  // requirements, a sentence each
   Purpose purpose;
   std::string explained;   // the file that says what became of the triangles; may be empty
   std::string summary;     // instead of that of summary_of(), if it is not empty

@@ -137,6 +137,11 @@ std::optional<bool> Json::as_bool() const { return JsonText::copied<bool>(*this)
 std::optional<std::uint64_t> Json::as_count() const {
   return JsonText::copied<std::uint64_t>(*this);
 }
+std::optional<double> Json::as_number() const {
+  if (const auto count = as_count()) return static_cast<double>(*count);
+  if (const auto whole = JsonText::copied<std::int64_t>(*this)) return static_cast<double>(*whole);
+  return JsonText::copied<double>(*this);
+}
 std::optional<std::string> Json::as_text() const { return JsonText::copied<std::string>(*this); }
 
 std::size_t Json::size() const {

@@ -61,6 +61,7 @@ class Json {
   // What it holds; nothing where that is something else.
   [[nodiscard]] std::optional<bool> as_bool() const;
   [[nodiscard]] std::optional<std::uint64_t> as_count() const;
+  [[nodiscard]] std::optional<double> as_number() const;  // of any kind
   [[nodiscard]] std::optional<std::string> as_text() const;
 
   // Of arrays and objects; 0 of others.

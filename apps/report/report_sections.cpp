@@ -139,7 +139,8 @@ Json defects_of(const RepairReport& repair) {
           {"duplicates", repair.clean.duplicates + repair.clean.opposite_duplicates},
           {"degenerate", repair.clean.dropped_degenerate},
           {"not_finite", repair.clean.dropped_not_finite},
-          {"area", repair.input_area}};
+          {"area", repair.input_area},
+          {"volume", repair.input_volume}};
 }
 
 Json section_of(const JoinGapsReport& gaps) {
@@ -445,6 +446,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("result", result_of(findings));
     report.set_section("certificate", certificate_of(repair));
   }
+  if (!findings.required.is_null()) report.set_section("required", findings.required);
   if (findings.fidelity) report.set_section("distance", distance_section(*findings.fidelity));
   report.set_stages(stages_section(repair.stages));
 }

@@ -19,6 +19,15 @@ std::string number_of(std::uint64_t count, std::string_view noun, std::string_vi
   return fmt::format("{} {}", grouped(count), count == 1 ? noun : plural);
 }
 
+std::string joined_with(std::string_view mark, const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += mark;
+    text += word;
+  }
+  return text;
+}
+
 std::string units_text(std::optional<LengthUnit> unit) {
   if (!unit) return "the input's units";
   if (unit == LengthUnit::inch) return "inches";

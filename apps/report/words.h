@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <mesh/length_unit.h>
 #include <mesh/packing.h>
@@ -23,6 +24,9 @@ namespace meshrepair {
 // With the plural of a noun that has another one than with an s.
 [[nodiscard]] std::string number_of(std::uint64_t count, std::string_view noun,
                                     std::string_view plural);
+
+// "a; b".
+[[nodiscard]] std::string joined_with(std::string_view mark, const std::vector<std::string>& words);
 
 // "the input's units" where the unit is not known.
 [[nodiscard]] std::string units_text(std::optional<LengthUnit> unit);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "steps/guarantees.h"
 
-#include <spdlog/fmt/fmt.h>
 #include <spdlog/logger.h>
 
 #include "report/words.h"
@@ -41,12 +40,16 @@ std::string missing_guarantees(const Findings& findings, SoupFormat format) {
 }
 
 ExitCode verdict(Run& run, const Findings& findings) {
-  if (findings.missing_guarantees.empty()) return ExitCode::done;
-  const std::string message = fmt::format(
-      "{}: {} {}", findings.output_name(),
-      findings.withheld ? "not written, it would be" : "written, but", findings.missing_guarantees);
-  run.report.set_error("error: " + message);
-  logger().error("{}", message);
+  std::vector<std::string> faults = findings.not_met;
+  if (!findings.missing_guarantees.empty()) {
+    faults.insert(faults.begin(),
+                  (findings.withheld ? "it would be " : "") + findings.missing_guarantees);
+  }
+  if (faults.empty()) return ExitCode::done;
+  const std::string head =
+      findings.output_name() + (findings.withheld ? ": not written, as " : ": written, but ");
+  for (const std::string& fault : faults) logger().error("{}{}", head, fault);
+  run.report.set_error("error: " + head + joined_with("; ", faults));
   return ExitCode::not_certified;
 }
 

@@ -18,8 +18,8 @@ void look_at_file(const Surface& surface, SoupFormat format, Findings& findings)
 // What a surface lacks in the file, for people; empty: nothing. After look_at_file().
 [[nodiscard]] std::string missing_guarantees(const Findings& findings, SoupFormat format);
 
-// Not certified, and an error logged and put into the report, where the output is without a
-// guarantee.
+// Not certified, and errors logged and put into the report, where the output is without a guarantee
+// or does not meet a requirement.
 [[nodiscard]] ExitCode verdict(Run& run, const Findings& findings);
 
 }  // namespace meshrepair

@@ -73,7 +73,7 @@ Tree read_tree_stage(Run& run, Findings& findings) {
 
 void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
                             Run& run, Findings& findings) {
-  if (run.options.report.empty()) return;
+  if (run.options.report.empty() && !findings.wants_fidelity) return;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("distance");
   findings.fidelity = measure_fidelity(input, surface, {precision, &run.progress});
@@ -115,8 +115,10 @@ void write_mesh_stage(const Surface& surface, const Attributes& attributes, Writ
   meter.begin("write");
   look_at_file(surface, *format.format, findings);
   findings.missing_guarantees = missing_guarantees(findings, *format.format);
-  findings.withheld = options.strict && !findings.missing_guarantees.empty();
   warn_of_findings(findings);
+  judge_requirements(options.required, findings);
+  findings.withheld =
+      options.strict && !(findings.missing_guarantees.empty() && findings.not_met.empty());
   if (findings.withheld) return;
   if (!options.sources) {
     format.extras.sources = {};

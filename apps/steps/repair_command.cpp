@@ -21,6 +21,7 @@
 #include "steps/negative_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
+#include "summary/warnings.h"
 #include "terminal/warning_log.h"
 
 namespace meshrepair {
@@ -112,6 +113,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_drop_option(app, options.assets);
   add_units_option(app, options.assets);
   add_certify_options(app, options.repair.certify, options.strict);
+  add_require_option(app, options.required);
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_colours_option(app, options.picture, "fates", "those of --explain");
@@ -179,6 +181,8 @@ RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run&
       transfer_attributes_stage(input.soup, input.attributes, result.surface, run, findings);
   look_at_file(result.surface, format, findings);
   findings.missing_guarantees = missing_guarantees(findings, format);
+  warn_of_findings(findings);
+  judge_requirements(options.required, findings);
   return result;
 }
 

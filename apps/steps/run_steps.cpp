@@ -47,6 +47,7 @@ std::string written_first(const StepOptions& options) {
 ExitCode run_body(const StepOptions& options, Run& run, const StepBody& body) {
   Findings findings(options.input, options.output);
   findings.purpose = options.purpose;
+  findings.wants_fidelity = asks_for_distance(options.required);
   (void)with_findings(run, findings, [&] {
     body(options, run, findings);
     return ExitCode::done;

@@ -97,6 +97,7 @@ class SceneRepair {
     outcome.name = shown;
     outcome.triangles_in = soup.triangles.size();
     outcome.findings.mesh_read.emplace().format = findings_.mesh_read->format;
+    outcome.findings.wants_fidelity = findings_.wants_fidelity;
     Surface surface = made_solid(soup, outcome);
     outcome.triangles = surface.mesh.triangles.size();
     return surface;
@@ -111,6 +112,10 @@ class SceneRepair {
       look_at_file(surface, *format_.format, outcome.findings);
       outcome.trouble = missing_guarantees(outcome.findings, *format_.format);
       warn_of_findings(outcome.findings);
+      judge_requirements(options_.required, outcome.findings);
+      for (const std::string& one : outcome.findings.not_met) {
+        findings_.not_met.push_back(outcome.name + ": " + one);
+      }
       return surface;
     } catch (const NoSolidError& error) {
       outcome.trouble =
@@ -180,6 +185,7 @@ class SceneRepair {
 
   void judge() {
     const std::size_t count = in_trouble();
+    findings_.withheld = options_.strict && (count > 0 || !findings_.not_met.empty());
     if (count == 0) return;
     const auto first = std::find_if(outcomes_.begin(), outcomes_.end(),
                                     [](const auto& one) { return !one.trouble.empty(); });
@@ -187,7 +193,6 @@ class SceneRepair {
         fmt::format("{} of {} {} not the boundary of a solid; {}: {}", count,
                     number_of(outcomes_.size(), "mesh", "meshes"), count == 1 ? "is" : "are",
                     first->name, first->trouble);
-    findings_.withheld = options_.strict;
   }
 
   void draw(Attributes attributes) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <mesh/soup_format.h>
 #include <repair/repair_options.h>
@@ -11,6 +12,7 @@
 #include "options/asset_options.h"
 #include "options/purposes.h"
 #include "options/show_requests.h"
+#include "steps/requirements.h"
 
 namespace meshrepair {
 
@@ -21,6 +23,7 @@ struct StepOptions {
   bool sources = false;  // write of each triangle which one of the input it lies in
   AssetOptions assets;
   bool strict = false;
+  std::vector<Requirement> required;
   std::string staging;  // folder that OUT is written into first; empty: none
   PictureRequest picture;
   HtmlRequest html;

@@ -34,11 +34,7 @@ class Lines {
   std::string before_, text_;
 };
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
+std::string joined(const std::vector<std::string>& words) { return joined_with(", ", words); }
 
 void add_count(std::vector<std::string>& texts, std::uint64_t count, std::string_view noun,
                const std::string& what) {

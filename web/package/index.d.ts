@@ -54,6 +54,8 @@ export interface RepairOptions extends FileOptions {
   inside?: 'auto' | 'winding' | 'solidity' | 'parity';
   cavities?: 'keep' | 'fill';
   sew?: 'auto' | 'none' | number | string;
+  /** Conditions of the result: "parts=same, volume=1%". If one is not met, `certified` is false. */
+  require?: string;
   joinGaps?: 'auto' | 'none' | number | string;
   seal?: 'auto' | 'double-walls' | 'none' | number | string;
   thicken?: 'auto' | 'none' | number | string;

@@ -38,6 +38,8 @@ struct RepairReport {
   CleanReport clean;
   Topology input;         // of the clean soup
   double input_area = 0;  // of the clean soup, in the input's units, squared
+  // The same of its volume as its triangles face: an estimate where they are not closed.
+  double input_volume = 0;
   JoinGapsReport join_gaps;
   SewReport sew;
   HoleReport holes;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <base/error.h>
 #include <mesh/topology.h>
 #include <repair/hole_patches.h>
@@ -54,9 +56,24 @@ CleanSoup clean_sewn(const SewnSoup& sewn, const RepairOptions& options, RepairR
   return clean;
 }
 
+// About the middle of the bounding box, so that what is missing counts little.
+double volume_of(const CleanSoup& clean) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3d& point : clean.points) box.extend(point);
+  const Vec3d base = box.center();
+  double sum = 0;
+  for (const Triangle& t : clean.triangles) {
+    if (t.winding == 0) continue;  // copies that face both ways
+    const Vec3d a = clean.points[t.corners[0]] - base, b = clean.points[t.corners[1]] - base;
+    sum += t.layers * a.dot(b.cross(clean.points[t.corners[2]] - base));
+  }
+  return sum / 6;
+}
+
 void measure(const CleanSoup& clean, RepairReport& report) {
   report.input_area = 0;
   for (const Triangle& t : clean.triangles) report.input_area += area_of(clean, t);
+  if (!clean.triangles.empty()) report.input_volume = volume_of(clean);
   if (clean.triangles.empty()) {
     throw NoSolidError(
         "no triangle remains: all are degenerate, smaller than the step of the working grid of "

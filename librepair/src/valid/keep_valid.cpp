@@ -39,7 +39,7 @@ void describe_as_given(const TriangleSoup& soup, const Surface& surface,
   report.clean.triangles_in = soup.triangles.size();
   report.input = report.output = examine_topology(mesh.triangles, mesh.points.size());
   report.input_area = report.output_area = surface_area(mesh);
-  report.output_volume = signed_volume(mesh);
+  report.input_volume = report.output_volume = signed_volume(mesh);
   describe_inside(options, "the mesh is the boundary of a solid", report.inside);
   const auto is_input = [&](std::uint32_t p) { return surface.input_point[p] != 0; };
   for (const auto& t : mesh.triangles) {
