@@ -8,8 +8,8 @@
 
 #include "pictures/explanation_file.h"
 #include "report/words.h"
-#include "summary/volumes_words.h"
 #include "summary/change_bar.h"
+#include "summary/volumes_words.h"
 #include "terminal/logging.h"
 #include "terminal/warning_log.h"
 

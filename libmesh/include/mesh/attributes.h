@@ -132,8 +132,9 @@ struct Attributes {
   TriangleLabels groups;
   TriangleLabels objects;
   TriangleLabels smoothing;
-  std::vector<TrianglePaint> paints;             // of different names
-  std::vector<std::array<double, 4>> filaments;  // their colours, as Material has one; not all known
+  std::vector<TrianglePaint> paints;  // of different names
+  std::vector<std::array<double, 4>>
+      filaments;                             // their colours, as Material has one; not all known
   std::shared_ptr<const Keepsake> keepsake;  // may be null
 
   // No triangle carries anything.
