@@ -98,7 +98,7 @@ Operand read_mesh_operand(const BoolOptions& options, const RepairOptions& repai
   reading.may_be_empty = true;
   reading.attributes = !options.command.step.assets.drops_all() &&
                        (options.carries_attributes || shows_operands(options));
-  auto [soup, attributes, scene, report] = read_mesh_stage(reading, run, findings);
+  auto [soup, attributes, scene, report, placed] = read_mesh_stage(reading, run, findings);
   const double scale = intake.unit.apply(findings.unit, soup);
   if (report.offset) *report.offset *= scale;
   intake.origin.apply(report.offset, soup, findings);

@@ -17,13 +17,29 @@
 namespace meshrepair {
 namespace {
 
-// Reads attributes also where the output holds none, to say what is lost.
-void convert(const StepOptions& options, Run& run, Findings& findings) {
-  WriteOptions format = mesh_format(options);
+// A slicer's project keeps all its volumes in 3MF, unless joining them was asked for: it is read
+// again then. Attributes are read also where the output holds none, to say what is lost.
+ReadResult read_input(SoupFormat output, StepOptions& options, Run& run, Findings& findings) {
   ReadOptions reading = read_options(run);
   reading.attributes = !options.assets.drops_all();
   reading.by_mesh = options.assets.by_mesh;
-  ReadResult input = read_mesh_stage(reading, run, findings);
+  if (output != SoupFormat::threemf || options.assets.scene_chosen || options.input == "-") {
+    return read_mesh_stage(reading, run, findings);
+  }
+  reading.may_be_empty = true;  // of a model
+  ReadResult input = read_soup(options.input, reading);
+  reading.may_be_empty = false;
+  if (!input.report.volumes.empty()) reading.by_mesh = options.assets.by_mesh = true;
+  if (reading.by_mesh || input.soup.triangles.empty()) {
+    return read_mesh_stage(reading, run, findings);
+  }
+  keep_read_report(input.report, findings);
+  return input;
+}
+
+void convert(StepOptions options, Run& run, Findings& findings) {
+  WriteOptions format = mesh_format(options);
+  ReadResult input = read_input(*format.format, options, run, findings);
   AnySoup moved;
   moved.soup = std::move(input.soup);
   moved.scene = std::move(input.scene);

@@ -119,8 +119,23 @@ def threemf_seeds():
     sets = (f'<t:trianglesets xmlns:t="{core}trianglesets/2021/07"><t:triangleset name="s" identifier="i"><t:ref index="0"/>'
             '<t:refrange startindex="2" endindex="3"/></t:triangleset></t:trianglesets>')
     plain = model(mesh(1))
+    ranges = (b'<config><object id="1" instances_count="1"><metadata type="object" key="name" value="a"/>'
+              b'<volume firstid="0" lastid="1"><metadata type="volume" key="volume_type" value="ModelPart"/></volume>'
+              b'<volume firstid="2" lastid="3"><metadata type="volume" key="modifier" value="1"/></volume></object></config>')
+    parts = (b'<config><object id="2"><part id="1" subtype="normal_part"><mesh_stat face_count="4"/></part>'
+             b'<part id="1" subtype="negative_part"/></object><plate><metadata key="gcode_file" value="a.gcode"/>'
+             b'<model_instance><metadata key="object_id" value="2"/></model_instance></plate>'
+             b'<assemble><assemble_item object_id="2"/></assemble></config>')
+    halves = model(mesh(1, ' paint_color="8483" paint_seam="0C"') + '<object id="2"><components>'
+                   f'<component objectid="1"/><component objectid="1" {turn}/></components></object>',
+                   '<item objectid="2"/><item objectid="1" printable="0" transform="-1 0 0 0 1 0 0 0 1 9 0 0"/>')
+    cura = ('<metadatagroup><metadata name="c:infill_mesh">True</metadata></metadatagroup>')
     return {
         "plain": plain,
+        "ranges": plain + b"\x01" + ranges,
+        "parts": halves + b"\x01" + parts,
+        "cura": model(mesh(1) + mesh(2).replace("<mesh>", cura + "<mesh>"), '<item objectid="1"/><item objectid="2"/>')
+                .replace(b"<model ", b'<model xmlns:c="http://software.ultimaker.com/xml/cura/3mf/2015/10" '),
         "components": model(mesh(1) + f'<object id="2"><components><component objectid="1" {turn}/>'
                             '<component objectid="1"/></components></object>', f'<item objectid="2" {turn}/>'),
         "materials": model(base + mesh(1, ' pid="5" p1="0"', ' name="n" pid="5" pindex="0"')),

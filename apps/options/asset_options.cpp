@@ -58,6 +58,7 @@ void drop_chosen(const std::vector<std::string>& drops, bool keeps_scene, Attrib
     attributes.images.clear();
     if (!keeps_scene) attributes.keepsake = nullptr;  // it has materials, too
   }
+  if (is_among(drops, "others")) attributes.paints.clear();
   if (is_among(drops, "groups")) attributes.groups = attributes.smoothing = {};
 }
 
@@ -68,8 +69,8 @@ bool AssetOptions::drops_all() const { return is_among(drops, kAllKinds); }
 void add_drop_option(CommandLine& app, AssetOptions& options) {
   app.add_option("--drop", options.drops,
                  "Do not write these attributes of IN: textures, normals, tangents, colours,\n"
-                 "others, materials, groups; separated by commas. all: read and write none of\n"
-                 "them")
+                 "others (also paint), materials, groups; separated by commas. all: read and\n"
+                 "write none of them")
       ->delimiter(',')
       ->check(is_one_of(kinds()))
       ->type_name("KIND,...")
@@ -78,7 +79,11 @@ void add_drop_option(CommandLine& app, AssetOptions& options) {
 
 void add_scene_option(CommandLine& app, AssetOptions& options, const std::string& group) {
   add_choice(
-      app, "--scene", kScenes, [&options](bool value) { options.by_mesh = value; },
+      app, "--scene", kScenes,
+      [&options](bool value) {
+        options.by_mesh = value;
+        options.scene_chosen = true;
+      },
       "How to treat the meshes of a scene (glTF, 3MF) or the objects of an OBJ file:\n"
       "  join  place all of them and merge them into one mesh\n"
       "  each  process every mesh separately and keep the scene")

@@ -20,6 +20,7 @@ struct AssetOptions {
   // along where formats can hold them.
   std::vector<std::string> drops;
   bool by_mesh = false;             // each mesh of a scene by itself
+  bool scene_chosen = false;        // the command line says so, or the opposite
   std::optional<LengthUnit> units;  // of numbers in files that do not say
   std::string root;                 // of a folder of meshes that has a copy; empty: there is none
 

@@ -52,6 +52,11 @@ constexpr std::array<Choice<Predicates>, 2> kPredicates = {
 constexpr std::array<Choice<Touching>, 2> kTouchings = {
     {{"separate", Touching::separate}, {"join", Touching::join}}};
 
+constexpr std::array<Choice<NegativeVolumes>, 3> kNegatives = {
+    {{"subtract", NegativeVolumes::subtract},
+     {"drop", NegativeVolumes::drop},
+     {"keep", NegativeVolumes::keep}}};
+
 constexpr std::array<Choice<SewMode>, 2> kSewModes = {
     {{"auto", SewMode::automatic}, {"none", SewMode::none}}};
 
@@ -294,6 +299,17 @@ void add_touching_option(CommandLine& app, Touching& touching) {
       "  join      become one component, connected there\n"
       "Solids that touch at a point always become separate.")
       ->default_str("separate")
+      ->group("Repair");
+}
+
+void add_negative_option(CommandLine& app, NegativeVolumes& negative) {
+  add_choice(
+      app, "--negative", kNegatives, [&negative](NegativeVolumes value) { negative = value; },
+      "Negative volumes of a slicer's project (3MF), when all its volumes are joined:\n"
+      "  subtract  take them off the other volumes of their object\n"
+      "  drop      leave them out\n"
+      "  keep      join them with the others")
+      ->default_str("subtract")
       ->group("Repair");
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <extract/cut_nonmanifold.h>
+#include <mesh/model_volume.h>
 #include <mesh/soup_io.h>
 #include <repair/certify.h>
 #include <repair/hole_patches.h>
@@ -36,6 +37,9 @@ void add_thicken_options(CommandLine& app, const CommandOption& max_hole, Thicke
 void add_keep_options(CommandLine& app, KeepPartsOptions& keep);
 // --touching: what becomes of solids that touch along an edge.
 void add_touching_option(CommandLine& app, Touching& touching);
+
+// --negative: what becomes of negative volumes of slicers' projects.
+void add_negative_option(CommandLine& app, NegativeVolumes& negative);
 
 // --simplify: how far the surface may move to have fewer triangles.
 void add_simplify_option(CommandLine& app, double& simplify);

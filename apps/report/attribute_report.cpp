@@ -46,6 +46,7 @@ std::vector<std::string> attribute_words(const TriangleSoup& soup, const Attribu
   for (const auto& [name, labels] : all_labels(attributes)) {
     if (!labels->empty()) words.push_back(number_of(labels->names.size(), name));
   }
+  for (const TrianglePaint& paint : attributes.paints) words.push_back("'" + paint.name + "'");
   if (!attributes.images.empty()) words.push_back(number_of(attributes.images.size(), "picture"));
   return words;
 }

@@ -27,6 +27,20 @@ Json names_of(const NamesInFile& names) {
   return {{"files", names.files}, {"pictures", names.pictures}, {"outside", names.outside}};
 }
 
+Json volumes_of(const std::vector<ModelVolume>& volumes) {
+  Json list = Json::array();
+  for (const ModelVolume& volume : volumes) {
+    list.push_back({{"name", volume.name},
+                    {"object", volume.object},
+                    {"role", role_name(volume.role)},
+                    {"printed", volume.printed},
+                    {"triangles", volume.triangles},
+                    {"copies", volume.copies},
+                    {"fate", fate_name(volume.fate)}});
+  }
+  return list;
+}
+
 Json section_of(const ReadReport& read) {
   return {{"format", format_name(read.format)},
           {"bytes", read.bytes},
@@ -39,6 +53,7 @@ Json section_of(const ReadReport& read) {
           {"missing_faces", read.missing_faces},
           {"trailing_bytes", read.trailing_bytes},
           {"names", names_of(read.names)},
+          {"volumes", volumes_of(read.volumes)},
           {"warnings", texts_of(read.warnings)}};
 }
 

@@ -131,7 +131,11 @@ void write_mesh_stage(const Surface& surface, const Attributes& attributes, Writ
   findings.withheld =
       options.strict && !(findings.missing_guarantees.empty() && findings.not_met.empty());
   if (findings.withheld) return;
-  if (options.sources) format.extras.sources = surface.source;
+  if (!options.sources) {
+    format.extras.sources = {};
+  } else if (format.extras.sources.empty()) {
+    format.extras.sources = surface.source;
+  }
   if (!attributes.empty()) format.extras.attributes = &attributes;
   format.progress = &run.progress;
   write_with_files(surface.mesh, format, run, findings);

@@ -212,6 +212,7 @@ AnySoup read_any_stage(const PointOptions& options, const ReadOptions& reading, 
   input.soup = std::move(found.mesh->soup);
   input.attributes = std::move(found.mesh->attributes);
   input.scene = std::move(found.mesh->scene);
+  input.placed = std::move(found.mesh->placed);
   return input;
 }
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include <mesh/model_volume.h>
 #include <mesh/point_cloud.h>
 #include <mesh/soup.h>
 #include <repair/repair_points.h>
@@ -35,10 +37,11 @@ void add_point_repair_options(CommandLine& app, PointOptions& options);
 
 // What is to be repaired.
 struct AnySoup {
-  TriangleSoup soup;                // of points, once they are triangulated
-  std::optional<PointCloud> cloud;  // it is one
-  Attributes attributes;            // of a mesh, if they are asked for
-  Scene scene;                      // the same
+  TriangleSoup soup;                      // of points, once they are triangulated
+  std::optional<PointCloud> cloud;        // it is one
+  Attributes attributes;                  // of a mesh, if they are asked for
+  Scene scene;                            // the same
+  std::vector<PlacedVolume> placed = {};  // see ReadResult
 };
 
 // Reads a mesh as `reading` says, or a point cloud.

@@ -2,9 +2,11 @@
 #include "steps/repair_command.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <base/error.h>
 
@@ -17,6 +19,7 @@
 #include "report/findings.h"
 #include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
+#include "steps/negative_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
 #include "summary/warnings.h"
@@ -67,6 +70,17 @@ void drop_states_of_many_soups(const AnySoup& input, RepairOptions& options) {
   options.states = nullptr;
 }
 
+// Of each triangle that of the file, if `before` has those of the soup that was repaired.
+std::vector<std::uint32_t> sources_in_file(const Surface& surface,
+                                           const std::vector<std::uint32_t>& before) {
+  std::vector<std::uint32_t> sources;
+  if (before.empty()) return sources;
+  for (const std::uint32_t t : surface.source) {
+    sources.push_back(t == Surface::kNoSource ? t : before[t]);
+  }
+  return sources;
+}
+
 void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
   keep_attributes(input.soup, input.attributes, options);
   options.all_cells = command.always;
@@ -101,6 +115,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   add_scene_option(app, options.assets);
+  add_negative_option(app, command.negative);
   const CommandOption* always =
       app.add_flag("--always", command.always,
                    "Run all steps, even if the mesh already bounds a solid or needs only holes\n"
@@ -132,11 +147,14 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   // Pictures and pages show also what the output cannot hold.
   const bool is_shown = options.picture.wanted() || options.html.wanted();
   if (is_shown) reading.attributes = !options.assets.drops_all();
+  reading.negative = command.negative;
   AnySoup input = read_any_stage(command.points, reading, run, findings);
   const bool is_single_output =
       is_single(*format.format) || options.repair.certify.precision == Precision::float32;
   move_origin_stage(options.origin, is_single_output, has_instances(*format.format), input,
                     findings);
+  const std::vector<std::uint32_t> before =
+      subtract_negatives_stage(input, options.repair, run, findings);
   check_picture(options.picture, input.attributes);
   const Attributes given = is_shown ? input.attributes : Attributes();
   warn_of_lost_groups(input, *format.format, options.assets, findings);
@@ -158,6 +176,8 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   const Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
+  const std::vector<std::uint32_t> sources = sources_in_file(surface, before);
+  format.extras.sources = sources;
   write_mesh_stage(surface, attributes, format, options, run, findings);
   write_explanation_stage(options.explained, {input.soup, {}}, {surface.mesh, {}}, run, findings);
   const std::array<Attributes, 2> fates = painted_fates(options.picture, findings);

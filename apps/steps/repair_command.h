@@ -16,6 +16,7 @@ namespace meshrepair {
 struct RepairCommand {
   StepOptions steps;
   PointOptions points;
+  NegativeVolumes negative = NegativeVolumes::subtract;
   bool always = false;  // do the whole work, also for what is a solid already
 };
 

@@ -19,6 +19,7 @@
 #include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
 #include "summary/summary.h"
+#include "summary/volumes_words.h"
 #include "summary/warnings.h"
 
 namespace meshrepair {
@@ -226,6 +227,9 @@ class SceneRepair {
     std::string text = fmt::format("read      {}: {}, {}, {}\n", findings_.input_name(),
                                    format_name(findings_.mesh_read->format), meshes,
                                    number_of(input_.soup.triangles.size(), "triangle"));
+    if (const auto words = volumes_words(findings_.mesh_read->volumes); !words.empty()) {
+      text += fmt::format("{:<9} {}\n", "volumes", words);
+    }
     text += purpose_summary(findings_.purpose);
     for (std::size_t i = 0; i < std::min(kMostLines, outcomes_.size()); ++i) {
       const MeshOutcome& one = outcomes_[i];

@@ -9,6 +9,7 @@
 #include "pictures/explanation_file.h"
 #include "report/words.h"
 #include "summary/change_bar.h"
+#include "summary/volumes_words.h"
 #include "terminal/logging.h"
 #include "terminal/warning_log.h"
 
@@ -151,6 +152,10 @@ void describe_points(const Findings& findings, Lines& lines) {
   lines.add("meshed", local_triangles(soup));
 }
 
+void describe_volumes(const ReadReport& read, Lines& lines) {
+  if (!read.volumes.empty()) lines.add("volumes", volumes_words(read.volumes));
+}
+
 void describe_input(const Findings& findings, Lines& lines) {
   if (findings.point_soup) {
     describe_points(findings, lines);
@@ -158,6 +163,7 @@ void describe_input(const Findings& findings, Lines& lines) {
   }
   if (findings.mesh_read && findings.soup_written) {
     lines.add("read", fmt::format("{}: {}", findings.input_name(), words_of(*findings.mesh_read)));
+    describe_volumes(*findings.mesh_read, lines);
     if (const std::string troubles = reading_troubles(*findings.mesh_read); !troubles.empty()) {
       lines.add("wrong", troubles);
     }
@@ -166,6 +172,7 @@ void describe_input(const Findings& findings, Lines& lines) {
               fmt::format("{}: {}, {} in {}", findings.input_name(), words_of(*findings.mesh_read),
                           number_of(findings.repair.clean.triangles_in, "triangle"),
                           number_of(findings.repair.input.parts, "part")));
+    describe_volumes(*findings.mesh_read, lines);
     lines.add("wrong", troubles_of(findings));
   }
   if (findings.origin) {

@@ -127,6 +127,23 @@ std::vector<std::uint32_t> add_names(TriangleLabels& all, const TriangleLabels& 
   return number_of;
 }
 
+void append_paints(Attributes& all, std::size_t triangles, const Attributes& other,
+                   std::size_t triangles_of_other) {
+  const auto find = [](std::vector<TrianglePaint>& paints, const std::string& name) {
+    return std::find_if(paints.begin(), paints.end(),
+                        [&](const TrianglePaint& one) { return one.name == name; });
+  };
+  for (const TrianglePaint& paint : other.paints) {
+    if (find(all.paints, paint.name) == all.paints.end()) all.paints.push_back({paint.name, {}});
+    TriangleLabels& codes = find(all.paints, paint.name)->codes;
+    const auto numbers = add_names(codes, paint.codes);
+    append_labels(codes, triangles, paint.codes, triangles_of_other, numbers);
+  }
+  for (TrianglePaint& paint : all.paints) {
+    paint.codes.of_triangle.resize(triangles + triangles_of_other, kNone);
+  }
+}
+
 Material look_of(const Attributes& attributes, std::size_t material) {
   return material < attributes.looks.size() ? attributes.looks[material] : Material();
 }
@@ -221,6 +238,8 @@ void append_attributes(Attributes& all, std::size_t triangles, Attributes other,
     const auto names = add_names(all.*labels, other.*labels);
     append_labels(all.*labels, triangles, other.*labels, triangles_of_other, names);
   }
+  append_paints(all, triangles, other, triangles_of_other);
+  if (all.filaments.empty()) all.filaments = std::move(other.filaments);
 }
 
 }  // namespace meshrepair

@@ -7,6 +7,7 @@
 #include <base/ids.h>
 #include <mesh/append_soup.h>
 #include <mesh/scene.h>
+#include <mesh/triangle_paint.h>
 
 namespace meshrepair {
 namespace {
@@ -30,6 +31,7 @@ void reorder(Attributes& attributes, const std::vector<std::uint32_t>& order) {
        {&attributes.materials, &attributes.groups, &attributes.objects, &attributes.smoothing}) {
     reorder(labels->of_triangle, order, 1);
   }
+  for (TrianglePaint& paint : attributes.paints) reorder(paint.codes.of_triangle, order, 1);
 }
 
 // Of each triangle its object, or as many as there are objects.
@@ -141,6 +143,7 @@ void place_instances(TriangleSoup& soup, Attributes& attributes, const Scene& sc
       std::swap(attribute.of_corner[3 * t + 1], attribute.of_corner[3 * t + 2]);
     }
   }
+  for (TrianglePaint& paint : attributes.paints) turn_paint(paint, turned);
 }
 
 bool is_plain(const Scene& scene) {

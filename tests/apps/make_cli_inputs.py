@@ -20,6 +20,7 @@ import zlib
 
 
 TEXTURED_LIBRARY = b"newmtl wood\nKd 1 0.5 0\nmap_Kd grain.png\nnewmtl steel\nKd 0.5 0.5 0.5\n"
+HALVES = (((-1.5, -1.5, 0), (1.5, 1.5, 3)), ((-2, -2, 1.5), (2, 2, 5.5)))  # boxes; half of the first is in the second
 SINGLE_TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
@@ -103,6 +104,38 @@ def boxes(*all_corners):
         lines += ["f " + " ".join(str(i - 8) for i in face) for face in
                   ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
     return "\n".join(lines).encode() + b"\n"
+
+
+def project(kind, *all_corners, open_at=None):
+    """A 3MF project of PrusaSlicer: one mesh of two boxes, of which the second is of this kind."""
+    lines = boxes(*all_corners).decode().splitlines()
+    points = [line.split()[1:] for line in lines if line.startswith("v")]
+    quads = [[int(corner) % 8 for corner in line.split()[1:]] for line in lines if line.startswith("f")]
+    faces = [(quad[0] + 8 * (f // 6), quad[k] + 8 * (f // 6), quad[k + 1] + 8 * (f // 6))
+             for f, quad in enumerate(quads) for k in (1, 2)]
+    if open_at is not None:
+        faces = faces[:open_at + 1]
+    core = "http://schemas.microsoft.com/3dmanufacturing/"
+    vertices = "".join('<vertex x="%s" y="%s" z="%s"/>' % tuple(point) for point in points)
+    triangles = "".join('<triangle v1="%d" v2="%d" v3="%d"/>' % face for face in faces)
+    parts = {
+        "_rels/.rels": '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship '
+                       f'Target="/3D/3dmodel.model" Id="r" Type="{core}2013/01/3dmodel"/></Relationships>',
+        "3D/3dmodel.model": f'<model unit="millimeter" xmlns="{core}core/2015/02"><resources><object id="4"><mesh><vertices>'
+                            f"{vertices}</vertices><triangles>{triangles}</triangles></mesh></object></resources>"
+                            '<build><item objectid="4"/></build></model>',
+        "Metadata/Slic3r_PE_model.config":
+            '<config><object id="4"><metadata type="object" key="name" value="part"/>' + "".join(
+                f'<volume firstid="{first}" lastid="{last}"><metadata type="volume" key="name" value="{name}"/>'
+                f'<metadata type="volume" key="volume_type" value="{its_kind}"/></volume>'
+                for first, last, name, its_kind in ((0, 11, "first", "ModelPart"), (12, len(faces) - 1, "second", kind)))
+            + "</object></config>",
+    }
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, text in parts.items():
+            archive.writestr(zipfile.ZipInfo(name), text)
+    return data.getvalue()
 
 
 def scene() -> bytes:
@@ -352,6 +385,10 @@ def main():
         "painted_too.gltf": painted_tetrahedron(0.25, 0.5),
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
+        "negative.3mf": project("NegativeVolume", *HALVES),
+        "modifier.3mf": project("ParameterModifier", *HALVES),
+        "open_negative.3mf": project("NegativeVolume", *HALVES, open_at=13),
+        "all_negative.3mf": project("NegativeVolume", HALVES[0], ((-9, -9, -9), (9, 9, 9))),
         "torn.obj": torn(),
         "near_boxes.obj": boxes(((0, 0, 0), (3, 3, 1)), ((1, 1, 1.00001), (2, 2, 2))),
         "plate.obj": boxes(((0, 0, 0), (3, 3, 1))),

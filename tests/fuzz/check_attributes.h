@@ -31,6 +31,12 @@ inline void require_complete(const Attributes& attributes, std::size_t triangles
       require(label == kNone || label < labels->names.size(), "a name is missing");
     }
   }
+  for (const TrianglePaint& paint : attributes.paints) {
+    require(paint.codes.of_triangle.size() == triangles, "paint is missing");
+    for (const std::uint32_t code : paint.codes.of_triangle) {
+      require(code == kNone || code < paint.codes.names.size(), "a code is missing");
+    }
+  }
   require(attributes.looks.empty() || attributes.looks.size() == attributes.materials.names.size(),
           "looks are missing");
   for (const Material& look : attributes.looks) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Inputs that begin as archives do are read as they are, others as the model of a package.
+// Inputs that begin as archives do are read as they are, others as the model of a package and,
+// after a byte 1, what a slicer's project says of it.
+#include <array>
 #include <string>
+
+#include <mesh/triangle_paint.h>
 
 #include "check_attributes.h"
 #include "check_reading.h"
@@ -8,10 +12,31 @@
 
 namespace {
 
-void check(std::string_view bytes) {
+std::string package_with_project(const std::string& text) {
+  const std::size_t at = text.find('\x01');
+  if (at == std::string::npos) return meshrepair::package_of(text);
+  const std::string config = text.substr(at + 1);
+  return meshrepair::package_of(text.substr(0, at), {{"Metadata/Slic3r_PE_model.config", config},
+                                                     {"Metadata/model_settings.config", config}});
+}
+
+// Any text is a code, or none; what lies within is one.
+void check_paint(const meshrepair::Attributes& attributes) {
+  using namespace meshrepair;
+  const std::array<PaintPlace, 3> piece = {{{0.7, 0.2, 0.1}, {0.1, 0.6, 0.3}, {0.2, 0.1, 0.7}}};
+  for (const TrianglePaint& paint : attributes.paints) {
+    for (const std::string& code : paint.codes.names) {
+      const std::string within = paint_within(code, piece);
+      testing::require(within.empty() || main_state(within).has_value(), "a piece has no code");
+    }
+  }
+}
+
+void check(std::string_view bytes, meshrepair::NegativeVolumes negative) {
   using namespace meshrepair;
   ReadOptions options;
   options.attributes = true;
+  options.negative = negative;
   options.max_triangles = testing::kMostTriangles;
   ReadResult result;
   try {
@@ -24,6 +49,12 @@ void check(std::string_view bytes) {
   }
   testing::require_valid_indices(result.soup);
   testing::require_consistent(result, bytes.size());
+  for (const PlacedVolume& placed : result.placed) {
+    testing::require(placed.first + placed.triangles <= result.soup.triangles.size() &&
+                         placed.volume < result.report.volumes.size(),
+                     "a volume is not in the soup");
+  }
+  check_paint(result.attributes);
   testing::require_round_trip(result.soup, SoupFormat::threemf);
   std::string written;
   try {
@@ -40,8 +71,9 @@ void check(std::string_view bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace meshrepair;
   std::string bytes(reinterpret_cast<const char*>(data), size);
-  if (!bytes.starts_with("PK")) bytes = package_of(bytes);
-  check(bytes);
+  if (!bytes.starts_with("PK")) bytes = package_with_project(bytes);
+  check(bytes, NegativeVolumes::drop);
+  check(bytes, NegativeVolumes::subtract);
   testing::check_attributes(bytes, "any.3mf", SoupFormat::threemf);
   return 0;
 }

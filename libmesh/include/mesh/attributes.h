@@ -57,6 +57,12 @@ struct TriangleLabels {
   [[nodiscard]] bool empty() const { return of_triangle.empty(); }
 };
 
+// What one of a slicer's brushes left on triangles.
+struct TrianglePaint {
+  std::string name;      // of the attribute of 3MF: "paint_color", "slic3rpe:mmu_segmentation", ...
+  TriangleLabels codes;  // see triangle_paint.h; may be no code at all
+};
+
 // A picture. Readers and writers of meshes never look into it.
 struct Image {
   // Of the file, without folders; as whoever names it has it where it is not to be followed; may be
@@ -127,12 +133,15 @@ struct Attributes {
   TriangleLabels groups;
   TriangleLabels objects;
   TriangleLabels smoothing;
+  std::vector<TrianglePaint> paints;  // of different names
+  std::vector<std::array<double, 4>>
+      filaments;                             // their colours, as Material has one; not all known
   std::shared_ptr<const Keepsake> keepsake;  // may be null
 
   // No triangle carries anything.
   [[nodiscard]] bool is_bare() const {
     return corners.empty() && materials.empty() && groups.empty() && objects.empty() &&
-           smoothing.empty();
+           smoothing.empty() && paints.empty();
   }
   [[nodiscard]] bool empty() const { return is_bare() && !keepsake; }
 };

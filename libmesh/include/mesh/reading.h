@@ -13,6 +13,7 @@
 #include <base/warning.h>
 #include <mesh/attributes.h>
 #include <mesh/length_unit.h>
+#include <mesh/model_volume.h>
 #include <mesh/packing.h>
 #include <mesh/scene.h>
 #include <mesh/soup.h>
@@ -46,6 +47,7 @@ struct ReadReport {
   std::uint64_t missing_faces = 0;  // promised by the header, not in the file
   std::size_t trailing_bytes = 0;   // after the last element of a binary file
   NamesInFile names;
+  std::vector<ModelVolume> volumes;  // of a slicer's project; empty: there is only a model
   // One sentence for each kind of oddity, for the user, without the file's name.
   std::vector<Warning> warnings;
 };
@@ -55,6 +57,8 @@ struct ReadResult {
   Attributes attributes;  // empty unless asked for
   Scene scene;            // the same
   ReadReport report;
+  // Of all triangles, if there are negative volumes to subtract.
+  std::vector<PlacedVolume> placed = {};
 };
 
 struct ReadOptions {
@@ -65,6 +69,9 @@ struct ReadOptions {
   // Read each mesh in its own frame, and where it stands, as Scene says. Where formats have no such
   // thing, objects are meshes. Without it instances become one soup in the frame of the world.
   bool by_mesh = false;
+  // Of slicers' projects; volumes that are neither model nor negative are left out, with a warning.
+  // Mesh by mesh all are there, whatever they are.
+  NegativeVolumes negative = NegativeVolumes::drop;
   // A file that holds no points and no faces, and promises none, is no error.
   bool may_be_empty = false;
   // Names in the file may lead anywhere in this folder, if the file lies in it. Empty: in that of

@@ -11,6 +11,7 @@
 
 #include "formats/common/regions.h"
 #include "formats/obj/obj_io.h"
+#include "formats/painted_materials.h"
 #include "formats/stl/stl_io.h"
 
 namespace meshrepair {
@@ -137,6 +138,10 @@ std::optional<Attributes> placed_for(SoupFormat format, const Attributes& attrib
 
 Attributes held_by(SoupFormat format, Attributes attributes, bool by_mesh) {
   const Held held = held_by(format);
+  if (format != SoupFormat::threemf) {
+    if (held.materials) make_materials_of_paint(attributes);
+    attributes.paints.clear();
+  }
   // Before sets go that pictures may lie by.
   if (held.materials && held.textures == 1) {
     if (auto placed = placed_for(format, attributes)) attributes = std::move(*placed);

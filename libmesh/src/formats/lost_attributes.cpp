@@ -10,8 +10,10 @@
 #include <mesh/lost_attributes.h>
 #include <mesh/precision.h>
 #include <mesh/skins.h>
+#include <mesh/triangle_paint.h>
 
 #include "formats/obj/obj_io.h"
+#include "formats/painted_materials.h"
 #include "formats/threemf/threemf_io.h"
 
 namespace meshrepair {
@@ -97,6 +99,16 @@ class Finder {
       const bool is_of_region = labels == &Attributes::groups || labels == &Attributes::objects;
       const bool is_there = is_of_region ? has_names(all_.*labels) : !(held_.*labels).empty();
       if (!(all_.*labels).empty() && !is_there) add(std::string(words));
+    }
+    if (!held_.paints.empty()) return;
+    const TrianglePaint* const filaments = filament_paint(all_);
+    const bool are_materials = all_.materials.empty() && !held_.materials.empty();
+    for (const TrianglePaint& paint : all_.paints) {
+      if (&paint != filaments || !are_materials) {
+        add("'" + paint.name + "'");
+      } else if (std::any_of(paint.codes.names.begin(), paint.codes.names.end(), is_divided)) {
+        add("'" + paint.name + "' of parts of triangles");
+      }
     }
   }
 

@@ -26,7 +26,8 @@ void require_some(const MeshSource& source, const ReadResult& result) {
   if (!result.soup.triangles.empty()) return;
   const ReadReport& report = result.report;
   const bool is_empty = result.soup.points.empty() && report.bad_faces == 0 &&
-                        report.missing_faces == 0 && report.warnings.empty();
+                        report.missing_faces == 0 &&
+                        (report.warnings.empty() || !report.volumes.empty());
   if (is_empty && source.options.may_be_empty) return;
   std::string what = "holds no triangles";
   if (report.bad_faces > 0) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <base/ids.h>
 #include <base/parallel.h>
 #include <mesh/skins.h>
+#include <mesh/triangle_paint.h>
 #include <repair/transfer_attributes.h>
 
 #include "facing_sources.h"
@@ -213,6 +215,66 @@ TriangleLabels transfer_labels(const TriangleLabels& given,
   return labels;
 }
 
+// Paint of slicers: whole triangles keep their codes, pieces get new ones.
+class PaintTransfer {
+ public:
+  PaintTransfer(const TriangleSoup& input, const Surface& surface,
+                const std::vector<std::uint32_t>& sources)
+      : input_(input), surface_(surface), sources_(sources) {}
+
+  [[nodiscard]] TrianglePaint run(const TrianglePaint& given) const {
+    TrianglePaint result{given.name, {given.codes.names, {}}};
+    std::unordered_map<std::string, std::uint32_t> numbers;
+    for (std::size_t t = 0; t < sources_.size(); ++t) {
+      const std::uint32_t source = sources_[t];
+      std::uint32_t code = source == Surface::kNoSource ? kNone : given.codes.of_triangle[source];
+      if (code != kNone && !is_whole(t, source)) {
+        code = number_of(code_of(given.codes.names[code], t, source), result.codes.names, numbers);
+      }
+      result.codes.of_triangle.push_back(code);
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] bool is_whole(std::size_t t, std::uint32_t source) const {
+    return places_of(surface_.mesh, t) == places_of(input_, source);
+  }
+
+  [[nodiscard]] std::string code_of(const std::string& code, std::size_t t,
+                                    std::uint32_t source) const {
+    const Places from = places_of(input_, source), to = places_of(surface_.mesh, t);
+    std::array<PaintPlace, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto same =
+          static_cast<std::size_t>(std::find(from.begin(), from.end(), to[k]) - from.begin());
+      if (same < 3) {
+        corners[k] = {0, 0, 0};
+        corners[k][same] = 1;
+        continue;
+      }
+      const auto shares = shares_of(to[k], from);
+      if (!shares) return {};
+      corners[k] = *shares;
+    }
+    return paint_within(code, corners);
+  }
+
+  // The names of the input are different ones already; those of pieces come behind.
+  static std::uint32_t number_of(const std::string& code, std::vector<std::string>& names,
+                                 std::unordered_map<std::string, std::uint32_t>& numbers) {
+    if (code.empty()) return kNone;
+    const auto [found, is_new] =
+        numbers.try_emplace(code, static_cast<std::uint32_t>(names.size()));
+    if (is_new) names.push_back(code);
+    return found->second;
+  }
+
+  const TriangleSoup& input_;
+  const Surface& surface_;
+  const std::vector<std::uint32_t>& sources_;
+};
+
 }  // namespace
 
 Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attributes,
@@ -228,6 +290,10 @@ Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attr
   result.groups = transfer_labels(attributes.groups, sources);
   result.objects = transfer_labels(attributes.objects, sources);
   result.smoothing = transfer_labels(attributes.smoothing, sources);
+  for (const TrianglePaint& paint : attributes.paints) {
+    result.paints.push_back(PaintTransfer(input, surface, sources).run(paint));
+  }
+  result.filaments = attributes.filaments;
   result.keepsake = attributes.keepsake;
   internal::fill_patches(surface, result);
   return result;

@@ -2,7 +2,7 @@
 #include "kept_parts.h"
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
 #include <unordered_map>
 #include <utility>
 
@@ -14,21 +14,13 @@
 namespace meshrepair {
 namespace {
 
-// Programs find their own by these names. Without it they take the mesh as one new object, and the
-// settings of the print stay.
+bool ends_with_one_of(std::string_view key, std::initializer_list<std::string_view> ends) {
+  return std::any_of(ends.begin(), ends.end(),
+                     [&](std::string_view end) { return key.ends_with(end); });
+}
+
+// What was made of the meshes as they were.
 bool belongs_to_old_meshes(std::string_view key, std::string_view media_type) {
-  constexpr std::array<std::string_view, 12> kEnds = {"/model_settings.config",
-                                                      "/slice_info.config",
-                                                      "/slic3r_pe_model.config",
-                                                      "cut_information.xml",
-                                                      "layer_heights_profile.txt",
-                                                      "layer_config_ranges.xml",
-                                                      "layer_config_ranges.txt",
-                                                      "sla_support_points.txt",
-                                                      "sla_drain_holes.txt",
-                                                      "brim_ear_points.txt",
-                                                      ".gcode",
-                                                      ".gcode.md5"};
   if (key.starts_with("_xmlsignatures/") ||
       media_type.find("digital-signature") != std::string_view::npos ||
       media_type.find("3dmanufacturing-keystore") != std::string_view::npos) {
@@ -36,8 +28,18 @@ bool belongs_to_old_meshes(std::string_view key, std::string_view media_type) {
   }
   if (!key.starts_with("metadata/")) return false;
   if (key.starts_with("metadata/plate_") && key.ends_with(".json")) return true;
-  return std::any_of(kEnds.begin(), kEnds.end(),
-                     [&](std::string_view end) { return key.ends_with(end); });
+  return ends_with_one_of(key, {"/slice_info.config", ".gcode", ".gcode.md5"});
+}
+
+// What is known of objects by their ids, or by their order. Without it programs take the mesh as
+// one new object, and the settings of the print stay.
+bool belongs_to_objects(std::string_view key) {
+  if (is_project_config(key)) return true;
+  return key.starts_with("metadata/") &&
+         ends_with_one_of(
+             key, {"cut_information.xml", "layer_heights_profile.txt", "layer_config_ranges.xml",
+                   "layer_config_ranges.txt", "sla_support_points.txt", "sla_drain_holes.txt",
+                   "brim_ear_points.txt"});
 }
 
 class PartKeeper {
@@ -59,8 +61,9 @@ class PartKeeper {
     }
     keep_relationships("", kept_.of_package);
     keep_relationships(model, kept_.of_model);
-    warn(report, old_, "that belong to the meshes as they were will not be written again");
-    warn(report, unreadable_, "that cannot be read will not be written again");
+    warn(report, old_, "that belong to the meshes as they were",
+         "it belongs to the meshes as they were");
+    warn(report, unreadable_, "that cannot be read", "it cannot be read");
   }
 
  private:
@@ -68,9 +71,13 @@ class PartKeeper {
 
   void keep(const ZipReader::Entry& entry, const std::string& key) {
     std::string media_type = types_.of(entry.name);
-    if (belongs_to_old_meshes(key, media_type)) {
+    if (belongs_to_old_meshes(key, media_type) || (belongs_to_objects(key) && !kept_.graph)) {
       old_.push_back(entry.name);
       return;
+    }
+    const auto is_it = [&](const KeptPackage::Config& one) { return one.name == entry.name; };
+    if (is_project_config(key) && std::none_of(kept_.configs.begin(), kept_.configs.end(), is_it)) {
+      return;  // it could not be read, and that is told
     }
     try {
       auto bytes = std::make_shared<const std::string>(archive_.text_of(entry));
@@ -93,12 +100,21 @@ class PartKeeper {
     }
   }
 
-  static void warn(ReadReport& report, const Names& names, const std::string& why) {
+  // Who keeps the scene is told of each.
+  void warn(ReadReport& report, const Names& names, const std::string& which,
+            const std::string& why) const {
+    constexpr std::size_t kMostNamed = 20;
     if (names.empty()) return;
-    report.warnings.push_back({WarningCode::package_parts_lost,
-                               counted(names.size(), "part") + " of the package " + why +
-                                   " (first: " + printable(names.front()) + ")",
-                               {{"parts", names.size()}}});
+    const std::string lost = " will not be written again";
+    const auto tell = [&](const std::string& text, std::size_t parts) {
+      report.warnings.push_back({WarningCode::package_parts_lost, text, {{"parts", parts}}});
+    };
+    const std::size_t named = kept_.graph ? std::min(names.size(), kMostNamed) : 0;
+    for (std::size_t i = 0; i < named; ++i) tell(printable(names[i]) + lost + ": " + why, 1);
+    if (names.size() == named) return;
+    tell(counted(names.size() - named, named == 0 ? "part" : "more part") + " of the package " +
+             which + lost + " (first: " + printable(names[named]) + ")",
+         names.size() - named);
   }
 
   const MeshSource& source_;
@@ -200,6 +216,7 @@ std::shared_ptr<KeptPackage> KeptPackage::copy() const {
   result->namespaces = namespaces;
   result->metadata = metadata;
   result->parts = parts;
+  result->configs = configs;
   result->of_package = of_package;
   result->of_model = of_model;
   result->tilings = tilings;
@@ -228,7 +245,8 @@ std::vector<std::string> KeptPackage::lost_in(SoupFormat format) const {
   if (graph && std::any_of(graph->items.begin(), graph->items.end(), is_not_printed)) {
     lost.emplace_back("what is not to be printed");
   }
-  if (!parts.empty()) lost.emplace_back("other parts of the package");
+  if (!configs.empty()) lost.emplace_back("what slicers say of objects and volumes");
+  if (parts.size() > configs.size()) lost.emplace_back("other parts of the package");
   return lost;
 }
 

@@ -16,6 +16,7 @@
 #include "model_instances.h"
 #include "model_part.h"
 #include "package_parts.h"
+#include "project/project_config.h"
 
 namespace meshrepair {
 
@@ -33,11 +34,18 @@ struct KeptPackage final : Keepsake {
     [[nodiscard]] TextureSampling sampling() const;
   };
 
+  // Of the parts, one that names objects and triangles.
+  struct Config {
+    std::string name;
+    std::shared_ptr<const ProjectConfig> text;
+  };
+
   std::optional<LengthUnit> unit;
   std::optional<KeptGraph> graph;  // of the scene, if meshes were read one by one
   std::vector<ModelNamespace> namespaces;
   std::vector<ModelMetadata> metadata;
   std::vector<Part> parts;
+  std::vector<Config> configs;                            // only with a graph
   std::vector<PackageRelationship> of_package, of_model;  // to these parts
   std::vector<Tiling> tilings;
 
@@ -52,9 +60,10 @@ struct KeptPackage final : Keepsake {
 };
 
 // Reads all parts but those that are written anew: models, relationships, types of content and the
-// parts in `taken` (by part_key()). Left out, with a warning, is what belongs to the meshes as they
-// were: slicers' lists of objects and of what was painted on them or cut out of them, toolpaths,
-// signatures. `model` is the name of the first model.
+// parts in `taken` (by part_key()). Left out, with a warning for each, is what belongs to the
+// meshes as they were: toolpaths and what was found with them, signatures; and where there is no
+// graph, what slicers say of objects by their ids or their order. `model` is the name of the first
+// model.
 void keep_parts(const MeshSource& source, ZipReader& archive, const ContentTypes& types,
                 const std::string& model, const std::unordered_set<std::string>& taken,
                 KeptPackage& kept, ReadReport& report);

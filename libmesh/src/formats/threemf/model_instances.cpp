@@ -2,8 +2,10 @@
 #include "model_instances.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <base/progress.h>
@@ -12,6 +14,7 @@
 #include <mesh/read_guard.h>
 
 #include "model_values.h"
+#include "volume_ranges.h"
 
 namespace meshrepair {
 namespace {
@@ -56,11 +59,14 @@ class InstancePlacer {
     require_sane(total);
     result_.soup.points.reserve(static_cast<std::size_t>(total.points));
     result_.soup.triangles.reserve(static_cast<std::size_t>(total.triangles));
+    result_.none_printed = std::none_of(items.begin(), items.end(), is_printed);
     for (const ObjectReference& item : items) {
       if (const auto number = number_of(item)) {
-        place(item.part, *number, placement_in(0, item), {});
+        Around around{item.part, *number, nullptr, groups_++, 0, is_printed(item)};
+        place(item.part, *number, placement_in(0, item), {}, VolumeRole::model, around);
       }
     }
+    end_volumes();
     if (source_.options.by_mesh) keep_graph(items);
     return std::move(result_);
   }
@@ -76,6 +82,18 @@ class InstancePlacer {
   struct Named {
     std::uint32_t part = kNone, object = kNone;
   };
+  // The object that volumes belong to: that of the item, or within it the one that a project knows.
+  struct Around {
+    std::uint32_t part = 0, object = 0;
+    const ProjectObject* project = nullptr;
+    std::uint32_t group = 0;
+    std::size_t meshes = 0;  // before in it
+    bool printed = true;
+  };
+
+  static bool is_printed(const ObjectReference& item) {
+    return !item.marks || (item.marks->printable != "0" && item.marks->printable != "false");
+  }
 
   [[nodiscard]] std::vector<ObjectReference> items_of_build() const {
     const ModelPart& part = parts_.front();
@@ -121,15 +139,10 @@ class InstancePlacer {
     if (is_known) return known.total;
     cancel_.tick();
     known.state = Known::State::open;
-    MeshTotal total;
-    if (object.is_left_out && object.components.empty()) {
-      ++result_.left_out;
-    } else {
-      total = {object.mesh.points.size(), object.mesh.triangles.size(), 0, 0};
-      in_file_.add(total);
-      for (const ObjectReference& component : object.components) {
-        total.add(count(component, depth + 1));
-      }
+    MeshTotal total = {object.mesh.points.size(), object.mesh.triangles.size(), 0, 0};
+    in_file_.add(total);
+    for (const ObjectReference& component : object.components) {
+      total.add(count(component, depth + 1));
     }
     if (total.triangles == 0) total = {0, 0, 0, total.height};
     ++total.steps;
@@ -153,16 +166,29 @@ class InstancePlacer {
     require_triangles(total.triangles, source_.name);
   }
 
-  void place(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {
+  void place(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named,
+             VolumeRole role, Around& around) {
     if (known_[part][number].total.triangles == 0) return;
     cancel_.tick();
     const ModelObject& object = parts_[part].objects[number];
+    if (object.project != nullptr && around.project == nullptr) {
+      Around inner{part, number, object.project, groups_++, 0, around.printed};
+      return place_inside(part, number, placement, named, role, inner);
+    }
+    place_inside(part, number, placement, named, role, around);
+  }
+
+  void place_inside(std::uint32_t part, std::uint32_t number, const Placement& placement,
+                    Named named, VolumeRole role, Around& around) {
+    const ModelObject& object = parts_[part].objects[number];
+    if (role == VolumeRole::model) role = object.role;
     if (!object.name.empty()) named = {part, number};
-    if (!object.mesh.triangles.empty()) add_mesh(part, number, placement, named);
+    if (!object.mesh.triangles.empty()) add_mesh(part, number, placement, named, role, around);
     for (const ObjectReference& component : object.components) {
       const auto inner = number_of(component);
       if (!inner) continue;
-      place(component.part, *inner, placement_in(part, component).then(placement), named);
+      place(component.part, *inner, placement_in(part, component).then(placement), named, role,
+            around);
     }
   }
 
@@ -188,6 +214,10 @@ class InstancePlacer {
                             std::vector<std::vector<std::uint32_t>>& kept) {
     const ModelObject& object = parts_[part].objects[number];
     KeptObject fresh{object.name, result_.mesh_of_object[part][number], {}, object.marks};
+    fresh.part = part;
+    fresh.id = object.id;
+    fresh.is_split = object.is_split;
+    fresh.volume = object.volume;
     for (const ObjectReference& component : object.components) {
       keep_reference(part, component, kept, fresh.components);
     }
@@ -207,21 +237,94 @@ class InstancePlacer {
     return scale.then(reference.placement);
   }
 
-  void add_mesh(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named) {
-    if (source_.options.by_mesh) {
-      add_instance(part, number, placement, named);
-      return;
+  void add_mesh(std::uint32_t part, std::uint32_t number, const Placement& placement, Named named,
+                VolumeRole role, Around& around) {
+    const ModelObject& object = parts_[part].objects[number];
+    std::string name = object.name;
+    if (around.project != nullptr && object.volume == kNone) {
+      const std::uint32_t known = around.project->volume_of(around.meshes, object.id);
+      if (known != kNone) {
+        const ProjectVolume& volume = around.project->volumes[known];
+        if (role == VolumeRole::model) role = volume.role;
+        if (!volume.name.empty()) name = volume.name;
+      }
     }
+    ++around.meshes;
+    ModelVolume& volume = volume_at(part, number, name, role, around);
+    const bool is_new = volume.copies++ == 0;
+    if (is_new) volume.triangles = object.mesh.triangles.size();
+    if (volume.fate == VolumeFate::left_out) return;
+    if (source_.options.by_mesh) {
+      if (name.empty() && named.object != kNone)
+        name = parts_[named.part].objects[named.object].name;
+      return add_instance(part, number, placement, named, name);
+    }
+    result_.placed.push_back({number_of_volume_, around.group, result_.soup.triangles.size(),
+                              object.mesh.triangles.size()});
     append(part, number, placement, named);
+  }
+
+  // Sets number_of_volume_, too.
+  ModelVolume& volume_at(std::uint32_t part, std::uint32_t number, const std::string& name,
+                         VolumeRole role, const Around& around) {
+    const bool printed = around.printed || result_.none_printed;
+    const auto key = std::tuple(around.part, around.object, part, number, role, printed);
+    const auto fresh = static_cast<std::uint32_t>(result_.volumes.size());
+    const auto [found, is_new] = volume_numbers_.try_emplace(key, fresh);
+    number_of_volume_ = found->second;
+    if (is_new) {
+      const ProjectObject* const project = around.project;
+      const bool has_name = project != nullptr && !project->name.empty();
+      const std::string& object =
+          has_name ? project->name : parts_[around.part].objects[around.object].name;
+      const bool has_words = !name.empty() || !object.empty();
+      const std::uint32_t own_id = parts_[part].objects[number].id;
+      const std::uint32_t id =
+          is_range_id(own_id) ? parts_[around.part].objects[around.object].id : own_id;
+      const std::string by_id = "object " + std::to_string(id);
+      result_.volumes.push_back(
+          {has_words ? name : by_id, object, role, printed, 0, 0, fate_of(role, printed)});
+    }
+    return result_.volumes[number_of_volume_];
+  }
+
+  [[nodiscard]] VolumeFate fate_of(VolumeRole role, bool printed) const {
+    if (source_.options.by_mesh) return VolumeFate::separate;
+    if (!printed) return VolumeFate::left_out;
+    if (role == VolumeRole::model) return VolumeFate::joined;
+    if (role != VolumeRole::negative) return VolumeFate::left_out;
+    switch (source_.options.negative) {
+      case NegativeVolumes::drop:
+        break;
+      case NegativeVolumes::keep:
+        return VolumeFate::joined;
+      case NegativeVolumes::subtract:
+        return VolumeFate::subtracted;
+    }
+    return VolumeFate::left_out;
+  }
+
+  void end_volumes() {
+    const auto is_subtracted = [](const ModelVolume& volume) {
+      return volume.fate == VolumeFate::subtracted;
+    };
+    auto& volumes = result_.volumes;
+    if (std::none_of(volumes.begin(), volumes.end(), is_subtracted)) result_.placed = {};
+    result_.none_printed = result_.none_printed && !volumes.empty();
+    const auto& objects = parts_.front().objects;
+    const bool is_project =
+        std::any_of(objects.begin(), objects.end(),
+                    [](const ModelObject& object) { return object.project != nullptr; });
+    const bool is_plain = std::all_of(volumes.begin(), volumes.end(),
+                                      [](const ModelVolume& volume) { return volume.is_plain(); });
+    if (is_plain && !is_project && !result_.none_printed) volumes = {};
   }
 
   // The mesh itself once, and where it stands.
   void add_instance(std::uint32_t part, std::uint32_t number, const Placement& placement,
-                    Named named) {
+                    Named named, const std::string& name) {
     Scene& scene = result_.scene;
     std::uint32_t& mesh = result_.mesh_of_object[part][number];
-    const std::string& name = named.object == kNone ? parts_[part].objects[number].name
-                                                    : parts_[named.part].objects[named.object].name;
     if (mesh == kNone) {
       mesh = static_cast<std::uint32_t>(scene.meshes.size());
       const std::size_t points = result_.soup.points.size();
@@ -241,8 +344,14 @@ class InstancePlacer {
 
   const MeshSource& source_;
   const std::vector<ModelPart>& parts_;
+  using VolumeKey =
+      std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, VolumeRole, bool>;
+
   std::vector<std::vector<Known>> known_;
   MeshTotal in_file_;
+  std::uint32_t groups_ = 0;
+  std::map<VolumeKey, std::uint32_t> volume_numbers_;
+  std::uint32_t number_of_volume_ = 0;  // the last one
   InstanceResult result_;
   CancelCheck cancel_;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <mesh/mesh_source.h>
+#include <mesh/model_volume.h>
 #include <mesh/scene.h>
 #include <mesh/soup.h>
 
@@ -38,6 +39,9 @@ struct KeptObject {
   std::uint32_t mesh = kNone;  // of the scene, if it has one
   std::vector<KeptReference> components;
   std::shared_ptr<const ModelMarks> marks;  // null: none
+  std::uint32_t part = 0, id = kNone;       // in the file
+  bool is_split = false;                    // see ModelObject
+  std::uint32_t volume = kNone;             // the same
 };
 
 // What a build is made of. An object stands behind its components.
@@ -56,12 +60,16 @@ struct InstanceResult {
   std::vector<std::vector<std::uint32_t>> mesh_of_object;
   // In the soup. Mesh by mesh each stands there once, where it is.
   std::vector<MeshInstance> instances;
-  std::size_t missing = 0;   // references to objects that are not there
-  std::size_t left_out = 0;  // references to objects of types that are not built
+  std::size_t missing = 0;  // references to objects that are not there
+  // All; none if they are all plain, and no project says anything of them.
+  std::vector<ModelVolume> volumes;
+  std::vector<PlacedVolume> placed;  // if there are negative volumes to subtract
+  bool none_printed = false;         // no item is to be printed: all are taken
 };
 
 // Of the items of the first part's build; where there are none, of all its objects that no other
-// has as a component. Throws InputError where components name each other in a circle, are nested
+// has as a component. Volumes that are not the model are left out, or not, as ReadOptions says.
+// Throws InputError where components name each other in a circle, are nested
 // too deep, or make far more triangles than the file holds; LimitError.
 [[nodiscard]] InstanceResult place_instances(const MeshSource& source,
                                              const std::vector<ModelPart>& parts);

@@ -9,13 +9,17 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include <base/ids.h>
 #include <mesh/length_unit.h>
+#include <mesh/model_volume.h>
 #include <mesh/placement.h>
 #include <mesh/soup.h>
+
+#include "project/project_config.h"
 
 namespace meshrepair {
 
@@ -23,7 +27,29 @@ namespace meshrepair {
 struct PropertyUse {
   std::uint32_t group = kNone;  // its id; kNone: that of the object
   std::array<std::uint32_t, 3> index = {kNone, kNone, kNone};
+  std::uint32_t paint = kNone;  // of triangles: a number of ModelPart::painted
 };
+
+// Attributes of triangles that slicers paint: as they are read, and as they are written.
+struct PaintName {
+  std::string_view read, written;
+};
+
+inline constexpr std::string_view kPrusaSpace = "http://schemas.slic3r.org/3mf/2017/06";
+inline constexpr std::string_view kPrusaPrefix = "slic3rpe";
+inline constexpr std::array<PaintName, 8> kPaintNames = {{
+    {"paint_color", "paint_color"},
+    {"paint_supports", "paint_supports"},
+    {"paint_seam", "paint_seam"},
+    {"paint_fuzzy_skin", "paint_fuzzy_skin"},
+    {"http://schemas.slic3r.org/3mf/2017/06|mmu_segmentation", "slic3rpe:mmu_segmentation"},
+    {"http://schemas.slic3r.org/3mf/2017/06|custom_supports", "slic3rpe:custom_supports"},
+    {"http://schemas.slic3r.org/3mf/2017/06|custom_seam", "slic3rpe:custom_seam"},
+    {"http://schemas.slic3r.org/3mf/2017/06|fuzzy_skin", "slic3rpe:fuzzy_skin"},
+}};
+
+// Of a triangle: numbers of ModelPart::codes, by kPaintNames; kNone: no paint.
+using PaintCodes = std::array<std::uint32_t, kPaintNames.size()>;
 
 // "Title", "Designer", ...
 struct ModelMetadata {
@@ -61,7 +87,7 @@ struct TriangleSet {
 
 struct ModelObject {
   std::uint32_t id = kNone;
-  bool is_left_out = false;  // of the types that are not built, or no part of the solid
+  VolumeRole role = VolumeRole::model;
   std::string name;
   std::shared_ptr<const ModelMarks> marks;  // null: none
   PropertyUse property;                     // of triangles that say nothing
@@ -69,7 +95,13 @@ struct ModelObject {
   std::vector<PropertyUse> properties;         // of the triangles, if asked for
   std::vector<TriangleSet> sets;               // the same
   std::vector<std::uint32_t> set_of_triangle;  // the first; kNone: in none. Empty: there are none
+  std::vector<std::uint32_t> bad;              // numbers in the file of triangles that are left out
   std::vector<ObjectReference> components;
+  const ProjectObject* project = nullptr;  // what a slicer says of it; null: nothing
+  // What split_volumes() made: an object of ranges of its mesh, and of such a range the number of
+  // its volume; kNone: of what belongs to none.
+  bool is_split = false;
+  std::uint32_t volume = kNone;
 };
 
 // Entries that triangles refer to by their number.
@@ -110,6 +142,8 @@ struct ModelPart {
   std::vector<ModelTexture> textures;
   std::vector<ObjectReference> items;  // of the build
   std::string build_uuid;
+  std::vector<std::string> codes;  // of paint, each once
+  std::vector<PaintCodes> painted;
 };
 
 // Of all parts of a package: what could not be taken.
@@ -117,6 +151,7 @@ struct ModelOddities {
   std::size_t bad_triangles = 0;
   std::size_t bad_points = 0;
   std::size_t doubled_ids = 0;
+  std::size_t bad_ranges = 0;      // volumes whose triangles are not there, or others' as well
   std::size_t painted = 0;         // triangles with attributes of other programs
   std::size_t unknown_groups = 0;  // compositematerials, and layers beyond those that are read
   std::vector<std::string> unknown_extensions;

@@ -152,6 +152,25 @@ std::shared_ptr<const ModelMarks> shared(ModelMarks marks) {
   return std::make_shared<const ModelMarks>(std::move(marks));
 }
 
+// Settings of an object, as Cura has them.
+VolumeRole role_of_settings(const std::vector<ModelMetadata>& settings) {
+  constexpr std::string_view kCuraSpace = "http://software.ultimaker.com/xml/cura/3mf/";
+  constexpr std::array<std::pair<std::string_view, VolumeRole>, 4> kRoles = {{
+      {"support_mesh", VolumeRole::support},
+      {"anti_overhang_mesh", VolumeRole::support_blocker},
+      {"infill_mesh", VolumeRole::modifier},
+      {"cutting_mesh", VolumeRole::modifier},
+  }};
+  for (const ModelMetadata& one : settings) {
+    if (!one.space.starts_with(kCuraSpace) || in_lower_case(one.value) != "true") continue;
+    const std::string_view key = std::string_view(one.name).substr(one.name.find(':') + 1);
+    const auto* const role = std::find_if(kRoles.begin(), kRoles.end(),
+                                          [&](const auto& known) { return known.first == key; });
+    if (role != kRoles.end()) return role->second;
+  }
+  return VolumeRole::model;
+}
+
 bool is_truth(std::string_view word) {
   return word == "0" || word == "1" || word == "false" || word == "true";
 }
@@ -221,9 +240,8 @@ void ModelReader::end() {
 }
 
 void ModelReader::text(std::string_view piece) {
-  if (properties_ && !open_.empty() && open_.back() == Element::metadata) {
-    metadata().back().value += piece;
-  }
+  if (open_.empty() || open_.back() != Element::metadata) return;
+  if (properties_ || is_in_group()) metadata().back().value += piece;
 }
 
 void ModelReader::open(Element element, const XmlAttributes& attributes) {
@@ -244,7 +262,7 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
     case Element::item:
       return read_reference(attributes, part_.items);
     case Element::metadata:
-      if (properties_) {
+      if (properties_ || is_in_group()) {
         metadata().push_back({attributes.text("name"),
                               {},
                               attributes.text("preserve"),
@@ -257,10 +275,13 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
   }
 }
 
+bool ModelReader::is_in_group() const {
+  return std::find(open_.begin(), open_.end(), Element::metadatagroup) != open_.end();
+}
+
 // Those of the model, or of the object or item that is open.
 std::vector<ModelMetadata>& ModelReader::metadata() {
-  const auto is_group = [](Element element) { return element == Element::metadatagroup; };
-  return std::any_of(open_.begin(), open_.end(), is_group) ? metadata_of_group_ : part_.metadata;
+  return is_in_group() ? metadata_of_group_ : part_.metadata;
 }
 
 std::string ModelReader::space_of_prefix(std::string_view name) const {
@@ -275,6 +296,8 @@ std::string ModelReader::space_of_prefix(std::string_view name) const {
 void ModelReader::end_group(bool is_of_item) {
   std::vector<ModelMetadata> found = std::exchange(metadata_of_group_, {});
   if (found.empty()) return;
+  if (!is_of_item && object().role == VolumeRole::model) object().role = role_of_settings(found);
+  if (!properties_) return;
   auto& known = is_of_item ? part_.items.back().marks : object().marks;
   ModelMarks marks = known ? *known : ModelMarks();
   std::move(found.begin(), found.end(), std::back_inserter(marks.metadata));
@@ -362,7 +385,8 @@ void ModelReader::read_object(const XmlAttributes& attributes) {
   fresh.id = index_in(attributes, "id");
   fresh.name = attributes.text("name");
   const std::string type = attributes.text("type");
-  fresh.is_left_out = type == "other" || type == "support";
+  if (type == "support" || type == "solidsupport") fresh.role = VolumeRole::support;
+  if (type == "other") fresh.role = VolumeRole::other;
   ModelMarks marks{.part_number = attributes.text("partnumber"), .uuid = uuid_in(attributes)};
   if (is_object_type(type)) marks.type = type;
   if (const auto path = attributes.find("thumbnail"))
@@ -391,7 +415,7 @@ void ModelReader::read_triangle(const XmlAttributes& attributes) {
   bool is_painted = false;
   attributes.visit([&](std::string_view name, std::string_view value) {
     if (name == "pid") property.group = read_model_index(value);
-    is_painted = is_painted || name.size() > 3;
+    if (name.size() > 3 && !add_paint(name, value, property)) is_painted = true;
     if (name.size() != 2 || name[1] < '1' || name[1] > '3') return;
     const auto corner = static_cast<std::size_t>(name[1] - '1');
     if (name[0] == 'v') triangle[corner] = read_model_index(value);
@@ -400,6 +424,24 @@ void ModelReader::read_triangle(const XmlAttributes& attributes) {
   object().mesh.triangles.push_back(triangle);
   if (is_painted) ++oddities_.painted;
   if (properties_) object().properties.push_back(property);
+}
+
+// False if it is none that is known.
+bool ModelReader::add_paint(std::string_view name, std::string_view value, PropertyUse& property) {
+  const auto* const known =
+      std::find_if(kPaintNames.begin(), kPaintNames.end(),
+                   [&](const PaintName& candidate) { return candidate.read == name; });
+  if (known == kPaintNames.end()) return false;
+  if (!properties_ || value.empty()) return true;
+  if (property.paint == kNone) {
+    property.paint = static_cast<std::uint32_t>(part_.painted.size());
+    part_.painted.emplace_back().fill(kNone);
+  }
+  const auto fresh = static_cast<std::uint32_t>(part_.codes.size());
+  const auto [code, is_new] = number_of_code_.try_emplace(std::string(value), fresh);
+  if (is_new) part_.codes.push_back(code->first);
+  part_.painted.back()[static_cast<std::size_t>(known - kPaintNames.begin())] = code->second;
+  return true;
 }
 
 // The points are known: triangles that name others are left out.
@@ -413,6 +455,7 @@ void ModelReader::end_mesh() {
     const IndexTriangle triangle = mesh.triangles[t];
     if (std::any_of(triangle.begin(), triangle.end(),
                     [&](std::uint32_t corner) { return corner >= points; })) {
+      object().bad.push_back(static_cast<std::uint32_t>(t));
       continue;
     }
     mesh.triangles[kept] = triangle;

@@ -7,10 +7,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
+#include "common/xml_stream.h"
 #include "model_part.h"
-#include "xml_stream.h"
 
 namespace meshrepair {
 
@@ -51,9 +52,11 @@ class ModelReader final : public XmlHandler {
   void add_group(PropertyGroup::Kind kind, const XmlAttributes& attributes);
   void add_colour(std::string_view text);
   void add_range(std::uint32_t first, std::uint32_t last);
+  bool add_paint(std::string_view name, std::string_view value, PropertyUse& property);
   void end_mesh();
   void end_group(bool is_of_item);
 
+  [[nodiscard]] bool is_in_group() const;
   [[nodiscard]] std::vector<ModelMetadata>& metadata();
   [[nodiscard]] std::string space_of_prefix(std::string_view name) const;
   [[nodiscard]] ModelObject& object() { return part_.objects.back(); }
@@ -67,6 +70,7 @@ class ModelReader final : public XmlHandler {
   const XmlStream* stream_ = nullptr;
   std::vector<Element> open_;
   std::vector<ModelMetadata> metadata_of_group_;
+  std::unordered_map<std::string, std::uint32_t> number_of_code_;
   bool saw_model_ = false;
 };
 

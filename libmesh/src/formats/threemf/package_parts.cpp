@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "common/xml_stream.h"
 #include "formats/common/part_names.h"
-#include "xml_stream.h"
 
 namespace meshrepair {
 namespace {

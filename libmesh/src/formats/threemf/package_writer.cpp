@@ -5,9 +5,9 @@
 #include <unordered_set>
 #include <utility>
 
+#include "common/xml_text.h"
 #include "formats/common/part_names.h"
 #include "package_parts.h"
-#include "xml_text.h"
 
 namespace meshrepair {
 

@@ -2,11 +2,14 @@
 #include "property_labels.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+
+#include <mesh/triangle_paint.h>
 
 #include "model_values.h"
 
@@ -250,6 +253,7 @@ class PropertyLabeler {
     drop_if_unused(attributes_.objects);
     label_groups();
     drop_if_unused(attributes_.groups);
+    end_paints();
     return std::move(attributes_);
   }
 
@@ -261,6 +265,7 @@ class PropertyLabeler {
   void label(const MeshInstance& instance) {
     const ModelObject& object = parts_[instance.part].objects[instance.object];
     for (PropertyUse use : object.properties) {
+      if (use.paint != kNone) add_paint(instance, use.paint);
       resolve(object, use);
       if (instance.turned) std::swap(use.index[1], use.index[2]);
       const CornerProperty none;
@@ -273,6 +278,34 @@ class PropertyLabeler {
       }
       if (missing) ++oddities_.missing;
       append(corners);
+    }
+  }
+
+  // Of the next triangle.
+  void add_paint(const MeshInstance& instance, std::uint32_t paint) {
+    const std::size_t triangle = attributes_.materials.of_triangle.size();
+    const ModelPart& part = parts_[instance.part];
+    for (std::size_t k = 0; k < kPaintNames.size(); ++k) {
+      const std::uint32_t code = part.painted[paint][k];
+      if (code == kNone) continue;
+      TriangleLabels& codes = paints_[k].codes;
+      const auto fresh = static_cast<std::uint32_t>(codes.names.size());
+      const auto [found, is_new] = codes_[k].try_emplace(part.codes[code], fresh);
+      if (is_new) codes.names.push_back(part.codes[code]);
+      codes.of_triangle.resize(triangle, kNone);
+      codes.of_triangle.push_back(found->second);
+      if (instance.turned) turned_[k].push_back(triangle);
+    }
+  }
+
+  void end_paints() {
+    for (std::size_t k = 0; k < kPaintNames.size(); ++k) {
+      TrianglePaint& paint = paints_[k];
+      if (paint.codes.empty()) continue;
+      paint.name = kPaintNames[k].written;
+      paint.codes.of_triangle.resize(placed_.soup.triangles.size(), kNone);
+      turn_paint(paint, turned_[k]);
+      attributes_.paints.push_back(std::move(paint));
     }
   }
 
@@ -353,6 +386,9 @@ class PropertyLabeler {
   PropertyOddities& oddities_;
   Attributes attributes_;
   PropertyTables tables_;
+  std::array<TrianglePaint, kPaintNames.size()> paints_;
+  std::array<std::unordered_map<std::string, std::uint32_t>, kPaintNames.size()> codes_;
+  std::array<std::vector<std::size_t>, kPaintNames.size()> turned_;  // triangles
 };
 
 }  // namespace

@@ -8,15 +8,18 @@
 
 #include <base/error.h>
 
+#include "common/xml_stream.h"
+#include "filament_colours.h"
 #include "formats/common/part_names.h"
 #include "formats/common/zip_reader.h"
 #include "kept_parts.h"
 #include "model_instances.h"
 #include "model_reader.h"
 #include "package_parts.h"
+#include "project/project_config.h"
 #include "property_labels.h"
 #include "threemf_io.h"
-#include "xml_stream.h"
+#include "volume_ranges.h"
 
 namespace meshrepair {
 namespace {
@@ -33,11 +36,14 @@ class ThreemfReader {
                " ignored: names that lead out of the package, or duplicate names");
     }
     read_parts(find_start());
+    read_projects();
     InstanceResult placed = place_instances(source_, parts_);
     report_oddities(placed);
+    tell_volumes(placed);
     if (source_.options.attributes || source_.options.by_mesh) keep_rest(placed);
     result_.scene = std::move(placed.scene);
     result_.soup = std::move(placed.soup);
+    result_.placed = std::move(placed.placed);
     result_.report.unit = parts_.front().unit.value_or(LengthUnit::millimeter);
     return std::move(result_);
   }
@@ -112,6 +118,33 @@ class ThreemfReader {
     packed_ += entry.packed;
   }
 
+  // What slicers say of the objects of the first part.
+  void read_projects() {
+    for (const ZipReader::Entry& entry : archive_.entries()) {
+      if (!is_project_config(part_key(entry.name))) continue;
+      try {
+        auto bytes = std::make_shared<const std::string>(archive_.text_of(entry));
+        auto config = std::make_shared<ProjectConfig>(source_, entry.name, std::move(bytes));
+        for (const ProjectObject& object : config->objects()) apply(object);
+        configs_.push_back({entry.name, std::move(config)});
+      } catch (const InputError&) {
+        warn(WarningCode::project_unreadable,
+             "what " + printable(entry.name) + " says of objects and volumes cannot be read");
+      }
+    }
+  }
+
+  void apply(const ProjectObject& said) {
+    ModelPart& part = parts_.front();
+    const auto number = part.object_of_id.find(said.id);
+    if (number == part.object_of_id.end()) return;
+    if (part.objects[number->second].project != nullptr) return;
+    part.objects[number->second].project = &said;
+    if (part.objects[number->second].components.empty()) {
+      split_volumes(part, number->second, said, oddities_);
+    }
+  }
+
   void tell_progress(const ZipReader::Entry& entry, std::uint64_t read) {
     ProgressObserver* const progress = source_.options.progress;
     if (progress == nullptr) return;
@@ -136,8 +169,8 @@ class ThreemfReader {
     warn_if(WarningCode::references_missing, missing_parts_, "part", " with objects missing");
     warn_if(WarningCode::references_missing, placed.missing, "reference",
             " to objects that are not there");
-    warn_if(WarningCode::objects_left_out, placed.left_out, "object",
-            left_out + "supports, and what is not to be built");
+    warn_if(WarningCode::references_missing, oddities_.bad_ranges, "volume",
+            " taken for model: their triangles are not there, or those of others");
     if (!oddities_.unknown_unit.empty()) {
       warn(WarningCode::unit_unknown, "the unit " + printable(oddities_.unknown_unit) +
                                           " is not known: taken for millimeters");
@@ -155,6 +188,36 @@ class ThreemfReader {
     }
   }
 
+  void tell_volumes(InstanceResult& placed) {
+    constexpr std::size_t kMostNamed = 20;
+    if (placed.none_printed && !source_.options.by_mesh) {
+      warn(WarningCode::none_printed,
+           "none of its items is to be printed: all are taken for the model");
+    }
+    std::size_t left_out = 0;
+    for (const ModelVolume& volume : placed.volumes) {
+      if (volume.fate != VolumeFate::left_out || ++left_out > kMostNamed) continue;
+      warn(volume.role == VolumeRole::negative && volume.printed ? WarningCode::not_subtracted
+                                                                 : WarningCode::objects_left_out,
+           volume_words(volume) + " left out: " + why_left_out(volume));
+    }
+    if (left_out > kMostNamed) {
+      warn_if(WarningCode::objects_left_out, left_out - kMostNamed, "more volume",
+              " left out: no part of the model");
+    }
+    const bool is_empty = placed.soup.triangles.empty() && !source_.options.may_be_empty;
+    if (is_empty && left_out > 0) {
+      source_.fail("holds nothing of a model: " + result_.report.warnings.back().text);
+    }
+    result_.report.volumes = std::move(placed.volumes);
+  }
+
+  static std::string why_left_out(const ModelVolume& volume) {
+    if (!volume.printed) return "it is not to be printed";
+    if (volume.role == VolumeRole::negative) return "it is not subtracted";
+    return "it is no part of the model";
+  }
+
   void warn_if(WarningCode code, std::size_t count, std::string_view noun,
                const std::string& what) {
     if (count == 0) return;
@@ -163,9 +226,9 @@ class ThreemfReader {
 
   void keep_rest(InstanceResult& placed) {
     auto kept = std::make_shared<KeptPackage>();
+    if (source_.options.by_mesh) kept->graph = std::move(placed.graph);
     if (source_.options.attributes) read_attributes(placed, *kept);
     kept->unit = parts_.front().unit;
-    if (source_.options.by_mesh) kept->graph = std::move(placed.graph);
     result_.attributes.keepsake = std::move(kept);
   }
 
@@ -190,7 +253,13 @@ class ThreemfReader {
     ModelPart& first = parts_.front();
     for (const ModelPart& part : parts_) add_namespaces(part.namespaces, kept.namespaces);
     kept.metadata = std::move(first.metadata);
+    if (source_.options.by_mesh) kept.configs = configs_;
     keep_parts(source_, archive_, types_, first.name, taken, kept, result_.report);
+    for (const KeptPackage::Part& part : kept.parts) {
+      if (!result_.attributes.paints.empty() && is_print_settings(part_key(part.name))) {
+        result_.attributes.filaments = read_filament_colours(*part.bytes);
+      }
+    }
   }
 
   // A prefix means what it meant first.
@@ -229,6 +298,7 @@ class ThreemfReader {
   std::vector<std::string> names_;  // of the parts
   std::unordered_map<std::string, std::uint32_t> number_of_part_;
   std::vector<ModelPart> parts_;
+  std::vector<KeptPackage::Config> configs_;
   ModelOddities oddities_;
   ContentTypes types_;
   std::size_t missing_parts_ = 0;

@@ -9,14 +9,15 @@
 #include <base/error.h>
 #include <mesh/edge_table.h>
 
+#include "common/xml_text.h"
 #include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
 #include "kept_parts.h"
 #include "package_parts.h"
 #include "package_writer.h"
 #include "threemf_io.h"
+#include "written_configs.h"
 #include "written_properties.h"
-#include "xml_text.h"
 #include "zip_writer.h"
 
 namespace meshrepair {
@@ -52,7 +53,11 @@ class ModelWriter {
     production_ = free_prefix("p", kProductionSpace);
     sets_ = free_prefix("t", kSetSpace);
     collect_metadata();
-    if (attributes_ != nullptr) properties_ = write_properties(soup, *attributes_, kept, material_);
+    const std::uint32_t first_id = keep_ids();
+    if (attributes_ != nullptr) {
+      properties_ = write_properties(soup, *attributes_, kept, material_, first_id);
+    }
+    properties_.next_id = std::max(properties_.next_id, first_id);
   }
 
   std::string run() {
@@ -73,7 +78,36 @@ class ModelWriter {
   // Parts that objects have for their thumbnails, once the model is written.
   [[nodiscard]] const std::vector<std::string>& thumbnails() const { return thumbnails_; }
 
+  // Of a part that was kept, once the model is written: null, or what names objects.
+  [[nodiscard]] const ProjectConfig* config_of(const KeptPackage::Part& part) const {
+    const auto& configs = kept_->configs;
+    const auto config = std::find_if(configs.begin(), configs.end(),
+                                     [&](const auto& one) { return one.name == part.name; });
+    return config == configs.end() ? nullptr : config->text.get();
+  }
+
+  // Of the scene that was written; nothing if there was none, as it would be wrong.
+  [[nodiscard]] std::optional<std::string> text_of(const ProjectConfig& config) const {
+    if (kept_graph() == nullptr) return std::nullopt;
+    return written_config(*kept_, config, written_, *extras_.scene);
+  }
+
  private:
+  // Objects keep theirs as far as no other has the same. Returns what is free.
+  std::uint32_t keep_ids() {
+    constexpr std::uint32_t kMost = std::uint32_t{1} << 30;
+    const KeptGraph* const graph = kept_graph();
+    std::uint32_t last = 0;
+    if (graph == nullptr) return 1;
+    std::unordered_set<std::uint32_t> taken;
+    for (const KeptObject& object : graph->objects) {
+      const bool is_kept = object.id > 0 && object.id < kMost && taken.insert(object.id).second;
+      written_.push_back(is_kept ? object.id : kNone);
+      if (is_kept) last = std::max(last, object.id);
+    }
+    return last + 1;
+  }
+
   // This letter, or several, unless other metadata have it.
   [[nodiscard]] std::string free_prefix(const std::string& letter, std::string_view space) const {
     std::string prefix = letter;
@@ -105,6 +139,10 @@ class ModelWriter {
     if (has_groups()) {
       append_xml_attribute(xml_, "xmlns:" + sets_, kSetSpace);
       declared_.emplace(sets_, kSetSpace);
+    }
+    if (has_prusa_paint()) {
+      append_xml_attribute(xml_, "xmlns:" + std::string(kPrusaPrefix), kPrusaSpace);
+      declared_.emplace(kPrusaPrefix, kPrusaSpace);
     }
     if (kept_ != nullptr) {
       for (const ModelNamespace& one : kept_->namespaces) {
@@ -138,6 +176,12 @@ class ModelWriter {
              return has_one(object) ||
                     std::any_of(object.components.begin(), object.components.end(), has_one);
            });
+  }
+
+  [[nodiscard]] bool has_prusa_paint() const {
+    return attributes_ != nullptr &&
+           std::any_of(attributes_->paints.begin(), attributes_->paints.end(),
+                       [](const auto& paint) { return paint.name.starts_with(kPrusaPrefix); });
   }
 
   void append_uuid(const std::string& uuid) {
@@ -233,29 +277,50 @@ class ModelWriter {
   std::vector<KeptReference> write_objects() {
     if (extras_.scene == nullptr) {
       const MeshRange all{0, soup_.points.size(), 0, soup_.triangles.size()};
-      return {{write_mesh(all, name_of_object(), nullptr), {}, nullptr}};
+      return {{write_mesh(all, name_of_object(), nullptr, kNone), {}, nullptr}};
     }
     const Scene& scene = *extras_.scene;
     const KeptGraph* const graph = kept_graph();
-    std::vector<const KeptObject*> objects(scene.meshes.size());
-    if (graph != nullptr) {
-      for (const KeptObject& object : graph->objects) {
-        if (object.mesh < objects.size() && object.components.empty())
-          objects[object.mesh] = &object;
-      }
-    }
-    std::vector<std::uint32_t> ids;  // of meshes
+    const std::vector<std::uint32_t> owners = owners_of(graph, scene.meshes.size());
+    std::vector<std::uint32_t> ids(scene.meshes.size(), kNone);  // of meshes
     MeshRange range;
-    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-      const SceneMesh& mesh = scene.meshes[m];
-      const KeptObject* const object = objects[m];
-      range = {range.point_end, range.point_end + mesh.points, range.end,
-               range.end + mesh.triangles};
-      ids.push_back(mesh.triangles == 0 ? kNone
-                    : object == nullptr ? write_mesh(range, mesh.name, nullptr)
-                                        : write_mesh(range, object->name, object->marks.get()));
+    for (std::size_t m = 0, next = 0; m < scene.meshes.size(); m = next) {
+      const std::uint32_t owner = owners[m];
+      range = {range.point_end, range.point_end, range.end, range.end};
+      do {
+        range.point_end += scene.meshes[next].points;
+        range.end += scene.meshes[next].triangles;
+        ++next;
+      } while (owner != kNone && next < owners.size() && owners[next] == owner);
+      std::uint32_t& id = owner == kNone ? ids[m] : written_[owner];
+      if (range.end == range.first) {
+        id = kNone;
+      } else if (owner == kNone) {
+        id = write_mesh(range, scene.meshes[m].name, nullptr, kNone);
+      } else {
+        const KeptObject& object = graph->objects[owner];
+        id = write_mesh(range, object.name, object.marks.get(), id);
+      }
+      ids[m] = id;
     }
     return graph != nullptr ? write_graph(*graph, ids) : items_of(scene, ids);
+  }
+
+  // Of each mesh the object of the graph that is written with it: one without components, or all
+  // that its ranges became, which stand one after the other.
+  static std::vector<std::uint32_t> owners_of(const KeptGraph* graph, std::size_t meshes) {
+    std::vector<std::uint32_t> owners(meshes, kNone);
+    const std::size_t count = graph == nullptr ? 0 : graph->objects.size();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const KeptObject& object = graph->objects[i];
+      if (object.mesh < meshes && object.components.empty()) owners[object.mesh] = i;
+      if (!object.is_split) continue;
+      for (const KeptReference& range : object.components) {
+        const std::uint32_t mesh = graph->objects[range.object].mesh;
+        if (mesh < meshes) owners[mesh] = i;
+      }
+    }
+    return owners;
   }
 
   static std::vector<KeptReference> items_of(const Scene& scene,
@@ -271,25 +336,26 @@ class ModelWriter {
   // Objects that hold nothing any more are left out.
   std::vector<KeptReference> write_graph(const KeptGraph& graph,
                                          const std::vector<std::uint32_t>& ids) {
-    std::vector<std::uint32_t> id_of;  // of objects
     const auto numbered = [&](const std::vector<KeptReference>& references) {
       std::vector<KeptReference> list;
       for (const KeptReference& one : references) {
-        if (id_of[one.object] != kNone)
-          list.push_back({id_of[one.object], one.placement, one.marks});
+        if (written_[one.object] != kNone)
+          list.push_back({written_[one.object], one.placement, one.marks});
       }
       return list;
     };
-    for (const KeptObject& object : graph.objects) {
+    for (std::size_t i = 0; i < graph.objects.size(); ++i) {
+      const KeptObject& object = graph.objects[i];
+      if (object.is_split) continue;
       std::vector<KeptReference> components = numbered(object.components);
       const std::uint32_t mesh = object.mesh == kNone ? kNone : ids[object.mesh];
       if (components.empty()) {
-        id_of.push_back(mesh);
+        written_[i] = mesh;
         continue;
       }
       // The format has no objects with both.
       if (mesh != kNone) components.push_back({mesh, {}, nullptr});
-      id_of.push_back(open_object(object.name, object.marks.get()));
+      written_[i] = open_object(object.name, object.marks.get(), written_[i]);
       xml_ += ">\n" + metadata_group(object.marks.get()) + "<components>\n";
       for (const KeptReference& component : components) write_reference("component", component);
       xml_ += "</components>\n</object>\n";
@@ -318,9 +384,9 @@ class ModelWriter {
     xml_ += group.empty() ? "/>\n" : ">\n" + group + "</item>\n";
   }
 
-  // All but the end of its first tag. Returns its id.
-  std::uint32_t open_object(const std::string& name, const ModelMarks* marks) {
-    const std::uint32_t id = properties_.next_id++;
+  // All but the end of its first tag. Returns its id: this one, or a new one where it is kNone.
+  std::uint32_t open_object(const std::string& name, const ModelMarks* marks, std::uint32_t id) {
+    if (id == kNone) id = properties_.next_id++;
     xml_ += "<object";
     append_xml_attribute(xml_, "id", std::to_string(id));
     const bool has_type = marks != nullptr && !marks->type.empty();
@@ -364,9 +430,9 @@ class ModelWriter {
     std::size_t first = 0, end = 0;  // triangles
   };
 
-  std::uint32_t write_mesh(const MeshRange& range, const std::string& name,
-                           const ModelMarks* marks) {
-    const std::uint32_t id = open_object(name, marks);
+  std::uint32_t write_mesh(const MeshRange& range, const std::string& name, const ModelMarks* marks,
+                           std::uint32_t kept_id) {
+    const std::uint32_t id = open_object(name, marks, kept_id);
     const auto& property = properties_.of_object;
     if (property.group != kNone) {
       append_xml_attribute(xml_, "pid", std::to_string(property.group));
@@ -450,7 +516,16 @@ class ModelWriter {
         append("\" p3=\"", index[2]);
       }
     }
-    lines += "\"/>\n";
+    lines += '"';
+    if (attributes_ != nullptr) append_paint(lines, t);
+    lines += "/>\n";
+  }
+
+  void append_paint(std::string& lines, std::size_t t) const {
+    for (const TrianglePaint& paint : attributes_->paints) {
+      const std::uint32_t code = paint.codes.empty() ? kNone : paint.codes.of_triangle[t];
+      if (code != kNone) append_xml_attribute(lines, paint.name, paint.codes.names[code]);
+    }
   }
 
   const TriangleSoup& soup_;
@@ -462,6 +537,7 @@ class ModelWriter {
   std::unordered_map<std::string, std::string_view> declared_;  // spaces by their prefixes
   std::vector<const ModelMetadata*> metadata_;                  // of the model, objects and items
   std::vector<std::string> thumbnails_;
+  std::vector<std::uint32_t> written_;  // ids of objects of the graph
   std::string xml_;
 };
 
@@ -492,7 +568,12 @@ std::string format_threemf(const TriangleSoup& soup, const SoupExtras& extras) {
   }
   if (kept != nullptr) {
     for (const KeptPackage::Part& part : kept->parts) {
-      archive.add(part.name, *part.bytes, is_packed_already(part.name));
+      const ProjectConfig* const config = model.config_of(part);
+      if (config == nullptr) {
+        archive.add(part.name, *part.bytes, is_packed_already(part.name));
+      } else if (auto text = model.text_of(*config)) {
+        archive.add_text(part.name, std::move(*text));
+      }
     }
   }
   return archive.finish();

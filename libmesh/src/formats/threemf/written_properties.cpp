@@ -14,12 +14,12 @@
 #include <base/error.h>
 #include <base/file_bytes.h>
 
+#include "common/xml_text.h"
 #include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
 #include "model_values.h"
 #include "property_labels.h"
 #include "threemf_io.h"
-#include "xml_text.h"
 
 namespace meshrepair {
 namespace {
@@ -73,13 +73,14 @@ void append_colour(std::string& xml, const double* values, std::size_t component
 class PropertyWriter {
  public:
   PropertyWriter(const TriangleSoup& soup, const Attributes& attributes, const KeptPackage* kept,
-                 const std::string& prefix)
+                 const std::string& prefix, std::uint32_t first_id)
       : soup_(soup),
         attributes_(attributes),
         kept_(kept),
         prefix_(prefix),
         points_(find_kind(attributes, CornerAttribute::Kind::texture)),
         colours_(find_kind(attributes, CornerAttribute::Kind::colour)) {
+    result_.next_id = first_id;
     if (kept != nullptr) {
       for (const KeptPackage::Part& part : kept->parts) used_names_.insert(part_key(part.name));
     }
@@ -434,8 +435,9 @@ bool can_be_in_threemf(const Image& image) {
 }
 
 WrittenProperties write_properties(const TriangleSoup& soup, const Attributes& attributes,
-                                   const KeptPackage* kept, const std::string& material) {
-  return PropertyWriter(soup, attributes, kept, material + ":").run();
+                                   const KeptPackage* kept, const std::string& material,
+                                   std::uint32_t first_id) {
+  return PropertyWriter(soup, attributes, kept, material + ":", first_id).run();
 }
 
 }  // namespace meshrepair

@@ -39,10 +39,11 @@ struct WrittenProperties {
 // `material` is the prefix of the namespace of the materials extension. A triangle that has a
 // material and more, or a texture and colours, gets an entry of a multiproperties group. Names of
 // materials with pictures become names of these parts, which may not be any of `kept` (may be
-// null).
+// null). Ids below `first_id` are taken.
 [[nodiscard]] WrittenProperties write_properties(const TriangleSoup& soup,
                                                  const Attributes& attributes,
                                                  const KeptPackage* kept,
-                                                 const std::string& material);
+                                                 const std::string& material,
+                                                 std::uint32_t first_id);
 
 }  // namespace meshrepair

@@ -335,7 +335,7 @@ std::vector<OddPackage> odd_models() {
        [] { return package_with(replaced(kGoodTriangle, "/>", " pid=\"9\" p1=\"3\"/>")); }, "",
        "1 triangle with properties that are not there", 1},
       {"PaintedTriangle",
-       [] { return package_with(replaced(kGoodTriangle, "/>", " paint_color=\"4\"/>")); }, "",
+       [] { return package_with(replaced(kGoodTriangle, "/>", " paint_flavour=\"4\"/>")); }, "",
        "1 triangle with painted data of other programs", 1},
       {"TextureMissing",
        [] {

@@ -142,8 +142,8 @@ TEST(ThreemfScene, MetadataOfObjectsAndItemsStay) {
       ">\n<metadatagroup>\n<metadata name=\"Title\" preserve=\"1\">a &lt; b</metadata>\n"
       "<metadata name=\"x:kind\" type=\"xs:string\">K</metadata>\n</metadatagroup>\n";
   EXPECT_THAT(model, HasSubstr("<object id=\"1\" type=\"model\"" + group + "<mesh>"));
-  EXPECT_THAT(model, HasSubstr("<object id=\"2\" type=\"model\"" + group + "<components>"));
-  EXPECT_THAT(model, HasSubstr("<item objectid=\"2\" printable=\"0\"" + group + "</item>"));
+  EXPECT_THAT(model, HasSubstr("<object id=\"3\" type=\"model\"" + group + "<components>"));
+  EXPECT_THAT(model, HasSubstr("<item objectid=\"3\" printable=\"0\"" + group + "</item>"));
   EXPECT_THAT(model, HasSubstr("<item objectid=\"1\"/>\n<item objectid=\"1\"/>"));
   EXPECT_THAT(model, HasSubstr("xmlns:x=\"urn:x\""));
   EXPECT_THAT(read.attributes.keepsake->lost_in(SoupFormat::glb),

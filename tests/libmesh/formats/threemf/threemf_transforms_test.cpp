@@ -97,8 +97,11 @@ TEST(ReadThreemf, SupportsAndOtherObjectsAreLeftOutWithAWarning) {
                               tetrahedron_object(4, "type=\"solidsupport\"") +
                               assembly_of(5, component_of(1) + component_of(2)),
                           item_of(5) + item_of(3) + item_of(4))));
-  EXPECT_EQ(result.soup.triangles.size(), 8u);
-  EXPECT_THAT(texts(result.report.warnings), ElementsAre(HasSubstr("2 objects left out")));
+  EXPECT_EQ(result.soup.triangles.size(), 4u);
+  EXPECT_THAT(texts(result.report.warnings),
+              ElementsAre(HasSubstr("object that is not built 'object 2' left out"),
+                          HasSubstr("support 'object 3' left out"),
+                          HasSubstr("support 'object 4' left out")));
 }
 
 TEST(ReadThreemf, ObjectsInOtherPartsAreFound) {

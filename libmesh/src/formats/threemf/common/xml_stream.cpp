@@ -92,11 +92,13 @@ struct XmlStream::Callbacks {
   }
 };
 
-XmlStream::XmlStream(const MeshSource& source, std::string part, XmlHandler& handler)
+XmlStream::XmlStream(const MeshSource& source, std::string part, XmlHandler& handler, Names names)
     : source_(source),
       part_(printable(part)),
       handler_(handler),
-      parser_(XML_ParserCreateNS(nullptr, kSeparator), &free_parser) {
+      parser_(names == Names::plain ? XML_ParserCreate(nullptr)
+                                    : XML_ParserCreateNS(nullptr, kSeparator),
+              &free_parser) {
   if (!parser_) throw std::bad_alloc();
   XML_SetUserData(parser_.get(), this);
   XML_SetElementHandler(parser_.get(), &Callbacks::start, &Callbacks::end);
@@ -132,6 +134,13 @@ void XmlStream::parse(std::string_view bytes, bool last) {
   if (!last && at >= 0 && fed_ - std::min(fed_, static_cast<std::size_t>(at)) > kLongestTag) {
     fail("a tag or a comment is longer than a megabyte");
   }
+}
+
+XmlStream::Span XmlStream::tag() const {
+  const XML_Index at = XML_GetCurrentByteIndex(parser_.get());
+  const int size = XML_GetCurrentByteCount(parser_.get());
+  return {static_cast<std::size_t>(std::max<XML_Index>(at, 0)),
+          static_cast<std::size_t>(std::max(size, 0))};
 }
 
 void XmlStream::fail(const std::string& what) const {

@@ -57,8 +57,12 @@ class XmlHandler {
 
 class XmlStream {
  public:
+  // Prefixes that no namespace is declared for are an error, or part of plain names.
+  enum class Names { in_spaces, plain };
+
   // `part` is the name for messages. All have to stay.
-  XmlStream(const MeshSource& source, std::string part, XmlHandler& handler);
+  XmlStream(const MeshSource& source, std::string part, XmlHandler& handler,
+            Names names = Names::in_spaces);
   ~XmlStream();
   XmlStream(const XmlStream&) = delete;
   XmlStream& operator=(const XmlStream&) = delete;
@@ -67,6 +71,15 @@ class XmlStream {
   // type, nested too deep, with one tag of a megabyte.
   void feed(std::string_view bytes);
   void finish();
+
+  // Of the tag that is told: where it begins in all that was fed, and how long it is. At the end of
+  // an empty element, that of its only tag is over: it is 0 bytes long.
+  struct Span {
+    std::size_t at = 0, size = 0;
+
+    [[nodiscard]] std::size_t end() const { return at + size; }
+  };
+  [[nodiscard]] Span tag() const;
 
   // Throws InputError "NAME: PART:LINE: what" for where the stream is.
   [[noreturn]] void fail(const std::string& what) const;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What became of the volumes of a slicer's project.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mesh/model_volume.h>
+
+namespace meshrepair {
+
+// "2 joined; 1 negative volume subtracted; 3 modifiers left out", for people; empty where there are
+// none.
+[[nodiscard]] std::string volumes_words(const std::vector<ModelVolume>& volumes);
+
+}  // namespace meshrepair
