@@ -53,7 +53,8 @@ def make_folder(folder: pathlib.Path, programs: pathlib.Path) -> None:
     for name, source in COPIES.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(MESHES / source, folder / name)
-    for name, data in {**clouds(), "triangle.obj": make_cli_inputs.SINGLE_TRIANGLE}.items():
+    for name, data in {**clouds(), "triangle.obj": make_cli_inputs.SINGLE_TRIANGLE,
+                       "project.3mf": make_cli_inputs.project("NegativeVolume", *make_cli_inputs.HALVES)}.items():
         (folder / name).write_bytes(data)
     make_textured_pictures.make_meshes(folder)
     make_task_pictures.make_meshes(folder)

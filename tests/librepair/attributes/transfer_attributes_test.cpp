@@ -219,5 +219,25 @@ TEST(TransferAttributes, EmptyAttributesStayEmpty) {
   EXPECT_TRUE(repaired(input).attributes.empty());
 }
 
+// Halves of a triangle that is painted by halves, the whole of it turned over, and a patch.
+TEST(TransferAttributes, PaintStaysInItsPlace) {
+  const TriangleSoup input{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 1, 0}}, {{{0, 1, 2}}}};
+  Attributes attributes;
+  attributes.paints.push_back({"paint_color", {{"841"}, {0}}});
+  const Surface surface{
+      {input.points, {{{0, 1, 3}}, {{3, 2, 0}}, {{0, 2, 1}}, {{1, 2, 0}}, {{0, 1, 2}}}},
+      {0, 0, 0, 0, Surface::kNoSource},
+      {1, 1, 1, 1}};
+  const Attributes result = transfer_attributes(input, attributes, surface);
+  ASSERT_EQ(result.paints.size(), 1u);
+  const auto& [names, of_triangle] = result.paints[0].codes;
+  ASSERT_EQ(of_triangle.size(), 5u);
+  EXPECT_EQ(names[of_triangle[0]], "8");
+  EXPECT_EQ(names[of_triangle[1]], "4");
+  EXPECT_EQ(names[of_triangle[2]], "481");
+  EXPECT_EQ(names[of_triangle[3]], "849");  // the first corner is the third one now
+  EXPECT_EQ(of_triangle[4], kNone);
+}
+
 }  // namespace
 }  // namespace meshrepair
