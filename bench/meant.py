@@ -12,9 +12,11 @@
 """
 
 import csv
+import io
 import os
 import re
 import sys
+import zipfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -47,6 +49,19 @@ LIMITS = {"walls": TOO_FAR, "soups": 0.01, "patches": 0.05, "cards": TOO_FAR_SHE
           "cars": 0.05, "layers": 0.001, "scenes": 0.001, "trays": 0.03, "hollows": 0.01, "rims": 0.03,
           "flanges": 0.03, "limbs": 0.03, "hubs": 0.03, "assemblies": 0.02}
 TOO_FAR_BOX = 0.01  # of the bounding box, as a share of its diagonal
+
+
+def ids_are_right(package, name):
+    """The slicer's list of objects is in a package of 3MF, and each object and part in it is one of the model."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(package)) as archive:
+            models = b"".join(archive.read(one) for one in archive.namelist() if one.endswith(".model"))
+            config = archive.read(name)
+    except (KeyError, zipfile.BadZipFile):
+        return False
+    known = set(re.findall(rb'<object id="(\d+)"', models))
+    named = set(re.findall(rb'<(?:object|part) id="(\d+)"', config))
+    return bool(named) and named <= known
 
 
 class Tables:
@@ -233,6 +248,13 @@ class Tables:
             return outcome.code
         if row["what"].startswith("warning"):
             return "there" if "warning:" in outcome.said else "none"
+        if row["what"].startswith("groups "):
+            named = {line.split()[1] for line in outcome.data.decode("utf-8", "replace").splitlines() if line.startswith(("g ", "o "))}
+            return "there" if set(row["what"].split()[1:]) <= named else f"only {', '.join(sorted(named))}"
+        if row["what"].startswith("Metadata/"):
+            return row["right"] if ids_are_right(outcome.data, row["what"]) else "not there, or wrong"
+        if "not printed" in row["what"]:
+            return row["right"] if "W-OBJECTS-LEFT-OUT" in outcome.said else "not named"
         if row["what"] == "voids filled":
             return (outcome.report.get("inside") or {}).get("filled_voids", 0)
         if row["what"] == "genus" and result.get("parts"):
@@ -241,7 +263,7 @@ class Tables:
 
     @staticmethod
     def is_right(row, found):
-        if row["right"] == "there" or isinstance(found, str):
+        if row["right"].startswith("there") or isinstance(found, str):
             return row["right"] == found
         wanted, share = number_in(row["right"]), (number_in(row["tolerance"]) or 0) / 100
         return abs(found - wanted) <= share * abs(wanted)

@@ -76,7 +76,9 @@ class Runner:
             done = subprocess.run([str(word) for word in line], capture_output=True, check=False, text=True)
             report = Path(name) / "report.json"
             found = json.loads(report.read_text()) if report.exists() else {}
-            return Outcome(done.returncode, found, None, b"", 0, done.stderr)
+            outs = [Path(name) / word for word in words if word.startswith("OUT.")]
+            data = outs[0].read_bytes() if outs and outs[0].exists() else b""
+            return Outcome(done.returncode, found, None, data, 0, done.stderr)
 
     def beside(self, case, tool):
         """What a tool makes of a case: whether it is valid, how far it is off, triangles, seconds. Nothing if it is not built."""

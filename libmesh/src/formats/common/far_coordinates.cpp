@@ -163,7 +163,7 @@ std::optional<Vec3d> find_offset_comment(std::string_view bytes) {
   for (std::size_t line = 0; line < kMostLines && !bytes.empty(); ++line) {
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
     if (const auto comment = comment_in(bytes.substr(0, end))) {
-      if (const auto offset = offset_in(*comment)) return offset;
+      if (auto offset = offset_in(*comment)) return offset;
     }
     bytes.remove_prefix(std::min(end + 1, bytes.size()));
   }
