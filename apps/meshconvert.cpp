@@ -23,6 +23,7 @@ ReadResult read_input(SoupFormat output, StepOptions& options, Run& run, Finding
   ReadOptions reading = read_options(run);
   reading.attributes = !options.assets.drops_all();
   reading.by_mesh = options.assets.by_mesh;
+  reading.beam_sides = options.assets.beam_sides;
   if (output != SoupFormat::threemf || options.assets.scene_chosen || options.input == "-") {
     return read_mesh_stage(reading, run, findings);
   }
@@ -86,6 +87,7 @@ int run_program(int argc, char** argv) {
   add_format_option(app, options.format);
   add_drop_option(app, options.assets);
   add_scene_option(app, options.assets, "Output");
+  add_beam_sides_option(app, options.assets);
   add_units_option(app, options.assets);
   add_origin_options(app, options.origin);
   add_picture_options(app, options.picture, "IN and OUT side by side");

@@ -20,7 +20,7 @@ const std::vector<std::string_view> kOfFiles = {
     "scene",   "sources",        "staging",      "root",           "units",
     "explain", "picture",        "picture-size", "picture-view",   "picture-colours",
     "show",    "show-as",        "html",         "html-triangles", "points",
-    "origin",  "restore-origin", "negative"};
+    "origin",  "restore-origin", "negative",     "beam-sides"};
 
 // What the caller gives in single precision comes back so, certified so, unless it is asked
 // otherwise.

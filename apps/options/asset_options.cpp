@@ -9,6 +9,7 @@
 #include <base/error.h>
 
 #include "options/choice_option.h"
+#include "options/numbers.h"
 
 namespace meshrepair {
 namespace {
@@ -91,6 +92,17 @@ void add_scene_option(CommandLine& app, AssetOptions& options, const std::string
       ->group(group);
 }
 
+void add_beam_sides_option(CommandLine& app, AssetOptions& options) {
+  constexpr std::size_t kMost = 360;
+  app.add_option("--beam-sides", options.beam_sides,
+                 "Number of sides of the beams of a lattice (3MF), and of the meridians of its\n"
+                 "balls; corners lie on the round surface")
+      ->check(count_between(3, kMost))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group("Output");
+}
+
 void add_units_option(CommandLine& app, AssetOptions& options) {
   add_choice(
       app, "--units", kUnits, [&options](LengthUnit value) { options.units = value; },
@@ -113,6 +125,7 @@ ReadOptions reading_for(SoupFormat format, const AssetOptions& assets, ReadOptio
   options.attributes = !assets.drops_all() && holds_attributes(format);
   options.within = assets.root;
   options.by_mesh = assets.by_mesh;
+  options.beam_sides = assets.beam_sides;
   return options;
 }
 

@@ -19,6 +19,7 @@ struct AssetOptions {
   // Kinds of what triangles carry, texture coordinates, materials and the like, that do not come
   // along where formats can hold them.
   std::vector<std::string> drops;
+  std::size_t beam_sides = 16;      // of bodies of beams
   bool by_mesh = false;             // each mesh of a scene by itself
   bool scene_chosen = false;        // the command line says so, or the opposite
   std::optional<LengthUnit> units;  // of numbers in files that do not say
@@ -32,6 +33,8 @@ struct AssetOptions {
 void add_drop_option(CommandLine& app, AssetOptions& options);
 // --scene.
 void add_scene_option(CommandLine& app, AssetOptions& options, const std::string& group = "Repair");
+// --beam-sides.
+void add_beam_sides_option(CommandLine& app, AssetOptions& options);
 // --units.
 void add_units_option(CommandLine& app, AssetOptions& options);
 

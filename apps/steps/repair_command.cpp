@@ -127,6 +127,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_staging_option(app, options.staging);
   add_root_option(app, options.assets);
   add_drop_option(app, options.assets);
+  add_beam_sides_option(app, options.assets);
   add_units_option(app, options.assets);
   add_origin_options(app, options.origin);
   add_certify_options(app, options.repair.certify, options.strict);

@@ -56,6 +56,8 @@ export interface RepairOptions extends FileOptions {
   sew?: 'auto' | 'none' | number | string;
   /** Conditions of the result: "parts=same, volume=1%". If one is not met, `certified` is false. */
   require?: string;
+  /** Of the beams of a 3MF lattice. */
+  beamSides?: number;
   joinGaps?: 'auto' | 'none' | number | string;
   seal?: 'auto' | 'double-walls' | 'none' | number | string;
   thicken?: 'auto' | 'none' | number | string;

@@ -72,6 +72,8 @@ struct ReadOptions {
   // Of slicers' projects; volumes that are neither model nor negative are left out, with a warning.
   // Mesh by mesh all are there, whatever they are.
   NegativeVolumes negative = NegativeVolumes::drop;
+  // Beams and balls of lattices (3MF) are bodies whose circles have so many corners, from 3 on.
+  std::size_t beam_sides = 16;
   // A file that holds no points and no faces, and promises none, is no error.
   bool may_be_empty = false;
   // Names in the file may lead anywhere in this folder, if the file lies in it. Empty: in that of

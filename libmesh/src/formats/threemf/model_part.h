@@ -151,9 +151,11 @@ struct ModelOddities {
   std::size_t bad_triangles = 0;
   std::size_t bad_points = 0;
   std::size_t doubled_ids = 0;
-  std::size_t bad_ranges = 0;      // volumes whose triangles are not there, or others' as well
-  std::size_t painted = 0;         // triangles with attributes of other programs
-  std::size_t unknown_groups = 0;  // compositematerials, and layers beyond those that are read
+  std::size_t bad_beams = 0;         // and balls
+  std::size_t clipped_lattices = 0;  // by a mesh, which is not done
+  std::size_t bad_ranges = 0;        // volumes whose triangles are not there, or others' as well
+  std::size_t painted = 0;           // triangles with attributes of other programs
+  std::size_t unknown_groups = 0;    // compositematerials, and layers beyond those that are read
   std::vector<std::string> unknown_extensions;
   std::set<std::string> unknown_elements;  // the first few, in places that are known
   std::string unknown_unit;

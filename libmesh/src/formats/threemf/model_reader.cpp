@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <mesh/edge_table.h>
+#include <mesh/mesh_limits.h>
 
 #include "formats/common/part_names.h"
 #include "model_values.h"
@@ -47,6 +48,12 @@ enum class ModelReader::Element : std::uint8_t {
   multiproperties,
   multi,
   compositematerials,
+  beamlattice,
+  beams,
+  beam,
+  balls,
+  ball,
+  beamsets,
 };
 
 namespace {
@@ -60,6 +67,8 @@ constexpr std::string_view kProductionPrefix =
     "http://schemas.microsoft.com/3dmanufacturing/production/";
 constexpr std::string_view kSetPrefix =
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/";
+constexpr std::string_view kBeamPrefix =
+    "http://schemas.microsoft.com/3dmanufacturing/beamlattice/";
 constexpr std::string_view kPathAttribute =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
 
@@ -79,9 +88,11 @@ struct KnownElement {
 };
 
 // The most frequent ones first.
-constexpr std::array<KnownElement, 30> kElements = {{
+constexpr std::array<KnownElement, 36> kElements = {{
     {Element::triangles, "triangle", Element::triangle},
     {Element::vertices, "vertex", Element::vertex},
+    {Element::beams, "beam", Element::beam},
+    {Element::balls, "ball", Element::ball},
     {Element::triangleset, "ref", Element::ref},
     {Element::triangleset, "refrange", Element::refrange},
     {Element::texture2dgroup, "tex2coord", Element::tex2coord},
@@ -109,18 +120,22 @@ constexpr std::array<KnownElement, 30> kElements = {{
     {Element::mesh, "vertices", Element::vertices},
     {Element::mesh, "triangles", Element::triangles},
     {Element::mesh, "trianglesets", Element::trianglesets},
+    {Element::mesh, "beamlattice", Element::beamlattice},
+    {Element::beamlattice, "beams", Element::beams},
+    {Element::beamlattice, "balls", Element::balls},
+    {Element::beamlattice, "beamsets", Element::beamsets},
     {Element::trianglesets, "triangleset", Element::triangleset},
 }};
 
 // What stands in others is told in other ways, or no loss.
 bool is_known_place(Element parent) {
   return parent != Element::none && parent != Element::ignored && parent != Element::metadata &&
-         parent != Element::compositematerials;
+         parent != Element::compositematerials && parent != Element::beamsets;
 }
 
 bool is_known_space(std::string_view space) {
   return space.empty() || space.starts_with(kCorePrefix) || space.starts_with(kMaterialPrefix) ||
-         space.starts_with(kSetPrefix);
+         space.starts_with(kSetPrefix) || space.starts_with(kBeamPrefix);
 }
 
 std::uint32_t index_in(const XmlAttributes& attributes, std::string_view name) {
@@ -202,12 +217,13 @@ std::vector<std::uint32_t> sets_of_triangles(const std::vector<TriangleSet>& set
 }  // namespace
 
 ModelReader::ModelReader(ModelPart& part, ModelOddities& oddities, std::uint32_t number,
-                         PartNumber number_of, bool properties)
+                         PartNumber number_of, bool properties, std::size_t beam_sides)
     : part_(part),
       oddities_(oddities),
       number_(number),
       number_of_(std::move(number_of)),
-      properties_(properties) {}
+      properties_(properties),
+      beam_sides_(beam_sides) {}
 
 void ModelReader::declare(std::string_view prefix, std::string_view space) {
   part_.namespaces.push_back({std::string(prefix), std::string(space)});
@@ -233,7 +249,10 @@ void ModelReader::start(std::string_view space, std::string_view name,
 }
 
 void ModelReader::end() {
-  if (open_.back() == Element::mesh) end_mesh();
+  if (open_.back() == Element::mesh) {
+    end_mesh();
+    end_lattice();
+  }
   const bool is_group = open_.back() == Element::metadatagroup;
   open_.pop_back();
   if (is_group) end_group(open_.back() == Element::item);
@@ -250,6 +269,12 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
       return read_vertex(attributes);
     case Element::triangle:
       return read_triangle(attributes);
+    case Element::beam:
+      return read_beam(attributes);
+    case Element::ball:
+      return read_ball(attributes);
+    case Element::beamlattice:
+      return read_lattice(attributes);
     case Element::model:
       return read_model(attributes);
     case Element::object:
@@ -469,6 +494,74 @@ void ModelReader::end_mesh() {
   if (set_of.empty()) return;
   set_of.resize(kept);
   object().set_of_triangle = std::move(set_of);
+}
+
+namespace {
+
+BeamCap cap_of(std::string_view word, BeamCap otherwise) {
+  if (word == "sphere") return BeamCap::sphere;
+  if (word == "hemisphere") return BeamCap::hemisphere;
+  return word == "butt" ? BeamCap::butt : otherwise;
+}
+
+// Of the extension's own attributes; those of balls are of an extension of it.
+std::string_view plain_name(std::string_view name) { return name.substr(name.rfind('|') + 1); }
+
+}  // namespace
+
+void ModelReader::read_lattice(const XmlAttributes& attributes) {
+  lattice_ = {};
+  attributes.visit([&](std::string_view full_name, std::string_view value) {
+    const std::string_view name = plain_name(full_name);
+    if (name == "radius") (void)read_model_number(value, lattice_.radius);
+    if (name == "minlength") (void)read_model_number(value, lattice_.shortest);
+    if (name == "ballradius") (void)read_model_number(value, lattice_.ball_radius);
+    if (name == "ballmode") {
+      lattice_.has_ball_everywhere = value == "all";
+      lattice_.has_balls = value == "all" || value == "mixed";
+    }
+    if (name == "cap") lattice_.cap = cap_of(value, BeamCap::sphere);
+    if (name == "clippingmode" && value != "none") ++oddities_.clipped_lattices;
+  });
+}
+
+void ModelReader::read_beam(const XmlAttributes& attributes) {
+  Beam beam{{kNone, kNone}, {lattice_.radius, lattice_.radius}, {lattice_.cap, lattice_.cap}};
+  bool has_second = false;
+  attributes.visit([&](std::string_view name, std::string_view value) {
+    if (name == "v1") beam.points[0] = read_model_index(value);
+    if (name == "v2") beam.points[1] = read_model_index(value);
+    if (name == "r1") {
+      (void)read_model_number(value, beam.radii[0]);
+      if (!has_second) beam.radii[1] = beam.radii[0];
+    }
+    if (name == "r2") has_second = read_model_number(value, beam.radii[1]);
+    if (name == "cap1") beam.caps[0] = cap_of(value, lattice_.cap);
+    if (name == "cap2") beam.caps[1] = cap_of(value, lattice_.cap);
+  });
+  lattice_.beams.push_back(beam);
+}
+
+void ModelReader::read_ball(const XmlAttributes& attributes) {
+  BeamBall ball{kNone, lattice_.ball_radius};
+  attributes.visit([&](std::string_view name, std::string_view value) {
+    if (name == "vindex") ball.point = read_model_index(value);
+    if (name == "r") (void)read_model_number(value, ball.radius);
+  });
+  lattice_.balls.push_back(ball);
+}
+
+// Its bodies are triangles of the mesh that say nothing.
+void ModelReader::end_lattice() {
+  if (lattice_.beams.empty() && lattice_.balls.empty()) return;
+  const BeamLattice lattice = std::exchange(lattice_, {});
+  TriangleSoup& mesh = object().mesh;
+  require_triangles(mesh.triangles.size() + most_triangles_of(lattice, beam_sides_), part_.name);
+  oddities_.bad_beams += append_lattice(lattice, beam_sides_, mesh);
+  if (properties_) object().properties.resize(mesh.triangles.size());
+  if (!object().set_of_triangle.empty()) {
+    object().set_of_triangle.resize(mesh.triangles.size(), kNone);
+  }
 }
 
 void ModelReader::read_reference(const XmlAttributes& attributes,

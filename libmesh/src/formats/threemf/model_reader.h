@@ -2,6 +2,7 @@
 // Reads a 3D model part of a 3MF package.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "beam_lattice.h"
 #include "common/xml_stream.h"
 #include "model_part.h"
 
@@ -22,9 +24,10 @@ class ModelReader final : public XmlHandler {
   // The number of a part that a component or an item names.
   using PartNumber = std::function<std::uint32_t(std::string_view path)>;
 
-  // `number` is that of the part itself. Properties are read if asked for.
+  // `number` is that of the part itself. Properties are read if asked for; beams are bodies of so
+  // many sides.
   ModelReader(ModelPart& part, ModelOddities& oddities, std::uint32_t number, PartNumber number_of,
-              bool properties);
+              bool properties, std::size_t beam_sides);
   // Where its messages say it is. To be called before anything else.
   void attach(const XmlStream& stream) { stream_ = &stream; }
 
@@ -53,7 +56,11 @@ class ModelReader final : public XmlHandler {
   void add_colour(std::string_view text);
   void add_range(std::uint32_t first, std::uint32_t last);
   bool add_paint(std::string_view name, std::string_view value, PropertyUse& property);
+  void read_lattice(const XmlAttributes& attributes);
+  void read_beam(const XmlAttributes& attributes);
+  void read_ball(const XmlAttributes& attributes);
   void end_mesh();
+  void end_lattice();
   void end_group(bool is_of_item);
 
   [[nodiscard]] bool is_in_group() const;
@@ -67,6 +74,8 @@ class ModelReader final : public XmlHandler {
   std::uint32_t number_;
   PartNumber number_of_;
   bool properties_;
+  std::size_t beam_sides_;
+  BeamLattice lattice_;  // of the mesh that is read
   const XmlStream* stream_ = nullptr;
   std::vector<Element> open_;
   std::vector<ModelMetadata> metadata_of_group_;

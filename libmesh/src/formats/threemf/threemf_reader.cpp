@@ -103,8 +103,8 @@ class ThreemfReader {
     const auto number_of_path = [&](std::string_view path) {
       return number_of(part_name(path, entry.name));
     };
-    ModelReader reader(parts_.back(), oddities_, number, number_of_path,
-                       source_.options.attributes);
+    ModelReader reader(parts_.back(), oddities_, number, number_of_path, source_.options.attributes,
+                       source_.options.beam_sides);
     XmlStream stream(source_, entry.name, reader);
     reader.attach(stream);
     std::uint64_t read = 0;
@@ -171,6 +171,10 @@ class ThreemfReader {
             " to objects that are not there");
     warn_if(WarningCode::references_missing, oddities_.bad_ranges, "volume",
             " taken for model: their triangles are not there, or those of others");
+    warn_if(WarningCode::faces_unreadable, oddities_.bad_beams, "beam or ball",
+            left_out + "of points that do not exist, or without a size");
+    warn_if(WarningCode::extension_unknown, oddities_.clipped_lattices, "beam lattice",
+            " not cut by the mesh that clips it");
     if (!oddities_.unknown_unit.empty()) {
       warn(WarningCode::unit_unknown, "the unit " + printable(oddities_.unknown_unit) +
                                           " is not known: taken for millimeters");
