@@ -53,12 +53,13 @@ class CommonUnit {
     if (!options.output_has_unit) unit_ = units_;
   }
 
-  // Brings the points of a file of this unit to it.
-  void apply(std::optional<LengthUnit> own, TriangleSoup& soup) {
+  // Brings the points of a file of this unit to it. Returns what lengths are multiplied with.
+  double apply(std::optional<LengthUnit> own, TriangleSoup& soup) {
     if (!own) own = units_;
     if (!unit_) unit_ = own;
-    if (!own) return;
+    if (!own) return 1;
     bring_to_unit(*own, *unit_, soup);
+    return unit_scale(*own, *unit_);
   }
 
   [[nodiscard]] std::optional<LengthUnit> get() const { return unit_; }
@@ -70,6 +71,7 @@ class CommonUnit {
 // What all operands have in common.
 struct Intake {
   CommonUnit unit;
+  CommonOrigin origin;
   GivenMeshes given;
 };
 
@@ -97,7 +99,9 @@ Operand read_mesh_operand(const BoolOptions& options, const RepairOptions& repai
   reading.attributes = !options.command.step.assets.drops_all() &&
                        (options.carries_attributes || shows_operands(options));
   auto [soup, attributes, scene, report, placed] = read_mesh_stage(reading, run, findings);
-  intake.unit.apply(findings.unit, soup);
+  const double scale = intake.unit.apply(findings.unit, soup);
+  if (report.offset) *report.offset *= scale;
+  intake.origin.apply(report.offset, soup, findings);
   check_picture(picture, attributes);
   keep_given(options, soup, attributes, intake);
   if (!options.carries_attributes) attributes = {};
@@ -217,7 +221,10 @@ ExitCode combine_files(BoolOptions options, Run& run) {
   options.output_has_unit = format.format && has_unit(*format.format);
   Json facts = Json::array();
   Operands operands;
-  Intake intake{CommonUnit(options), {}};
+  Intake intake{
+      CommonUnit(options),
+      CommonOrigin(options.command.step.origin, format.format && is_single(*format.format)),
+      {}};
   for (const std::string& name : options.command.inputs) {
     Operand operand = take_operand(options, name, run, facts, intake);
     if (options.carries_attributes) {
@@ -231,6 +238,7 @@ ExitCode combine_files(BoolOptions options, Run& run) {
   operands.join();
   keep_attributes(operands.joined.soup, operands.joined.attributes, combining.repair);
   Findings findings(all_names(options.command.inputs), options.command.step.output);
+  findings.origin = intake.origin.get();
   return with_findings(run, findings, [&] {
     if (to_tree) {
       BooleanReport report;
@@ -247,7 +255,7 @@ ExitCode combine_files(BoolOptions options, Run& run) {
 // What is asked of a mesh to write says nothing about a tree.
 void refuse_mesh_options(const CommandLine& app) {
   for (const char* name : {"--format", "--drop", "--precision", "--strict", "--picture", "--html",
-                           "--show", "--show-as"}) {
+                           "--show", "--show-as", "--origin", "--restore-origin"}) {
     if (app.option(name).count() == 0) continue;
     throw UsageError(std::string(name) + " is for meshes, but the output is a tree (.bsp)");
   }
@@ -273,6 +281,7 @@ int main(int argc, char** argv) {
   add_output_option(app, options.command.step.output, "OUT", mesh_and_tree_extensions(),
                     "Mesh or, if it ends in .bsp, tree to write; - is standard output");
   add_boolean_command(app, options.command);
+  add_origin_options(app, options.command.step.origin);
   add_picture_options(app, options.command.step.picture, "all IN and OUT side by side");
   add_show_options(app, options.command.step.picture, "all IN and OUT");
   add_html_options(app, options.command.step.html, "all IN and OUT, and what comes from which");

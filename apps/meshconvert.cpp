@@ -2,8 +2,6 @@
 // meshconvert IN OUT: a mesh in another format, as it is.
 #include <utility>
 
-#include <spdlog/logger.h>
-
 #include "options/file_kinds.h"
 #include "options/repair_options.h"
 #include "pictures/picture_steps.h"
@@ -11,10 +9,10 @@
 #include "report/attribute_report.h"
 #include "report/findings.h"
 #include "steps/mesh_steps.h"
+#include "steps/origin_steps.h"
 #include "steps/run_steps.h"
 #include "steps/scene_steps.h"
 #include "steps/step_options.h"
-#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -42,25 +40,27 @@ ReadResult read_input(SoupFormat output, StepOptions& options, Run& run, Finding
 void convert(StepOptions options, Run& run, Findings& findings) {
   WriteOptions format = mesh_format(options);
   ReadResult input = read_input(*format.format, options, run, findings);
+  AnySoup moved;
+  moved.soup = std::move(input.soup);
+  moved.scene = std::move(input.scene);
+  move_origin_stage(options.origin, is_single(*format.format), has_instances(*format.format), moved,
+                    findings);
+  input.soup = std::move(moved.soup);
+  input.scene = std::move(moved.scene);
   const TriangleSoup& soup = input.soup;
   const Attributes& all = input.attributes;
   check_picture(options.picture, all);
   run.report.set_section("attributes", attributes_section(soup, all));
   const Attributes held = chosen_for(*format.format, options.assets, all);
-  Attributes still_held = held_by(*format.format, all);
-  if (options.assets.by_mesh) still_held.objects = all.objects;
-  const std::string lost = lost_words(soup, all, still_held, *format.format);
-  if (!lost.empty()) {
-    warn(findings.output_name(),
-         {WarningCode::attributes_lost,
-          fmt::format("{} cannot store these attributes of {}: {}", format_name(*format.format),
-                      findings.input_name(), lost)});
-  }
+  const Attributes still_held = held_by(*format.format, all, options.assets.by_mesh);
+  warn_of_lost(soup, all, still_held, *format.format, findings);
   format.extras.attributes = held.empty() ? nullptr : &held;
   if (options.assets.by_mesh) {
     check_scene(input.scene, *format.format);
     format.extras.scene = &input.scene;
   }
+  if (findings.origin)
+    *findings.origin *= scale_to_unit(*format.format, options.assets, findings.unit);
   findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   write_soup_stage(soup, format, run, findings);
@@ -87,6 +87,7 @@ int run_program(int argc, char** argv) {
   add_drop_option(app, options.assets);
   add_scene_option(app, options.assets, "Output");
   add_units_option(app, options.assets);
+  add_origin_options(app, options.origin);
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_show_options(app, options.picture, "IN and OUT");
   return run_steps(program, argc, argv, options, convert);

@@ -35,6 +35,7 @@ struct Options {
 struct Read {
   TriangleSoup soup;
   std::optional<LengthUnit> unit;
+  std::optional<Vec3d> offset;
   std::string name;  // for people
   View::Up up = View::Up::z;
 };
@@ -47,7 +48,8 @@ Read read(const std::string& path, const std::string& key, Run& run, std::string
       fmt::format("{}: {}, {}\n", findings.input_name(),
                   format_words(format_name(findings.mesh_read->format), findings.mesh_read->packed),
                   number_of(soup.triangles.size(), "triangle"));
-  return {std::move(soup), findings.unit, page_name(path, findings.input_name()), up_of(findings)};
+  return {std::move(soup), findings.unit, findings.mesh_read->offset,
+          page_name(path, findings.input_name()), up_of(findings)};
 }
 
 // Of two that say their units, the second is brought to that of the first.
@@ -56,6 +58,14 @@ void bring_to_same_unit(const Read& first, Read& second, std::string& lines) {
   bring_to_unit(*second.unit, *first.unit, second.soup);
   lines += fmt::format("B is in {}, and is brought to {}\n", units_text(second.unit),
                        units_text(first.unit));
+}
+
+// Files may name offsets that were subtracted from their coordinates.
+void bring_to_same_origin(const Read& first, Read& second) {
+  const Vec3d none = Vec3d::Zero();
+  const Vec3d move = second.offset.value_or(none) - first.offset.value_or(none);
+  if (move == none) return;
+  for (Vec3d& point : second.soup.points) point += move;
 }
 
 // The sections of the report, which stays as it is.
@@ -92,6 +102,7 @@ ExitCode measure(Options& options, Run& run) {
   const Read first = read(options.first, "read", run, lines);
   Read second = read(options.second, "read_b", run, lines);
   bring_to_same_unit(first, second, lines);
+  bring_to_same_origin(first, second);
   const MeshDistance distance = mesh_distance(first.soup, second.soup, options.distance);
   run.report.set_section("distance", distance_section(distance, options.distance));
   write_page_stage(options, first, second, distance, run);

@@ -4,6 +4,7 @@
 #include "options/file_kinds.h"
 #include "options/repair_options.h"
 #include "steps/mesh_steps.h"
+#include "steps/origin_steps.h"
 #include "steps/point_steps.h"
 #include "steps/run_steps.h"
 #include "steps/step_options.h"
@@ -27,13 +28,16 @@ int run_program(int argc, char** argv) {
                     "Triangles to write: with holes, and not oriented; - is standard output");
   add_point_options(app, points);
   add_format_option(app, options.format);
-  return run_steps(program, argc, argv, options,
-                   [&](const StepOptions& steps, Run& run, Findings& findings) {
-                     const WriteOptions format = mesh_format(steps);
-                     const PointCloud cloud = read_points_stage(run, findings);
-                     const PointSoup result = triangulate_stage(cloud, points, run, findings);
-                     write_soup_stage(result.soup, format, run, findings);
-                   });
+  add_origin_options(app, options.origin);
+  return run_steps(
+      program, argc, argv, options, [&](const StepOptions& steps, Run& run, Findings& findings) {
+        const WriteOptions format = mesh_format(steps);
+        AnySoup input;
+        input.cloud = read_points_stage(run, findings);
+        move_origin_stage(steps.origin, is_single(*format.format), false, input, findings);
+        const PointSoup result = triangulate_stage(*input.cloud, points, run, findings);
+        write_soup_stage(result.soup, format, run, findings);
+      });
 }
 
 }  // namespace

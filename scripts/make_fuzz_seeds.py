@@ -38,10 +38,10 @@ def ascii_stl(name, triangles):
     return ("\n".join(lines + [f"endsolid {name}"]) + "\n").encode()
 
 
-def binary_stl(triangles, header=b"seed", count=None, tail=b""):
+def binary_stl(triangles, header=b"seed", count=None, tail=b"", words=None):
     data = header.ljust(80) + struct.pack("<I", len(triangles) if count is None else count)
-    for corners in triangles:
-        data += struct.pack("<3f", 0, 0, 1) + struct.pack("<9f", *itertools.chain(*corners)) + b"\0\0"
+    for corners, word in zip(triangles, words or [0] * len(triangles)):
+        data += struct.pack("<3f", 0, 0, 1) + struct.pack("<9fH", *itertools.chain(*corners), word)
     return data + tail
 
 
@@ -57,7 +57,10 @@ def stl_seeds():
                                           ("1e-320", "0x1", "1,5")]] + triangles[:1]),
         "ascii_cut": ascii_stl("a", triangles)[:-70],
         "ascii_polygon": ascii_stl("q", [[(0, 0, 0), (2, 0, 0), (2, 2, 0), (1, 1, 0), (0, 2, 0)]]),
+        "ascii_named": ascii_stl("inlet", triangles[:1]) + ascii_stl("out let", triangles[1:3])
+                       + ascii_stl("", triangles[3:]).replace(b"endsolid ", b"endsolid late"),
         "binary": binary_stl(triangles),
+        "binary_regions": binary_stl(triangles, words=(1, 2, 2, 0)),
         "binary_solid": binary_stl(triangles, b"solid or not"),
         "binary_wrong_count": binary_stl(triangles, count=2 ** 32 - 1, tail=b"tail"),
         "binary_no_numbers": binary_stl([[(math.nan, math.inf, -0.0), (1, 2, 3), (1e38, 0, 0)]]),
@@ -113,6 +116,8 @@ def threemf_seeds():
     texture = ('<m:texture2d id="7" path="/3D/a.png" contenttype="image/png"/><m:texture2dgroup id="8" texid="7">'
                '<m:tex2coord u="0.5" v="1e-3"/></m:texture2dgroup>')
     layers = '<m:multiproperties id="9" pids="5 8 6"><m:multi pindices="0 0 1"/></m:multiproperties>'
+    sets = (f'<t:trianglesets xmlns:t="{core}trianglesets/2021/07"><t:triangleset name="s" identifier="i"><t:ref index="0"/>'
+            '<t:refrange startindex="2" endindex="3"/></t:triangleset></t:trianglesets>')
     plain = model(mesh(1))
     ranges = (b'<config><object id="1" instances_count="1"><metadata type="object" key="name" value="a"/>'
               b'<volume firstid="0" lastid="1"><metadata type="volume" key="volume_type" value="ModelPart"/></volume>'
@@ -136,6 +141,7 @@ def threemf_seeds():
         "materials": model(base + mesh(1, ' pid="5" p1="0"', ' name="n" pid="5" pindex="0"')),
         "colours": model(colours + mesh(1, ' pid="6" p1="0" p2="1" p3="1"')),
         "layers": model(base + colours + texture + layers + mesh(1, ' pid="9" p1="0"')),
+        "sets": model(mesh(1).replace("</mesh>", sets + "</mesh>")),
         "metadata": model(mesh(1), head='<metadata name="Title" preserve="1">a &amp; b</metadata>'),
         "numbers": model(mesh(1).replace('"1"', '"nan"', 3).replace('"0"', '"1,5"', 2)),
         "package": package({"[Content_Types].xml": "<Types/>", "_rels/.rels": relationships("/3D/a.model"),
@@ -214,6 +220,16 @@ def gltf_seeds():
     sparse = root()
     sparse["accessors"][0]["sparse"] = {"count": 1, "indices": {"bufferView": 2, "componentType": 5121},
                                         "values": {"bufferView": 0}}
+    moving = root(nodes=[{"mesh": 0, "skin": 0, "children": [1]},
+                         {"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}],
+                  skins=[{"joints": [1], "inverseBindMatrices": 9}],
+                  animations=[{"channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}],
+                               "samplers": [{"input": 2, "output": 2}]}])
+    moving["accessors"] += [{"bufferView": 0, "componentType": 5121, "count": 4, "type": "VEC4"},
+                            {"bufferView": 0, "componentType": 5121, "count": 4, "type": "VEC4", "normalized": True}]
+    moving["meshes"][0]["weights"] = [1]
+    moving["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0, "NORMAL": 0}]
+    moving["meshes"][0]["primitives"][0]["attributes"].update({"JOINTS_0": 3, "WEIGHTS_0": 4})
     strip = root()
     strip["meshes"][0]["primitives"][0]["mode"] = 5
     return {
@@ -221,6 +237,7 @@ def gltf_seeds():
         "text": json.dumps(root(buffers=[{"byteLength": len(buffer), "uri": uri}])).encode(),
         "sparse": glb(sparse, buffer),
         "strip": glb(strip, buffer),
+        "moving": glb(moving, buffer),
         "nodes": glb(root(nodes=[{"scale": [-1, 2, 3], "children": [1]}, {"mesh": 0, "rotation": [0, 0, 1, 0]}]), buffer),
         "instances": glb(root(nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {
             "attributes": {"TRANSLATION": 0}}}}]), buffer),

@@ -7,16 +7,19 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <mesh/skins.h>
 
 namespace meshrepair {
 namespace {
 
 using Kind = CornerAttribute::Kind;
 
-constexpr std::array<std::pair<std::string_view, Kind>, 4> kKinds = {{{"texture", Kind::texture},
-                                                                      {"normal", Kind::normal},
-                                                                      {"tangent", Kind::tangent},
-                                                                      {"colour", Kind::colour}}};
+constexpr std::array<std::pair<std::string_view, Kind>, 5> kKinds = {
+    {{"texture", Kind::texture},
+     {"normal", Kind::normal},
+     {"tangent", Kind::tangent},
+     {"colour", Kind::colour},
+     {"skin_weights", Kind::skin}}};
 
 bool can_have(Kind kind, std::size_t components) {
   const auto is_in = [&](std::size_t least, std::size_t most) {
@@ -31,6 +34,8 @@ bool can_have(Kind kind, std::size_t components) {
       return is_in(4, 4);
     case Kind::colour:
       return is_in(3, 4);
+    case Kind::skin:
+      return components % kSkinSet == 0 && is_in(kSkinSet, 8 * kSkinSet);
     case Kind::other:
       break;
   }

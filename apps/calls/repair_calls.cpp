@@ -17,10 +17,10 @@ namespace {
 
 // Options that name files, or say what is in files.
 const std::vector<std::string_view> kOfFiles = {
-    "scene",        "sources",         "staging", "root",
-    "units",        "explain",         "picture", "picture-size",
-    "picture-view", "picture-colours", "show",    "show-as",
-    "html",         "html-triangles",  "points",  "negative"};
+    "scene",   "sources",        "staging",      "root",           "units",
+    "explain", "picture",        "picture-size", "picture-view",   "picture-colours",
+    "show",    "show-as",        "html",         "html-triangles", "points",
+    "origin",  "restore-origin", "negative"};
 
 // What the caller gives in single precision comes back so, certified so, unless it is asked
 // otherwise.

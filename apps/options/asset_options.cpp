@@ -48,8 +48,9 @@ void drop_chosen(const std::vector<std::string>& drops, bool keeps_scene, Attrib
   for (const auto& [name, kind] : kCornerKinds) {
     if (!is_among(drops, name)) continue;
     const Kind dropped = kind;
-    std::erase_if(attributes.corners,
-                  [&](const CornerAttribute& one) { return one.kind == dropped; });
+    std::erase_if(attributes.corners, [&](const CornerAttribute& one) {
+      return one.kind == dropped || (dropped == Kind::other && one.kind == Kind::skin);
+    });
   }
   if (is_among(drops, "materials")) {
     attributes.materials = {};
@@ -119,7 +120,7 @@ Attributes chosen_for(std::optional<SoupFormat> format, const AssetOptions& opti
                       Attributes attributes) {
   // Objects of a scene are its meshes; of a file nothing else was read.
   if (options.drops_all() && !options.by_mesh) return {};
-  if (format) attributes = held_by(*format, std::move(attributes));
+  if (format) attributes = held_by(*format, std::move(attributes), options.by_mesh);
   drop_chosen(options.drops, options.by_mesh, attributes);
   return attributes;
 }

@@ -18,8 +18,8 @@ namespace {
 using Kind = CornerAttribute::Kind;
 
 std::string_view kind_name(Kind kind) {
-  constexpr std::array<std::string_view, 5> kNames = {"texture", "normal", "tangent", "colour",
-                                                      "other"};
+  constexpr std::array<std::string_view, 6> kNames = {"texture", "normal", "tangent",
+                                                      "colour",  "other",  "skin"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -56,6 +56,9 @@ std::string lost_words(const TriangleSoup& soup, const Attributes& all, const At
   std::vector<std::string> lost = lost_attributes(soup, all, held, format);
   for (std::string& words : lost) {
     if (words == "objects" && has_instances(format)) words += " (--scene each keeps them)";
+    if (words == "groups" && format == SoupFormat::stl_binary) {
+      words += " (--format stl-ascii keeps them)";
+    }
   }
   return fmt::format("{}", fmt::join(lost, ", "));
 }

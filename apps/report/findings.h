@@ -45,7 +45,9 @@ struct Findings {
   std::string output;
   std::string staging;  // where the output is written first; empty: where it belongs
   std::optional<ReadReport> mesh_read;
-  std::optional<LengthUnit> unit;  // of the output, as far as it is known
+  std::optional<LengthUnit> unit;    // of the output, as far as it is known
+  std::optional<Vec3d> origin;       // added to coordinates of the output: those that were meant
+  bool is_origin_in_places = false;  // of meshes in a scene, and not to be added
   std::optional<PointReadReport> points_read;
   std::optional<PointSoupReport> point_soup;
   std::size_t points_in_result = 0;  // of those left in point_soup

@@ -402,6 +402,11 @@ void add_sections(const Findings& findings, JsonReport& report) {
         {{"name", purpose.name}, {"options", purpose.options}, {"overridden", purpose.overridden}});
   }
   if (findings.mesh_read) report.set_section("read", section_of(*findings.mesh_read));
+  if (findings.origin) {
+    const Vec3d& origin = *findings.origin;
+    report.set_section("origin", {{"offset", {origin.x(), origin.y(), origin.z()}},
+                                  {"in_scene", findings.is_origin_in_places}});
+  }
   if (findings.points_read) report.set_section("read", section_of(*findings.points_read));
   if (findings.point_soup) {
     Json points = section_of(*findings.point_soup);

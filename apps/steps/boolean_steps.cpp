@@ -9,6 +9,7 @@
 #include <spdlog/logger.h>
 
 #include <mesh/append_soup.h>
+#include <mesh/skins.h>
 #include <mesh/topology.h>
 
 #include "options/choice_option.h"
@@ -183,6 +184,10 @@ void end_operand(const Operand& operand, Findings& findings, Run& run, Json& fac
 }
 
 void Operands::add(Operand operand) {
+  // Joints and targets of several files are not those of one mesh.
+  std::erase_if(operand.attributes.corners, [](const CornerAttribute& one) {
+    return one.kind == CornerAttribute::Kind::skin || morph_target_of(one);
+  });
   std::size_t triangles = 0;
   for (const TriangleSoup& solid : solids) triangles += solid.triangles.size();
   append_attributes(joined.attributes, triangles, std::move(operand.attributes),

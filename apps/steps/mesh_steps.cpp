@@ -9,6 +9,7 @@
 #include <base/error.h>
 #include <base/stage_meter.h>
 
+#include "report/attribute_report.h"
 #include "steps/guarantees.h"
 #include "summary/warnings.h"
 #include "terminal/warning_log.h"
@@ -71,6 +72,15 @@ Tree read_tree_stage(Run& run, Findings& findings) {
   return tree;
 }
 
+void warn_of_lost(const TriangleSoup& soup, const Attributes& all, const Attributes& held,
+                  SoupFormat format, const Findings& findings) {
+  const std::string lost = lost_words(soup, all, held, format);
+  if (lost.empty()) return;
+  warn(findings.output_name(), {WarningCode::attributes_lost,
+                                fmt::format("{} cannot store these attributes of {}: {}",
+                                            format_name(format), findings.input_name(), lost)});
+}
+
 void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
                             Run& run, Findings& findings) {
   if (run.options.report.empty() && !findings.wants_fidelity) return;
@@ -89,8 +99,9 @@ Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes
 }
 
 // Of a mesh without a name: nobody knows what those beside it are to be called.
-void write_with_files(const TriangleSoup& soup, const WriteOptions& format, Run& run,
-                      Findings& findings) {
+void write_with_files(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings) {
+  Scene place;
+  keep_origin(findings, soup, place, format);
   const Attributes* const attributes = format.extras.attributes;
   if (findings.output == "-" && attributes != nullptr &&
       has_files_beside(*format.format, *attributes)) {

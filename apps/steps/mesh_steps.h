@@ -42,9 +42,11 @@ void measure_distance_stage(const TriangleSoup& input, const Surface& surface, P
                                                    Findings& findings);
 // To go behind the message of a NoSolidError: how its sheets become walls; empty where it has none.
 [[nodiscard]] std::string advice_to_thicken(const RepairReport& repair);
+// Warns of what a file of this format has no place for; see lost_attributes().
+void warn_of_lost(const TriangleSoup& soup, const Attributes& all, const Attributes& held,
+                  SoupFormat format, const Findings& findings);
 // Warns where the materials of a mesh are in files beside it, but there can be none.
-void write_with_files(const TriangleSoup& soup, const WriteOptions& format, Run& run,
-                      Findings& findings);
+void write_with_files(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings);
 // Stage "write".
 // Finds which guarantees the file would not hold; if options.strict and there are any, writes
 // nothing. `format` is that of mesh_format(options), `attributes` those of the surface.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,11 @@ Surface repair_or_advise(AnySoup& input, const PointOptions& points, const Repai
   }
 }
 
+// It is where the coordinates of IN have it.
+void move_floor(const Vec3d& origin, ScanBaseOptions& base) {
+  if (base.floor) *base.floor -= origin[base.axis];
+}
+
 // Those that are in the units of IN.
 void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base) {
   if (!options.sew.is_share) options.sew.distance *= factor;
@@ -83,6 +89,16 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 
+// Names of parts are what boundary conditions and the like hang on: they do not go without a word.
+void warn_of_lost_groups(const AnySoup& input, SoupFormat format, const AssetOptions& assets,
+                         const Findings& findings) {
+  if (input.attributes.groups.names.size() < 2) return;
+  Attributes names;
+  names.groups = input.attributes.groups;
+  names = chosen_for(std::nullopt, assets, std::move(names));
+  warn_of_lost(input.soup, names, held_by(format, names, assets.by_mesh), format, findings);
+}
+
 }  // namespace
 
 void add_repair_command(CommandLine& app, RepairCommand& command) {
@@ -112,6 +128,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_root_option(app, options.assets);
   add_drop_option(app, options.assets);
   add_units_option(app, options.assets);
+  add_origin_options(app, options.origin);
   add_certify_options(app, options.repair.certify, options.strict);
   add_require_option(app, options.required);
   add_explain_option(app, options.explained);
@@ -134,13 +151,20 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   AnySoup input = read_any_stage(command.points, reading, run, findings);
   const std::vector<std::uint32_t> before =
       subtract_negatives_stage(input, options.repair, run, findings);
+  const bool is_single_output =
+      is_single(*format.format) || options.repair.certify.precision == Precision::float32;
+  move_origin_stage(options.origin, is_single_output, has_instances(*format.format), input,
+                    findings);
   check_picture(options.picture, input.attributes);
   const Attributes given = is_shown ? input.attributes : Attributes();
+  warn_of_lost_groups(input, *format.format, options.assets, findings);
   input.attributes = chosen_for(format.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(*format.format, options.repair);
   PointOptions points = command.points;
-  scale_lengths(scale_to_unit(*format.format, options.assets, findings.unit), repair_options,
-                points.repair.scan_base);
+  if (findings.origin) move_floor(*findings.origin, points.repair.scan_base);
+  const double scale = scale_to_unit(*format.format, options.assets, findings.unit);
+  scale_lengths(scale, repair_options, points.repair.scan_base);
+  if (findings.origin) *findings.origin *= scale;
   findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
   fit_to_input(input, command, repair_options);

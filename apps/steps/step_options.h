@@ -12,6 +12,7 @@
 #include "options/asset_options.h"
 #include "options/purposes.h"
 #include "options/show_requests.h"
+#include "steps/origin_steps.h"
 #include "steps/requirements.h"
 
 namespace meshrepair {
@@ -24,6 +25,7 @@ struct StepOptions {
   AssetOptions assets;
   bool strict = false;
   std::vector<Requirement> required;
+  OriginOptions origin;
   std::string staging;  // folder that OUT is written into first; empty: none
   PictureRequest picture;
   HtmlRequest html;

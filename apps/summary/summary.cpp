@@ -175,6 +175,12 @@ void describe_input(const Findings& findings, Lines& lines) {
     describe_volumes(*findings.mesh_read, lines);
     lines.add("wrong", troubles_of(findings));
   }
+  if (findings.origin) {
+    const Vec3d& origin = *findings.origin;
+    lines.add("origin",
+              fmt::format("{:.12g}, {:.12g}, {:.12g} is to be added to the coordinates of OUT",
+                          origin.x(), origin.y(), origin.z()));
+  }
   describe_base(findings, lines);
   if (findings.tree_read) {
     lines.add("read", fmt::format("{}: tree of {}, {}", findings.input_name(),

@@ -84,8 +84,9 @@ MESHREPAIR_API const uint32_t* meshrepair_mesh_triangles(const meshrepair_mesh* 
 
 /* What corners carry. An attribute has values of `components` numbers, and of each corner the
  * number of its value: of corner k of triangle t at 3 t + k. Its name is "texture" (2 or 3
- * numbers), "normal" (3), "tangent" (4) or "colour" (3 or 4, from 0 to 1), for further ones of a
- * kind with "_1" and so on behind it, in the order in which they are added, or any other (1 to 16).
+ * numbers), "normal" (3), "tangent" (4), "colour" (3 or 4, from 0 to 1) or "skin_weights" (8: four
+ * numbers of joints, and their weights; or more such), for further ones of a kind with "_1" and so
+ * on behind it, in the order in which they are added, or any other (1 to 16).
  * Attributes of kinds come first, in this order. */
 MESHREPAIR_API size_t meshrepair_mesh_attribute_count(const meshrepair_mesh* mesh);
 /* NULL or 0 where there is no such attribute; so for those that follow. */

@@ -76,6 +76,28 @@ void join_stages(std::vector<StageReport>& stages, std::size_t first) {
   stages.push_back(std::move(joined));
 }
 
+bool comes_first(const Vec3d& a, const Vec3d& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+// Of the points of the result those that are given, if only as single precision has them.
+std::size_t count_given(const std::vector<Vec3d>& given, const Surface& surface,
+                        Precision precision) {
+  const std::vector<char>& is_given = surface.input_point;
+  if (precision == Precision::float64) {
+    return static_cast<std::size_t>(std::count(is_given.begin(), is_given.end(), 1));
+  }
+  std::vector<Vec3d> rounded;
+  for (const Vec3d& point : given) {
+    if (point.allFinite()) rounded.push_back(rounded_to_float32(point));
+  }
+  std::sort(rounded.begin(), rounded.end(), &comes_first);
+  const auto& points = surface.mesh.points;
+  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const Vec3d& p) {
+    return std::binary_search(rounded.begin(), rounded.end(), p, &comes_first);
+  }));
+}
+
 class PointRepair {
  public:
   PointRepair(const PointCloud& cloud, const RepairPointsOptions& options,
@@ -216,9 +238,8 @@ class PointRepair {
     solid.surface = repair(solid.soup, options, repair_);
     report_.dropped_solids =
         drop_small_parts(solid.surface, options_.soup.fewest_triangles, repair_);
-    const std::vector<char>& is_input = solid.surface.input_point;
     report_.points_in_result =
-        static_cast<std::size_t>(std::count(is_input.begin(), is_input.end(), 1));
+        count_given(solid.soup.points, solid.surface, options_.repair.certify.precision);
     return solid;
   }
 

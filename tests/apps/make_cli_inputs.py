@@ -42,6 +42,23 @@ def terrain_stl():
     return b"terrain".ljust(80) + struct.pack("<I", len(facets)) + b"".join(facets)
 
 
+def named_stl():
+    """Text: a box of 3 by 3 by 3 whose sides have names, without the middle of its lid."""
+    def side(name, axis, at, skip=False):
+        lines = [f"solid {name}"]
+        for i, j in [(i, j) for i in range(3) for j in range(3) if not skip or (i, j) != (1, 1)]:
+            corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]]
+            places = [tuple(corner[:axis] + [at] + corner[axis:]) for corner in corners]
+            if (at > 0) == (axis == 1):
+                places.reverse()
+            for face in (places[:3], [places[0]] + places[2:]):
+                lines += ["facet normal 0 0 0", "outer loop"]
+                lines += ["vertex %d %d %d" % place for place in face] + ["endloop", "endfacet"]
+        return "\n".join(lines + [f"endsolid {name}", ""])
+    walls = "".join(side("walls", axis, at) for axis in (0, 1) for at in (0, 3))
+    return (side("floor", 2, 0) + walls + side("the lid", 2, 3, skip=True)).encode()
+
+
 def coloured_stl():
     """Two triangles with an edge in common, of different colours."""
     places = ((0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0))
@@ -175,6 +192,29 @@ def painted_picture():
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
                       {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+        "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+    }).encode()
+
+
+def dancer():
+    """glTF text: a tetrahedron without a face, with a skin and a morph target, and a node that is hidden."""
+    corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]
+    data = struct.pack("<12f", *corners) + struct.pack("<16B", *[0, 1, 0, 0] * 4)
+    data += struct.pack("<16f", *[0.25, 0.75, 0, 0] * 4) + struct.pack("<9H", 0, 2, 1, 0, 1, 3, 1, 2, 3)
+    views, sizes = [], (48, 16, 64, 18)
+    for size in sizes:
+        views.append({"buffer": 0, "byteOffset": sum(v["byteLength"] for v in views), "byteLength": size})
+    kinds = ((5126, 4, "VEC3"), (5121, 4, "VEC4"), (5126, 4, "VEC4"), (5123, 9, "SCALAR"))
+    primitive = {"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}, "indices": 3, "targets": [{"POSITION": 0}]}
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"name": "bone", "children": [3]}, {"name": "body", "mesh": 0, "skin": 0},
+                  {"name": "stone", "mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}, {"name": "hand"}],
+        "extensionsUsed": ["KHR_node_visibility"], "skins": [{"joints": [0, 3]}],
+        "meshes": [{"primitives": [primitive], "weights": [0.5]}],
+        "accessors": [{"bufferView": i, "componentType": kind, "count": count, "type": shape}
+                      for i, (kind, count, shape) in enumerate(kinds)],
+        "bufferViews": views,
         "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
     }).encode()
 
@@ -341,6 +381,7 @@ def main():
         "tiny_aside.obj": b"v 0 0 1e-170\nv 1e-170 0 1e-170\nv 0 1e-170 1e-170\nf 1 2 3\n",
         "painted.gltf": painted_tetrahedron(0, 0.25),
         "painted_pictures.gltf": painted_picture(),
+        "dancer.gltf": dancer(),
         "painted_too.gltf": painted_tetrahedron(0.25, 0.5),
         "textured.obj": textured_boxes(),
         "scene.obj": scene(),
@@ -356,6 +397,7 @@ def main():
         "pierced_can.obj": pierced_can(),
         "undefined.obj": b"mtllib textured.mtl\nusemtl tin\n" + tetrahedron(f1="f 1 3 2\nusemtl wood"),
         "coloured_sides.stl": coloured_stl(),
+        "named_sides.stl": named_stl(),
         "terrain.stl": terrain_stl(),
         "textured.mtl": TEXTURED_LIBRARY,
         "grain.png": png(),

@@ -66,7 +66,7 @@ inline void require_whole_scene(const ReadResult& read) {
 inline void require_comes_back(const ReadResult& read, SoupFormat format, ReadOptions options) {
   SoupExtras extras;
   extras.comments = {"comment"};
-  const Attributes held = held_by(format, read.attributes);
+  const Attributes held = held_by(format, read.attributes, options.by_mesh);
   extras.attributes = &held;
   if (options.by_mesh) extras.scene = &read.scene;
   std::string written;
@@ -104,6 +104,7 @@ inline void check_attributes(std::string_view bytes, const std::string& name, So
     if (by_mesh) require_whole_scene(read);
     options.max_triangles = std::numeric_limits<std::size_t>::max();
     require_comes_back(read, own, options);
+    require_comes_back(read, SoupFormat::stl_ascii, options);
     if (own != SoupFormat::glb) require_comes_back(read, SoupFormat::glb, options);
     if (own != SoupFormat::ply_binary) require_comes_back(read, SoupFormat::ply_binary, options);
   }

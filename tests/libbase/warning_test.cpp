@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <base/warning.h>
-
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <set>
 #include <string_view>
+
+#include <gtest/gtest.h>
+
+#include <base/warning.h>
 
 namespace meshrepair {
 namespace {

@@ -42,6 +42,10 @@ inline bool is_gltf(SoupFormat format) {
   return format == SoupFormat::glb || format == SoupFormat::gltf;
 }
 
+inline bool is_stl(SoupFormat format) {
+  return format == SoupFormat::stl_binary || format == SoupFormat::stl_ascii;
+}
+
 inline std::vector<std::string> names_by_triangle(const TriangleLabels& labels,
                                                   std::size_t triangles) {
   std::vector<std::string> names(triangles, "-");
@@ -72,11 +76,12 @@ class ExpectedMaker {
     made_.order.resize(triangles);
     std::iota(made_.order.begin(), made_.order.end(), std::size_t{0});
     const TriangleLabels& materials = attributes_.materials;
-    if (is_gltf(format_) && !materials.empty()) {  // a primitive for each material
-      std::stable_sort(made_.order.begin(), made_.order.end(), [&](std::size_t a, std::size_t b) {
-        return materials.of_triangle[a] < materials.of_triangle[b];
-      });
+    if (is_gltf(format_)) {  // a node for each object, a primitive for each of its materials
+      sort_by(materials);
+      sort_by(attributes_.objects);
     }
+    if (format_ == SoupFormat::stl_ascii) sort_by(attributes_.groups);
+    if (is_stl(format_)) forget_single(attributes_.groups);
     made_.materials = names_by_triangle(materials, triangles);
     made_.groups = names_by_triangle(attributes_.groups, triangles);
     made_.objects = names_by_triangle(attributes_.objects, triangles);
@@ -92,6 +97,21 @@ class ExpectedMaker {
 
  private:
   using CornerKind = CornerAttribute::Kind;
+
+  void sort_by(const TriangleLabels& labels) {
+    if (labels.empty()) return;
+    std::stable_sort(made_.order.begin(), made_.order.end(), [&](std::size_t a, std::size_t b) {
+      return labels.of_triangle[a] < labels.of_triangle[b];
+    });
+  }
+
+  // What has one name alone has no groups.
+  static void forget_single(TriangleLabels& groups) {
+    const auto& labels = groups.of_triangle;
+    const bool is_one = std::all_of(labels.begin(), labels.end(),
+                                    [&](std::uint32_t label) { return label == labels.front(); });
+    if (is_one) groups = {};
+  }
 
   void expect_looks() {
     made_.looks.resize(soup_.triangles.size());

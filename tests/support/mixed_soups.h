@@ -22,8 +22,12 @@ class MixedSoupMaker {
   TexturedSoup run() {
     make_triangles();
     make_materials();
-    make_labels(soup_.attributes.groups, {"wheels", "body"});
-    make_labels(soup_.attributes.objects, {"car", "the other car"});
+    if (chance(3)) {
+      make_labels(soup_.attributes.groups, {"wheels", "body  and <more>"});
+      make_labels(soup_.attributes.objects, {"car", "the other car", "gl\xC3\xA4s"});
+    } else {
+      make_labels(soup_.attributes.groups, {"7", "32767", "1"});
+    }
     make_labels(soup_.attributes.smoothing, {"1", "2", "off"});
     make_textures();
     if (chance(3)) add(CornerKind::normal, 3, any_place(), 0);

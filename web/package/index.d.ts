@@ -6,7 +6,7 @@ export type FileBytes = Uint8Array | ArrayBuffer | ArrayBufferView | Blob;
 
 /** What corners carry: of corner k of face f the number of its value is `corners[3 * f + k]`, 4294967295 for none. */
 export interface Attribute {
-  /** "texture", "normal", "tangent", "colour", with "_1" and so on behind it for further ones, or any other. */
+  /** "texture", "normal", "tangent", "colour", "skin_weights", with "_1" and so on behind it for further ones, or any other. */
   name: string;
   components: number;
   values: Float64Array;

@@ -28,7 +28,8 @@ struct CornerAttribute {
     normal,   // of length 1
     tangent,  // of length 1, and a fourth number that is the sign of the bitangent
     colour,   // red, green, blue, and perhaps opacity, from 0 to 1
-    other,    // any numbers, which `name` tells apart
+    other,    // any numbers, which `name` tells apart; morph targets, too: see skins.h
+    skin,     // numbers of joints, and weights, that no one may mix but SkinMixer
   };
   // What files can have values for. Writers do the same where their format can, as long as it says
   // all.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,12 @@ struct PointReadReport {
   PointFormat format = PointFormat::xyz;
   std::size_t bytes = 0;  // unpacked
   PackedFile packed;
-  std::uint64_t declared_points = 0;  // by the header; 0 if it has none
-  std::size_t bad_points = 0;         // left out: not numbers, or too few
-  std::uint64_t missing_points = 0;   // promised by the header, not in the file
-  std::size_t trailing_bytes = 0;     // after the last point of a binary file
-  bool normals = false;               // the file has some, asked for or not
+  std::optional<Vec3d> offset = std::nullopt;  // as of ReadReport
+  std::uint64_t declared_points = 0;           // by the header; 0 if it has none
+  std::size_t bad_points = 0;                  // left out: not numbers, or too few
+  std::uint64_t missing_points = 0;            // promised by the header, not in the file
+  std::size_t trailing_bytes = 0;              // after the last point of a binary file
+  bool normals = false;                        // the file has some, asked for or not
   bool colours = false;
   // One sentence for each kind of oddity, for the user, without the file's name.
   std::vector<Warning> warnings;

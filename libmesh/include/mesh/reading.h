@@ -34,6 +34,8 @@ struct ReadReport {
   std::size_t bytes = 0;                          // unpacked
   std::optional<LengthUnit> unit = std::nullopt;  // of the soup; nothing: the file does not say
   PackedFile packed;
+  // What a comment says that was subtracted from all coordinates: see mesh/far_coordinates.h.
+  std::optional<Vec3d> offset = std::nullopt;
   std::uint64_t declared_triangles =
       0;                      // faces or triangles that the header promised; 0 if it has none
   std::size_t polygons = 0;   // faces with more than three corners, triangulated

@@ -51,8 +51,10 @@ struct WriteOptions {
   std::optional<std::filesystem::path> names_from = std::nullopt;
 };
 
-// What of the attributes the format can hold.
-[[nodiscard]] Attributes held_by(SoupFormat format, Attributes attributes);
+// What of the attributes the format can hold. Formats with one list of names have groups or objects
+// in it, whichever are more; glTF as objects, others as groups. `by_mesh`: objects are the meshes
+// of a scene.
+[[nodiscard]] Attributes held_by(SoupFormat format, Attributes attributes, bool by_mesh = false);
 
 // Whether write_soup() would write others beside a file with these: libraries of materials. Neither
 // standard output nor format_soup() has these.

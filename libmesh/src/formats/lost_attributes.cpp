@@ -6,8 +6,10 @@
 #include <unordered_set>
 #include <utility>
 
+#include <base/ids.h>
 #include <mesh/lost_attributes.h>
 #include <mesh/precision.h>
+#include <mesh/skins.h>
 #include <mesh/triangle_paint.h>
 
 #include "formats/obj/obj_io.h"
@@ -94,7 +96,9 @@ class Finder {
          {"objects", &Attributes::objects},
          {"smoothing groups", &Attributes::smoothing}}};
     for (const auto& [words, labels] : kLabels) {
-      if (!(all_.*labels).empty() && (held_.*labels).empty()) add(std::string(words));
+      const bool is_of_region = labels == &Attributes::groups || labels == &Attributes::objects;
+      const bool is_there = is_of_region ? has_names(all_.*labels) : !(held_.*labels).empty();
+      if (!(all_.*labels).empty() && !is_there) add(std::string(words));
     }
     if (!held_.paints.empty()) return;
     const TrianglePaint* const filaments = filament_paint(all_);
@@ -106,6 +110,16 @@ class Finder {
         add("'" + paint.name + "' of parts of triangles");
       }
     }
+  }
+
+  // Formats with one list of names have groups as objects, or objects as groups.
+  [[nodiscard]] bool has_names(const TriangleLabels& labels) const {
+    if (labels.names == held_.groups.names || labels.names == held_.objects.names) return true;
+    std::unordered_set<std::string_view> held(held_.groups.names.begin(), held_.groups.names.end());
+    held.insert(held_.objects.names.begin(), held_.objects.names.end());
+    return std::all_of(
+        labels.of_triangle.begin(), labels.of_triangle.end(),
+        [&](std::uint32_t label) { return label == kNone || held.contains(labels.names[label]); });
   }
 
   // Of an attribute that the format does hold.
@@ -208,9 +222,12 @@ std::string kind_words(const CornerAttribute& attribute) {
       return "tangents";
     case Kind::colour:
       return "colours";
+    case Kind::skin:
+      return "weights of joints";
     case Kind::other:
       break;
   }
+  if (morph_target_of(attribute)) return "morph targets";
   return "'" + attribute.name + "'";
 }
 

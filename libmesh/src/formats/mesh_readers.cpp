@@ -66,11 +66,13 @@ ReadResult read_format(SoupFormat format, const MeshSource& source) {
   return read_gltf(source);
 }
 
-// Its objects are the meshes, and their names stay in any case.
+// Its objects are the meshes, solids of STL, too; and their names stay in any case.
 ReadResult read_by_object(SoupFormat format, const MeshSource& source) {
   MeshSource with_objects = source;
   with_objects.options.attributes = true;
   ReadResult result = read_format(format, with_objects);
+  const bool has_solids = format == SoupFormat::stl_ascii || format == SoupFormat::stl_binary;
+  if (has_solids) std::swap(result.attributes.objects, result.attributes.groups);
   result.scene = split_objects(result.soup, result.attributes);
   if (!source.options.attributes) {
     Attributes objects;

@@ -11,6 +11,7 @@
 #include <base/file_bytes.h>
 #include <base/progress.h>
 #include <base/trivial_vector.h>
+#include <mesh/far_coordinates.h>
 #include <mesh/mesh_source.h>
 #include <mesh/packing.h>
 
@@ -37,6 +38,7 @@ class OpenedFile {
   void describe(Report& report) const {
     report.bytes = size_;
     report.packed = packed_;
+    report.offset = find_offset_comment(source_.bytes);
     report.warnings.insert(report.warnings.begin(), warnings_.begin(), warnings_.end());
   }
   // Of other files, that the reader came upon.

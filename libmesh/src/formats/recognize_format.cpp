@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include <mesh/recognize_format.h>
@@ -32,6 +33,31 @@ bool is_count(std::string_view word) {
   return word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+// Some programs put counts before the lines of an OBJ, too: then the first word decides. The text
+// stands at the first count.
+SoupFormat format_with_counts(TextScanner text) {
+  constexpr std::size_t kMostCounts = 8;
+  for (std::size_t i = 0; i < kMostCounts && text.next_anywhere(); ++i) {
+    const std::string_view word = text.peek_token();
+    if (is_obj_keyword(word)) return SoupFormat::obj;
+    if (!is_count(word)) break;
+    text.skip_token();
+  }
+  return SoupFormat::off;
+}
+
+// Text, but for bytes of 0 among it, as some programs fill their names up with.
+bool is_padded_ascii_stl(std::string_view bytes) {
+  constexpr std::size_t kStart = 4096;
+  std::string start(bytes.substr(0, kStart));
+  if (start.find('\0') == std::string::npos) return false;
+  std::replace(start.begin(), start.end(), '\0', ' ');
+  TextScanner text(start);
+  return looks_like_text(start) && text.next_anywhere() &&
+         equals_ignoring_case(text.peek_token(), "solid") &&
+         find_ignoring_case(start, "facet") != std::string_view::npos;
+}
+
 }  // namespace
 
 std::optional<SoupFormat> recognize_content(std::string_view bytes) {
@@ -42,6 +68,7 @@ std::optional<SoupFormat> recognize_content(std::string_view bytes) {
   if (begins_with_ply(bytes)) return SoupFormat::ply_binary;
   if (begins_with_off(bytes)) return SoupFormat::off;
   if (is_binary_stl(bytes)) return SoupFormat::stl_binary;
+  if (is_padded_ascii_stl(bytes)) return SoupFormat::stl_ascii;
   if (!looks_like_text(bytes)) return std::nullopt;
   TextScanner text(bytes, {.comment = '#'});
   if (is_gltf_text(bytes)) return SoupFormat::gltf;
@@ -49,7 +76,7 @@ std::optional<SoupFormat> recognize_content(std::string_view bytes) {
   const std::string_view word = text.peek_token();
   if (is_stl_keyword(word)) return SoupFormat::stl_ascii;
   if (is_obj_keyword(word)) return SoupFormat::obj;
-  if (is_count(word)) return SoupFormat::off;
+  if (is_count(word)) return format_with_counts(text);
   return std::nullopt;
 }
 

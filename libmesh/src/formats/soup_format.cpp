@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include <base/assert.h>
 #include <mesh/packing.h>
 #include <mesh/soup_format.h>
 
@@ -12,11 +13,14 @@
 namespace meshrepair {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, SoupFormat>, 7> kExtensions = {{
+// Where formats share an extension, it stands for the first.
+constexpr std::array<std::pair<std::string_view, SoupFormat>, 9> kExtensions = {{
     {".stl", SoupFormat::stl_binary},
+    {".stl", SoupFormat::stl_ascii},
     {".obj", SoupFormat::obj},
     {".off", SoupFormat::off},
     {".ply", SoupFormat::ply_binary},
+    {".ply", SoupFormat::ply_ascii},
     {".glb", SoupFormat::glb},
     {".gltf", SoupFormat::gltf},
     {".3mf", SoupFormat::threemf},
@@ -61,16 +65,10 @@ std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path)
 }
 
 std::string_view extension_of(SoupFormat format) {
-  switch (format) {
-    case SoupFormat::stl_ascii:
-      return extension_of(SoupFormat::stl_binary);
-    case SoupFormat::ply_ascii:
-      return extension_of(SoupFormat::ply_binary);
-    default:
-      return std::find_if(kExtensions.begin(), kExtensions.end(),
-                          [&](const auto& entry) { return entry.second == format; })
-          ->first;
-  }
+  const auto* const found = std::find_if(kExtensions.begin(), kExtensions.end(),
+                                         [&](const auto& entry) { return entry.second == format; });
+  MESHREPAIR_ASSERT(found != kExtensions.end());
+  return found->first;
 }
 
 std::string_view known_extensions() { return ".stl, .obj, .off, .ply, .glb, .gltf, .3mf"; }
@@ -93,9 +91,6 @@ bool has_instances(SoupFormat format) {
 
 bool has_unit(SoupFormat format) { return format == SoupFormat::threemf || is_any_gltf(format); }
 
-bool holds_attributes(SoupFormat format) {
-  return format == SoupFormat::stl_binary || format == SoupFormat::obj ||
-         format == SoupFormat::threemf || is_any_gltf(format) || holds_sources(format);
-}
+bool holds_attributes(SoupFormat format) { return format != SoupFormat::off; }
 
 }  // namespace meshrepair

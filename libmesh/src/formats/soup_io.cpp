@@ -69,6 +69,13 @@ void write_together(const std::vector<BundledFile>& files, ProgressObserver* pro
   }
 }
 
+// Nothing where names do not stand in lines.
+std::optional<NameLines> name_lines(SoupFormat format) {
+  if (format == SoupFormat::obj) return NameLines::obj;
+  if (format == SoupFormat::stl_ascii) return NameLines::stl;
+  return holds_sources(format) ? std::optional(NameLines::ply) : std::nullopt;
+}
+
 // What is written of a soup, with names that fit into the lines of text formats.
 class PlainExtras {
  public:
@@ -76,8 +83,9 @@ class PlainExtras {
     if (extras.attributes == nullptr) return;
     placed_ = placed_for(format, *extras.attributes);
     if (placed_) extras_.attributes = &*placed_;
-    const bool has_lines = format == SoupFormat::obj || holds_sources(format);
-    if (has_lines) plain_ = with_plain_names(*extras_.attributes, format == SoupFormat::obj);
+    if (const auto lines = name_lines(format)) {
+      plain_ = with_plain_names(*extras_.attributes, *lines);
+    }
     if (plain_) extras_.attributes = &*plain_;
   }
   PlainExtras(const PlainExtras&) = delete;
@@ -135,7 +143,7 @@ std::string format_soup(const TriangleSoup& soup, SoupFormat format, const SoupE
     case SoupFormat::stl_binary:
       return format_stl_binary(soup, extras.attributes);
     case SoupFormat::stl_ascii:
-      return format_stl_ascii(soup);
+      return format_stl_ascii(soup, extras.attributes);
     case SoupFormat::obj:
       return format_obj(soup, extras);
     case SoupFormat::off:

@@ -75,6 +75,7 @@ void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
   options.extract.merges_triangles = false;
   options.reach.assign(input.triangles.size(), kInfinity);
   for (const CornerAttribute& attribute : attributes.corners) {
+    if (attribute.kind == CornerAttribute::Kind::skin) continue;
     const Steepness steepness(input, attribute);
     parallel_for(input.triangles.size(), [&](std::size_t t) {
       const double reach = options.simplify / steepness(t);

@@ -15,6 +15,7 @@
 
 #include <base/disjoint_sets.h>
 #include <base/ids.h>
+#include <mesh/skins.h>
 #include <repair/transfer_attributes.h>
 
 namespace meshrepair::internal {
@@ -188,13 +189,11 @@ class PatchFiller {
 
   // Each inner point is the mean of its neighbours.
   void interpolate(const PointValues& rim, CornerAttribute& attribute) {
-    const Eigen::MatrixXd inner = inner_ == 0 ? Eigen::MatrixXd() : solve(rim, attribute);
     const auto first = static_cast<std::uint32_t>(attribute.count());
-    const bool is_integer = attribute.storage == CornerAttribute::Storage::integer;
-    for (Eigen::Index i = 0; i < inner.rows(); ++i) {
-      for (Eigen::Index c = 0; c < inner.cols(); ++c) {
-        attribute.values.push_back(is_integer ? std::round(inner(i, c)) : inner(i, c));
-      }
+    if (attribute.kind == Kind::skin) {
+      if (inner_ > 0) append_skins(rim, attribute);
+    } else {
+      append_means(rim, attribute);
     }
     for_each_corner(
         [&](std::uint32_t point, std::uint32_t& value) {
@@ -204,11 +203,72 @@ class PatchFiller {
         attribute);
   }
 
+  void append_means(const PointValues& rim, CornerAttribute& attribute) const {
+    const Eigen::MatrixXd inner = inner_ == 0 ? Eigen::MatrixXd() : solve(rim, attribute);
+    const bool is_integer = attribute.storage == CornerAttribute::Storage::integer;
+    for (Eigen::Index i = 0; i < inner.rows(); ++i) {
+      for (Eigen::Index c = 0; c < inner.cols(); ++c) {
+        attribute.values.push_back(is_integer ? std::round(inner(i, c)) : inner(i, c));
+      }
+    }
+  }
+
+  // The weight of each joint by itself, one after the other.
+  void append_skins(const PointValues& rim, CornerAttribute& attribute) const {
+    Neighbours neighbours;
+    list_neighbours(neighbours);
+    const std::size_t n = attribute.components;
+    std::map<double, std::map<std::uint32_t, double>> joints;  // weights of values
+    for (const auto& [point, value] : rim) {
+      SkinMixer mixer(n);
+      std::vector<double> mixed;
+      mixer.add(attribute.values.data() + n * value, 1);
+      mixer.append_to(mixed);
+      for (std::size_t i = 0; i < n; ++i) {
+        const bool is_joint = i % kSkinSet < kSkinSet / 2;
+        if (is_joint && mixed[i + kSkinSet / 2] > 0) {
+          joints[mixed[i]][value] = mixed[i + kSkinSet / 2];
+        }
+      }
+    }
+    std::vector<SkinMixer> mixers(inner_, SkinMixer(n));
+    for (const auto& [joint, weights] : joints) {
+      Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(inner_));
+      for (const auto& [row, point] : neighbours.on_rim) {
+        const auto weight = weights.find(rim.at(point));
+        if (weight != weights.end()) right[row] += weight->second;
+      }
+      const Eigen::VectorXd inner = neighbours.solver.solve(right);
+      for (Eigen::Index i = 0; i < inner.size(); ++i) {
+        mixers[static_cast<std::size_t>(i)].add_joint(joint, inner[i]);
+      }
+    }
+    for (SkinMixer& mixer : mixers) mixer.append_to(attribute.values);
+  }
+
   [[nodiscard]] Eigen::MatrixXd solve(const PointValues& rim,
                                       const CornerAttribute& attribute) const {
     const auto components = static_cast<Eigen::Index>(attribute.components);
+    Neighbours neighbours;
+    list_neighbours(neighbours);
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(inner_), components);
+    for (const auto& [row, point] : neighbours.on_rim) {
+      const std::size_t value = attribute.components * rim.at(point);
+      for (Eigen::Index c = 0; c < components; ++c) {
+        right(row, c) += attribute.values[value + static_cast<std::size_t>(c)];
+      }
+    }
+    return neighbours.solver.solve(right);
+  }
+
+  // The system in which each inner point is the mean of its neighbours, and those on the rim.
+  struct Neighbours {
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+    std::vector<std::pair<int, std::uint32_t>> on_rim;  // row and point
+  };
+
+  void list_neighbours(Neighbours& found) const {
     const auto inner = static_cast<Eigen::Index>(inner_);
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(inner, components);
     std::vector<Eigen::Triplet<double>> entries;
     for (const std::uint32_t t : patch_.triangles) {
       const auto& corners = surface_.mesh.triangles[t];
@@ -222,17 +282,14 @@ class PatchFiller {
         const std::uint32_t column = points_.at(neighbour);
         if (column != kOnRim) {
           entries.emplace_back(r, static_cast<int>(column), -1);
-          continue;
-        }
-        const std::size_t value = attribute.components * rim.at(neighbour);
-        for (Eigen::Index c = 0; c < components; ++c) {
-          right(r, c) += attribute.values[value + static_cast<std::size_t>(c)];
+        } else {
+          found.on_rim.emplace_back(r, neighbour);
         }
       }
     }
     Eigen::SparseMatrix<double> system(inner, inner);
     system.setFromTriplets(entries.begin(), entries.end());
-    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system).solve(right);
+    found.solver.compute(system);
   }
 
   // Of the patch alone, as it may meet the rest in a crease.

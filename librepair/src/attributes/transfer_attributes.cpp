@@ -13,6 +13,7 @@
 
 #include <base/ids.h>
 #include <base/parallel.h>
+#include <mesh/skins.h>
 #include <mesh/triangle_paint.h>
 #include <repair/transfer_attributes.h>
 
@@ -101,7 +102,7 @@ class ValueTransfer {
     }
     const std::uint32_t* const given = given_.of_corner.data() + 3 * std::size_t{source};
     const bool turned = is_turned(from, places_of(surface_.mesh, t));
-    const bool stays = given_.kind != CornerAttribute::Kind::normal || !turned;
+    const bool stays = !turns_ || !turned;
     const bool is_constant = stays && given[0] == given[1] && given[1] == given[2];
     if (is_constant) return void(std::fill(of_corner.begin(), of_corner.end(), given[0]));
     const bool is_full = std::none_of(given, given + 3, [](std::uint32_t v) { return v == kNone; });
@@ -151,6 +152,7 @@ class ValueTransfer {
   void append_mixed(const std::uint32_t* given, const std::array<double, 3>& shares, bool turned,
                     std::vector<double>& made) const {
     const std::size_t first = made.size();
+    if (given_.kind == CornerAttribute::Kind::skin) return append_skin(given, shares, made);
     for (std::size_t i = 0; i < given_.components; ++i) {
       double sum = 0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -158,12 +160,30 @@ class ValueTransfer {
       }
       made.push_back(given_.storage == CornerAttribute::Storage::integer ? std::round(sum) : sum);
     }
+    if (turns_ && turned && given_.kind != CornerAttribute::Kind::normal) {
+      for (std::size_t i = first; i < made.size(); ++i) made[i] = -made[i];
+    }
     if (given_.kind != CornerAttribute::Kind::normal) return;
     double squares = 0;
     for (std::size_t i = first; i < made.size(); ++i) squares += made[i] * made[i];
     if (!(squares > 0)) return;
     const double scale = (turned ? -1 : 1) / std::sqrt(squares);
     for (std::size_t i = first; i < made.size(); ++i) made[i] *= scale;
+  }
+
+  void append_skin(const std::uint32_t* given, const std::array<double, 3>& shares,
+                   std::vector<double>& made) const {
+    SkinMixer mixer(given_.components);
+    for (std::size_t k = 0; k < 3; ++k) {
+      mixer.add(given_.values.data() + given_.components * given[k], shares[k]);
+    }
+    mixer.append_to(made);
+  }
+
+  // Normals, and what is added to them.
+  static bool turns(const CornerAttribute& given) {
+    const auto target = morph_target_of(given);
+    return given.kind == CornerAttribute::Kind::normal || (target && target->semantic == "NORMAL");
   }
 
   // Appends what was made to the values.
@@ -181,6 +201,7 @@ class ValueTransfer {
   const Surface& surface_;
   const std::vector<std::uint32_t>& sources_;
   const bool has_walls_;
+  const bool turns_ = turns(given_);
 };
 
 TriangleLabels transfer_labels(const TriangleLabels& given,

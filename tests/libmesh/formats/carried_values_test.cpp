@@ -173,7 +173,7 @@ TEST(StlColours, ColoursOfMagicsComeBackWithTheirHeader) {
 }
 
 TEST(StlColours, WordsWithoutTheirBitAreNone) {
-  EXPECT_TRUE(parse_with_attributes(coloured_stl("x", 0x1234, 7)).attributes.empty());
+  EXPECT_TRUE(parse_with_attributes(coloured_stl("x", 0x1234, 7)).attributes.corners.empty());
 }
 
 TEST(HeldBy, FormatsDropWhatTheyCannotHold) {

@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array kFormats = {
-    SoupFormat::obj,  SoupFormat::ply_binary, SoupFormat::ply_ascii, SoupFormat::glb,
-    SoupFormat::gltf, SoupFormat::threemf,    SoupFormat::stl_binary};
+    SoupFormat::obj,  SoupFormat::ply_binary, SoupFormat::ply_ascii,  SoupFormat::glb,
+    SoupFormat::gltf, SoupFormat::threemf,    SoupFormat::stl_binary, SoupFormat::stl_ascii};
 
 std::string name_of_format(SoupFormat format) {
   std::string name(format_name(format));

@@ -36,7 +36,7 @@ void warn_of_bad(ReadReport& report, const MeshSource& source, const FirstBad& f
   if (report.bad_points > 0) {
     report.warnings.push_back({WarningCode::points_unreadable,
                                "coordinates of " + counted(report.bad_points, point) +
-                                   " are not numbers" + line_of(first.point),
+                                   " are missing or not numbers" + line_of(first.point),
                                {{"points", report.bad_points}}});
   }
 }

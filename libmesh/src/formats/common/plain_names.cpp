@@ -5,7 +5,10 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 #include <vector>
+
+#include "text_scanner.h"
 
 namespace meshrepair {
 namespace {
@@ -13,7 +16,7 @@ namespace {
 // What names of a format cannot have.
 class PlainNames {
  public:
-  explicit PlainNames(bool for_obj) : for_obj_(for_obj) {}
+  explicit PlainNames(NameLines lines) : lines_(lines) {}
 
   [[nodiscard]] bool is_plain_name(std::string_view name) const {
     return plain_name(std::string(name)) == name;
@@ -23,9 +26,10 @@ class PlainNames {
     std::replace_if(
         name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '_');
     if (name.ends_with('\\')) name.back() = '_';
-    if (!for_obj_ || name.empty()) return name;
+    if (lines_ == NameLines::ply || name.empty()) return name;
     if (name.ends_with(' ')) name.back() = '_';
     if (name.starts_with(' ')) name.front() = '_';
+    if (lines_ == NameLines::stl) return without_facets(std::move(name));
     // A word that begins so, and all behind it, is a comment.
     for (std::size_t i = 0; i < name.size(); ++i) {
       if (name[i] == '#' && (i == 0 || name[i - 1] == ' ')) name[i] = '_';
@@ -37,7 +41,19 @@ class PlainNames {
   [[nodiscard]] bool are_plain(const TriangleLabels& labels) const;
 
  private:
-  bool for_obj_;
+  // Behind the name of a solid facets may stand in its line.
+  static std::string without_facets(std::string name) {
+    constexpr std::string_view kFacet = "facet ";
+    std::size_t at = 0;
+    for (;;) {
+      const std::size_t found = find_ignoring_case(std::string_view(name).substr(at), kFacet);
+      if (found == std::string_view::npos) return name;
+      at += found + kFacet.size();
+      name[at - 1] = '_';
+    }
+  }
+
+  NameLines lines_;
 };
 
 void PlainNames::make_plain(std::vector<std::string>& names) const {
@@ -63,8 +79,8 @@ bool PlainNames::are_plain(const TriangleLabels& labels) const {
 
 }  // namespace
 
-std::optional<Attributes> with_plain_names(const Attributes& attributes, bool for_obj) {
-  const PlainNames names(for_obj);
+std::optional<Attributes> with_plain_names(const Attributes& attributes, NameLines lines) {
+  const PlainNames names(lines);
   const bool are_all =
       names.are_plain(attributes.materials) && names.are_plain(attributes.groups) &&
       names.are_plain(attributes.objects) && names.are_plain(attributes.smoothing) &&
@@ -85,11 +101,13 @@ std::optional<Attributes> with_plain_names(const Attributes& attributes, bool fo
   for (Image& image : plain.images) {
     image.name = names.plain_name(image.name);
     // A path that no line can name is none; '#' stands in many names of files.
-    if (!PlainNames(false).is_plain_name(image.path)) image.path.clear();
+    if (!PlainNames(NameLines::ply).is_plain_name(image.path)) image.path.clear();
   }
   return plain;
 }
 
-std::string plain_obj_name(const std::string& name) { return PlainNames(true).plain_name(name); }
+std::string plain_obj_name(const std::string& name) {
+  return PlainNames(NameLines::obj).plain_name(name);
+}
 
 }  // namespace meshrepair

@@ -11,6 +11,7 @@
 
 #include "formats/common/uri.h"
 #include "gltf_materials.h"
+#include "gltf_scene.h"
 
 namespace meshrepair {
 namespace {
@@ -64,6 +65,7 @@ class KeepsakeMaker {
       kept_->images = attributes_.images;
       keep_images();
     }
+    keep_skins();
     keep_animations();
     keep_extensions();
     if (!accessors_.empty()) root()["accessors"] = std::move(accessors_);
@@ -90,8 +92,9 @@ class KeepsakeMaker {
     if (document_.count("nodes") == 0) return;
     for (GltfJson& node : root()["nodes"]) {
       if (!node.is_object()) continue;
-      if (!what_.scene) node.erase("mesh");
-      for (const char* key : {"skin", "weights"}) node.erase(key);
+      if (!what_.scene) {
+        for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+      }
       drop_extensions(node);
     }
   }
@@ -99,13 +102,11 @@ class KeepsakeMaker {
   void keep_scene() {
     for (std::size_t i = 0; i < document_.count("meshes"); ++i) {
       GltfJson mesh = document_.entry("meshes", i);
-      for (const char* key : {"primitives", "weights"}) mesh.erase(key);
+      mesh.erase("primitives");
       drop_extensions(mesh);
       kept_->meshes.push_back(std::move(mesh));
     }
     for (std::size_t n = 0; n < document_.count("nodes"); ++n) {
-      // This adds a node, so others move in memory.
-      if (gltf_member(document_.entry("nodes", n), "skin") != nullptr) stand_apart(n);
       GltfJson& node = root()["nodes"][n];
       if (gltf_extension(node, kInstancing) == nullptr) continue;
       for (GltfJson& accessor : node["extensions"][kInstancing]["attributes"]) {
@@ -114,18 +115,20 @@ class KeepsakeMaker {
     }
   }
 
-  // Joints move a mesh with a skin, its node does not.
-  void stand_apart(std::size_t number) {
-    GltfJson& nodes = root()["nodes"];
-    const auto mesh = document_.whole(nodes[number], "mesh");
-    nodes[number].erase("mesh");
-    if (!mesh) return;
-    GltfJson apart = {{"mesh", *mesh}};
-    if (nodes[number].contains("name")) apart["name"] = nodes[number]["name"];
-    nodes.push_back(std::move(apart));
-    if (document_.count("scenes") == 0) return;
-    GltfJson& scene = root()["scenes"][document_.whole(root(), "scene", 0)];
-    if (scene.is_object() && scene["nodes"].is_array()) scene["nodes"].push_back(nodes.size() - 1);
+  // They name nodes, which stay.
+  void keep_skins() {
+    if (!what_.looks || document_.count("skins") == 0) return;
+    root()["skins"] = GltfJson::array();
+    for (std::size_t i = 0; i < document_.count("skins"); ++i) {
+      GltfJson skin = document_.entry("skins", i);
+      try {
+        const auto number = document_.whole(skin, "inverseBindMatrices");
+        if (number) skin["inverseBindMatrices"] = kept_accessor(*number);
+      } catch (const InputError&) {  // matrices that are not there are those of no turn
+        skin.erase("inverseBindMatrices");
+      }
+      root()["skins"].push_back(std::move(skin));
+    }
   }
 
   [[nodiscard]] bool is_dropped(std::string_view extension) const {
@@ -196,7 +199,12 @@ class KeepsakeMaker {
     GltfJson kept = GltfJson::array();
     for (const GltfJson& channel : *channels) {
       const GltfJson* const target = gltf_member(channel, "target");
-      if (target != nullptr && !moves_what_goes(*target)) kept.push_back(channel);
+      if (target == nullptr) continue;
+      if (moves_what_goes(*target)) {
+        ++kept_->still_channels;
+      } else {
+        kept.push_back(channel);
+      }
     }
     if (kept.empty()) return false;
     for (GltfJson& sampler : animation["samplers"]) {
@@ -210,12 +218,13 @@ class KeepsakeMaker {
   }
 
   [[nodiscard]] bool moves_what_goes(const GltfJson& target) const {
-    if (gltf_text(target, "path") == "weights") return true;
+    const bool has_targets = what_.scene && what_.looks;
+    if (gltf_text(target, "path") == "weights") return !has_targets;
     const GltfJson* const pointer = gltf_extension(target, "KHR_animation_pointer");
     if (pointer == nullptr) return false;
     const std::string path = gltf_text(*pointer, "pointer");
     return path.starts_with("/meshes") || path.starts_with("/skins") ||
-           path.find("/weights") != std::string::npos ||
+           (!has_targets && path.find("/weights") != std::string::npos) ||
            (!what_.looks && path.starts_with("/materials"));
   }
 
@@ -314,6 +323,7 @@ std::shared_ptr<GltfKeepsake> GltfKeepsake::copy() const {
   static_cast<GltfLooks&>(*result) = *this;
   result->has_scene = has_scene;
   result->meshes = meshes;
+  result->objects = objects;
   result->materials = materials;
   result->small_v = small_v;
   return result;
@@ -334,6 +344,10 @@ std::vector<std::string> GltfKeepsake::lost_in(SoupFormat format) const {
   if (has_more) lost.emplace_back("what else materials say");
   for (const char* key : {"cameras", "animations"}) {
     if (root.contains(key)) lost.emplace_back(key);
+  }
+  const GltfJson* const nodes = has_scene ? gltf_member(root, "nodes") : nullptr;
+  if (nodes != nullptr && std::any_of(nodes->begin(), nodes->end(), is_gltf_hidden)) {
+    lost.emplace_back("that nodes are hidden");
   }
   if (gltf_extension(root, "KHR_lights_punctual") != nullptr) lost.emplace_back("lights");
   return lost;

@@ -43,14 +43,22 @@ struct GltfKept {
   bool looks = true;   // materials, and what they need
 };
 
-// The document without meshes, skins and buffers. Its nodes have no meshes unless has_scene; then
+// What a mesh has that stands alone for all of its name.
+struct GltfObject {
+  std::optional<std::size_t> skin;
+  GltfJson mesh;  // weights of morph targets, and extras; null: none
+};
+
+// The document without meshes and buffers. Its nodes have no meshes unless has_scene; then
 // they have them by their numbers in the file. Its buffer views are only those that images,
-// animations and instances need.
+// animations, skins and instances need.
 struct GltfKeepsake final : Keepsake, GltfLooks {
   bool has_scene = false;
-  std::vector<GltfJson> meshes;        // if so: what they have besides triangles
-  std::vector<std::string> materials;  // labels of root["materials"]
+  std::vector<GltfJson> meshes;               // if so: what they have besides triangles
+  std::map<std::string, GltfObject> objects;  // else, by their names
+  std::vector<std::string> materials;         // labels of root["materials"]
   GltfSmallV small_v;
+  std::size_t still_channels = 0;  // of animations: what they moved is not kept
 
   [[nodiscard]] std::vector<std::string> lost_in(SoupFormat format) const override;
   // What the first has, and the materials of this one.
@@ -63,8 +71,7 @@ struct GltfKeepsake final : Keepsake, GltfLooks {
 };
 
 // `attributes` has the images and the names of the materials, if there are to be looks. Animations
-// that cannot be kept are left out; meshes with skins get nodes that stand where they do. Throws
-// InputError.
+// that cannot be kept are left out. Throws InputError.
 [[nodiscard]] std::shared_ptr<GltfKeepsake> make_gltf_keepsake(const GltfDocument& document,
                                                                GltfBuffers& buffers,
                                                                const Attributes& attributes,

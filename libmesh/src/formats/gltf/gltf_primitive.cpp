@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include <base/error.h>
 #include <base/ids.h>
 #include <mesh/mesh_limits.h>
 #include <mesh/read_guard.h>
@@ -38,7 +39,6 @@ class PrimitiveReader {
       ++oddities_.without_positions;
       return std::nullopt;
     }
-    if (gltf_member(json_, "targets") != nullptr) ++oddities_.morphed;
     result_.material = document_.whole(json_, "material");
     if (result_.material) (void)document_.entry("materials", *result_.material);
     result_.variants = gltf_extension(json_, kGltfVariants);
@@ -51,6 +51,7 @@ class PrimitiveReader {
     read_attributes();
     if (result_.positions.components() != 3) source_.fail("positions have not three coordinates");
     require_same_counts();
+    read_targets();
     make_triangles(static_cast<TriangleMode>(mode));
     return std::move(result_);
   }
@@ -126,6 +127,31 @@ class PrimitiveReader {
       source_.fail("a primitive has " + counted(accessor.count(), "value") + " of " +
                    printable(name) + " for " + counted(points, "point"));
     }
+  }
+
+  // What is wrong with them harms nothing else.
+  void read_targets() {
+    const GltfJson* const targets = gltf_member(json_, "targets");
+    if (targets == nullptr) return;
+    bool is_whole = source_.options.attributes && !corners_ && targets->is_array();
+    for (std::size_t i = 0; is_whole && i < targets->size(); ++i) {
+      if (!(*targets)[i].is_object()) continue;
+      for (const auto& [name, number] : (*targets)[i].items()) {
+        is_whole = read_target("TARGET_" + std::to_string(i) + "/" + name, number) && is_whole;
+      }
+    }
+    if (!is_whole) ++oddities_.morphed;
+  }
+
+  bool read_target(const std::string& name, const GltfJson& number) {
+    try {
+      GltfAccessor accessor(document_, buffers_, document_.whole_of(number, "attribute"));
+      if (accessor.count() != result_.positions.count()) return false;
+      result_.attributes.emplace_back(name, std::move(accessor));
+    } catch (const InputError&) {
+      return false;
+    }
+    return true;
   }
 
   [[nodiscard]] std::size_t corner_count() const {

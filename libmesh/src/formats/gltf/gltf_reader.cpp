@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
 #include "gltf_materials.h"
+#include "gltf_movement.h"
 #include "gltf_primitive.h"
 #include "gltf_scene.h"
 #include "gltf_values.h"
@@ -30,7 +32,9 @@ class GltfReader {
     result_.report.format = document_.is_binary() ? SoupFormat::glb : SoupFormat::gltf;
     result_.report.unit = LengthUnit::meter;
     instances_ = read_scene(document_, buffers_);
+    if (!is_by_mesh()) leave_out_hidden();
     read_meshes();
+    leave_out_targets();
     GltfValues values(primitives());
     read_labels();
     if (is_by_mesh()) {
@@ -46,6 +50,54 @@ class GltfReader {
  private:
   [[nodiscard]] bool wants_attributes() const { return source_.options.attributes; }
   [[nodiscard]] bool is_by_mesh() const { return source_.options.by_mesh; }
+
+  void leave_out_hidden() {
+    std::string names;
+    std::size_t count = 0;
+    std::erase_if(instances_, [&](const GltfInstance& instance) {
+      if (!instance.is_hidden) return false;
+      shown_or_hidden_.insert(instance.node);
+      constexpr std::size_t kMostNames = 8;
+      const std::string name = name_of(instance);
+      if (!name.empty() && count < kMostNames)
+        names += (names.empty() ? "" : ", ") + printable(name);
+      ++count;
+      return true;
+    });
+    if (count == 0) return;
+    result_.report.warnings.push_back(
+        {WarningCode::objects_left_out,
+         counted(count, "node") + " with meshes left out: hidden (--scene each keeps them)" +
+             (names.empty() ? "" : ": " + names),
+         {{"objects", count}}});
+  }
+
+  // Files may have them of very few bytes.
+  void leave_out_targets() {
+    constexpr std::size_t kAlways = 10'000'000;
+    std::set<std::string_view> names;
+    std::size_t corners = 0;
+    for (const auto& [number, primitives] : meshes_) {
+      for (const GltfPrimitive& primitive : primitives) {
+        for (const auto& [name, accessor] : primitive.attributes) {
+          if (name.starts_with(kGltfTarget)) names.insert(name);
+        }
+        if (is_by_mesh()) corners += primitive.corners.size();
+      }
+    }
+    if (names.empty()) return;
+    if (!is_by_mesh()) corners = 3 * count_triangles();
+    if (corners <= (kAlways + source_.bytes.size()) / names.size()) return;
+    names.clear();
+    for (auto& [number, primitives] : meshes_) {
+      for (GltfPrimitive& primitive : primitives) {
+        const auto gone = std::erase_if(primitive.attributes, [](const auto& attribute) {
+          return attribute.first.starts_with(kGltfTarget);
+        });
+        if (gone > 0) ++oddities_.morphed;
+      }
+    }
+  }
 
   // Those of the scene, or all.
   void read_meshes() {
@@ -77,6 +129,7 @@ class GltfReader {
     PointWelder welder(result_.soup.points, triangles / 2);
     for (const GltfInstance& instance : instances_) {
       const std::uint32_t object = object_named(name_of(instance));
+      keep_object(instance);
       for (const GltfPrimitive& primitive : meshes_[instance.mesh]) {
         append(primitive, instance.placement, object, welder, values);
       }
@@ -170,6 +223,23 @@ class GltfReader {
                                        {{"materials", mixed.size()}}});
   }
 
+  // Where several of one name differ, none is told.
+  void keep_object(const GltfInstance& instance) {
+    if (!wants_attributes()) return;
+    const GltfJson& mesh = document_.entry("meshes", instance.mesh);
+    GltfObject own;
+    if (instance.has_skin)
+      own.skin = document_.whole(document_.entry("nodes", instance.node), "skin");
+    for (const char* key : {"weights", "extras"}) {
+      if (const GltfJson* const member = gltf_member(mesh, key)) own.mesh[key] = *member;
+    }
+    const auto [known, is_new] = kept_->objects.try_emplace(name_of(instance), own);
+    GltfObject& all = known->second;
+    if (all.skin != own.skin) mixed_skins_.insert(known->first);
+    if (all.skin != own.skin) all.skin.reset();
+    if (all.mesh != own.mesh) all.mesh = GltfJson();
+  }
+
   [[nodiscard]] std::string name_of(const GltfInstance& instance) const {
     std::string name = gltf_text(document_.entry("nodes", instance.node), "name");
     return name.empty() ? gltf_text(document_.entry("meshes", instance.mesh), "name") : name;
@@ -226,9 +296,7 @@ class GltfReader {
   void finish(GltfValues& values) {
     ReadReport& report = result_.report;
     oddities_.report(report);
-    if (std::any_of(instances_.begin(), instances_.end(), [](const auto& i) { return i.has_skin; }))
-      report.warnings.push_back(
-          {WarningCode::attributes_unreadable, "meshes with skins are read as without joints"});
+    warn_of_skins();
     if (!is_by_mesh()) warn_of_other_scenes();
     report.trailing_bytes = document_.trailing_bytes();
     if (report.trailing_bytes > 0) {
@@ -247,8 +315,30 @@ class GltfReader {
     attributes.keepsake = std::move(kept_);
   }
 
+  void warn_of_skins() {
+    const bool has_skins = std::any_of(instances_.begin(), instances_.end(),
+                                       [](const auto& instance) { return instance.has_skin; });
+    std::vector<Warning>& warnings = result_.report.warnings;
+    if (has_skins && !wants_attributes()) {
+      warnings.push_back(
+          {WarningCode::attributes_unreadable, "meshes with skins are read as without joints"});
+    }
+    if (wants_attributes() && kept_->still_channels > 0) {
+      warnings.push_back({WarningCode::attributes_lost,
+                          counted(kept_->still_channels, "channel") +
+                              " of animations left out: what they move is not kept" +
+                              (is_by_mesh() ? "" : " (--scene each keeps morph targets)"),
+                          {{"channels", kept_->still_channels}}});
+    }
+    if (mixed_skins_.empty()) return;
+    warnings.push_back({WarningCode::attributes_lost,
+                        counted(mixed_skins_.size(), "object") +
+                            " without a skin, as parts of one name have different ones",
+                        {{"objects", mixed_skins_.size()}}});
+  }
+
   void warn_of_other_scenes() {
-    std::unordered_set<std::size_t> shown;
+    std::unordered_set<std::size_t> shown = shown_or_hidden_;
     for (const GltfInstance& instance : instances_) shown.insert(instance.node);
     std::size_t others = 0;
     for (std::size_t n = 0; n < document_.count("nodes"); ++n) {
@@ -271,6 +361,8 @@ class GltfReader {
   std::map<std::size_t, std::vector<GltfPrimitive>> meshes_;
   std::size_t read_ = 0;  // triangles, before instances
   std::unordered_map<std::string, std::uint32_t> objects_;
+  std::unordered_set<std::size_t> shown_or_hidden_;  // nodes
+  std::set<std::string> mixed_skins_;                // names of objects
   std::shared_ptr<GltfKeepsake> kept_;
   ReadResult result_;
 };

@@ -112,7 +112,7 @@ class SceneReader {
       : document_(document), buffers_(buffers), is_visited_(document.count("nodes"), 0) {}
 
   std::vector<GltfInstance> run() {
-    push(roots(), {});
+    push(roots(), {}, false);
     while (!open_.empty()) {
       const Open next = open_.back();
       open_.pop_back();
@@ -125,6 +125,7 @@ class SceneReader {
   struct Open {
     std::size_t node;
     Placement parent;
+    bool is_hidden;
   };
 
   [[nodiscard]] std::vector<std::size_t> numbers(const GltfJson& object, const char* key) const {
@@ -156,8 +157,10 @@ class SceneReader {
   }
 
   // So that the first is visited first.
-  void push(const std::vector<std::size_t>& nodes, const Placement& parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open_.push_back({*node, parent});
+  void push(const std::vector<std::size_t>& nodes, const Placement& parent, bool is_hidden) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      open_.push_back({*node, parent, is_hidden});
+    }
   }
 
   void visit(const Open& open) {
@@ -167,26 +170,31 @@ class SceneReader {
                               "] is reached twice");
     }
     const Placement placement = placement_of_node(document_, node).then(open.parent);
+    const bool is_hidden = open.is_hidden || is_gltf_hidden(node);
     if (const auto mesh = document_.whole(node, "mesh")) {
-      add(open.node, node, *mesh, placement);
+      add(node, {open.node, *mesh, false, is_hidden, placement});
     }
-    push(numbers(node, "children"), placement);
+    push(numbers(node, "children"), placement, is_hidden);
   }
 
-  void add(std::size_t number, const GltfJson& node, std::size_t mesh, const Placement& placement) {
+  void add(const GltfJson& node, GltfInstance instance) {
     if (gltf_member(node, "skin") != nullptr) {
       // Joints move such a mesh, its node does not.
-      instances_.push_back({number, mesh, true, {}});
+      instance.has_skin = true;
+      instance.placement = {};
+      instances_.push_back(instance);
       return;
     }
     const GltfJson* const extension = gltf_extension(node, "EXT_mesh_gpu_instancing");
     if (extension == nullptr) {
-      instances_.push_back({number, mesh, false, placement});
+      instances_.push_back(instance);
       return;
     }
     const InstanceList list(document_, buffers_, *extension);
+    const Placement placement = instance.placement;
     for (std::size_t i = 0; i < list.count(); ++i) {
-      instances_.push_back({number, mesh, false, list[i].then(placement)});
+      instance.placement = list[i].then(placement);
+      instances_.push_back(instance);
     }
   }
 
@@ -198,6 +206,13 @@ class SceneReader {
 };
 
 }  // namespace
+
+bool is_gltf_hidden(const GltfJson& node) {
+  const GltfJson* const extension = gltf_extension(node, "KHR_node_visibility");
+  const GltfJson* const visible =
+      extension == nullptr ? nullptr : gltf_member(*extension, "visible");
+  return visible != nullptr && visible->is_boolean() && !visible->get<bool>();
+}
 
 std::vector<GltfInstance> read_scene(const GltfDocument& document, GltfBuffers& buffers) {
   return SceneReader(document, buffers).run();

@@ -6,6 +6,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -13,6 +14,7 @@
 
 #include <base/error.h>
 #include <mesh/precision.h>
+#include <mesh/skins.h>
 
 namespace meshrepair {
 namespace {
@@ -29,6 +31,7 @@ std::optional<Semantic> semantic_of(std::string_view name) {
   if (name == "NORMAL") return Semantic{CornerAttribute::Kind::normal, 0};
   if (name == "TANGENT") return Semantic{CornerAttribute::Kind::tangent, 0};
   if (name.starts_with('_')) return Semantic{CornerAttribute::Kind::other, 0};
+  if (name == "JOINTS_0") return Semantic{CornerAttribute::Kind::skin, 0};
   for (const auto& [begin, kind] : kNumbered) {
     if (!name.starts_with(begin)) continue;
     const char* const last = name.data() + name.size();
@@ -49,6 +52,7 @@ std::size_t components_of(CornerAttribute::Kind kind, std::size_t in_file) {
       return 4;
     case CornerAttribute::Kind::colour:
       return std::clamp<std::size_t>(in_file, 3, 4);
+    case CornerAttribute::Kind::skin:
     case CornerAttribute::Kind::other:
       break;
   }
@@ -74,15 +78,51 @@ Vec3d turned_normal(const Eigen::Matrix3d& m, const Vec3d& normal) {
   return m.determinant() < 0 ? Vec3d(-turned) : turned;
 }
 
+const GltfAccessor* find_accessor(const GltfPrimitive& primitive, const std::string& name) {
+  const auto found = std::find_if(primitive.attributes.begin(), primitive.attributes.end(),
+                                  [&](const auto& attribute) { return attribute.first == name; });
+  return found == primitive.attributes.end() ? nullptr : &found->second;
+}
+
+std::vector<GltfSkinSet> skin_sets_of(const GltfPrimitive& primitive) {
+  constexpr std::size_t kMostSets = 8;
+  std::vector<GltfSkinSet> sets;
+  while (sets.size() < kMostSets) {
+    const std::string number = std::to_string(sets.size());
+    const GltfSkinSet set{find_accessor(primitive, "JOINTS_" + number),
+                          find_accessor(primitive, "WEIGHTS_" + number)};
+    if (set.joints == nullptr || set.weights == nullptr || set.joints->components() != 4 ||
+        set.weights->components() != 4) {
+      break;
+    }
+    sets.push_back(set);
+  }
+  return sets;
+}
+
+bool is_joint(double number) {
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  return number >= 0 && number <= kMost && number == std::floor(number);
+}
+
 }  // namespace
 
 GltfValues::GltfValues(const std::vector<const GltfPrimitive*>& primitives) {
   std::map<Key, CornerAttribute> found;
   for (const GltfPrimitive* primitive : primitives) {
     for (const auto& [name, accessor] : primitive->attributes) {
-      const auto semantic = semantic_of(name);
+      auto semantic = semantic_of(name);
+      CornerAttribute named;
+      named.kind = CornerAttribute::Kind::other;
+      named.name = name;
+      named.components = accessor.components();
+      if (morph_target_of(named)) semantic = Semantic{CornerAttribute::Kind::other, 0};
       if (!semantic) continue;
-      const std::size_t components = components_of(semantic->kind, accessor.components());
+      std::size_t components = components_of(semantic->kind, accessor.components());
+      if (semantic->kind == CornerAttribute::Kind::skin) {
+        components = kSkinSet * skin_sets_of(*primitive).size();
+        if (components == 0) continue;
+      }
       const bool is_byte =
           semantic->kind == CornerAttribute::Kind::colour && accessor.is_byte_share();
       const CornerAttribute::Storage storage =
@@ -107,16 +147,21 @@ void GltfValues::append(const GltfPrimitive& primitive, const Placement& placeme
   std::vector<std::uint32_t> number_of(primitive.vertices.size());
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     Set& set = sets_[s];
-    const auto own =
-        std::find_if(primitive.attributes.begin(), primitive.attributes.end(),
-                     [&](const auto& attribute) { return attribute.first == set.attribute.name; });
+    const GltfAccessor* const own = find_accessor(primitive, set.attribute.name);
+    const bool is_skin = set.attribute.kind == CornerAttribute::Kind::skin;
+    const std::vector<GltfSkinSet> skins =
+        is_skin ? skin_sets_of(primitive) : std::vector<GltfSkinSet>();
     std::vector<std::uint32_t>& of_corner = set.attribute.of_corner;
-    if (own == primitive.attributes.end()) {
+    if (own == nullptr || (is_skin && skins.empty())) {
       of_corner.resize(of_corner.size() + corners.size(), kNone);
       continue;
     }
     for (std::size_t v = 0; v < number_of.size(); ++v) {
-      fill(own->second, primitive.vertices[v], placement, s);
+      if (is_skin) {
+        fill_skin(skins, primitive.vertices[v], set.attribute.components);
+      } else {
+        fill(*own, primitive.vertices[v], placement, s);
+      }
       number_of[v] = number_of_value(set);
     }
     for (const std::uint32_t corner : corners) of_corner.push_back(number_of[corner]);
@@ -142,6 +187,34 @@ void GltfValues::fill(const GltfAccessor& accessor, std::uint32_t vertex,
   } else if (attribute.kind == CornerAttribute::Kind::tangent && !placement.is_identity()) {
     set_direction(value_, placement.linear * Vec3d(value_[0], value_[1], value_[2]));
     if (placement.linear.determinant() < 0) value_[3] = -value_[3];
+  } else if (const auto target = morph_target_of(attribute); target && !placement.is_identity()) {
+    turn_difference(placement, target->semantic);
+  }
+}
+
+// What is added to directions grows no more than these do: they have length 1 before and after.
+void GltfValues::turn_difference(const Placement& placement, std::string_view semantic) {
+  const Vec3d difference(value_[0], value_[1], value_[2]);
+  const double scale = std::cbrt(std::abs(placement.linear.determinant()));
+  Vec3d turned = placement.linear * difference;
+  if (semantic == "NORMAL") turned = turned_normal(placement.linear, difference) / (scale * scale);
+  if (semantic == "TANGENT") turned /= scale;
+  if (!turned.allFinite()) turned.setZero();
+  for (int i = 0; i < 3; ++i) value_[static_cast<std::size_t>(i)] = rounded_to_float32(turned[i]);
+}
+
+// Joints that are no numbers of any have no weight.
+void GltfValues::fill_skin(const std::vector<GltfSkinSet>& sets, std::uint32_t vertex,
+                           std::size_t components) {
+  value_.assign(components, 0);
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double joint = sets[s].joints->value(vertex, k);
+      const double weight = sets[s].weights->value(vertex, k);
+      if (!is_joint(joint) || !std::isfinite(weight)) continue;
+      value_[kSkinSet * s + k] = joint;
+      value_[kSkinSet * s + 4 + k] = rounded_to_float32(weight);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,8 +19,15 @@
 
 namespace meshrepair {
 
-// "TEXCOORD_0", "NORMAL", "TANGENT", "COLOR_0", and "_NAME" as the kind `other`; what else there
-// may be is left out. Equal values have one number.
+// "JOINTS_0" and "WEIGHTS_0" of a primitive, and so on.
+struct GltfSkinSet {
+  const GltfAccessor* joints = nullptr;
+  const GltfAccessor* weights = nullptr;
+};
+
+// "TEXCOORD_0", "NORMAL", "TANGENT", "COLOR_0", "JOINTS_0" with "WEIGHTS_0" and so on as the kind
+// `skin`, "_NAME" and morph targets as `other`; what else there may be is left out. Equal values
+// have one number.
 class GltfValues {
  public:
   // The sets that any of the primitives has.
@@ -42,6 +50,9 @@ class GltfValues {
 
   void fill(const GltfAccessor& accessor, std::uint32_t vertex, const Placement& placement,
             std::size_t set);
+  void turn_difference(const Placement& placement, std::string_view semantic);
+  void fill_skin(const std::vector<GltfSkinSet>& sets, std::uint32_t vertex,
+                 std::size_t components);
   std::uint32_t number_of_value(Set& set);
 
   std::vector<Set> sets_;

@@ -14,6 +14,7 @@
 
 #include <base/error.h>
 #include <base/internal/hash_index.h>
+#include <mesh/skins.h>
 
 #include "formats/common/written_float.h"
 
@@ -38,6 +39,8 @@ std::size_t written_components(const CornerAttribute& attribute) {
       return n == 4 ? 4 : 0;
     case CornerAttribute::Kind::colour:
       return n == 3 || n == 4 ? n : 0;
+    case CornerAttribute::Kind::skin:
+      return 4;
     case CornerAttribute::Kind::other:
       break;
   }
@@ -63,18 +66,36 @@ struct WrittenSet {
   std::string name;
   std::size_t number;  // among those of its kind
   std::size_t components;
+  std::size_t first = 0;  // of the components of the attribute
   bool is_used = false;
+
+  [[nodiscard]] bool is_joints() const {
+    return attribute->kind == CornerAttribute::Kind::skin && first % kSkinSet == 0;
+  }
+  [[nodiscard]] bool is_of_mesh() const {
+    return attribute->kind == CornerAttribute::Kind::skin || morph_target_of(*attribute);
+  }
 };
+
+// Joints and weights of each set.
+void add_skin(const CornerAttribute& attribute, std::vector<WrittenSet>& sources) {
+  for (std::size_t set = 0; (set + 1) * kSkinSet <= attribute.components; ++set) {
+    const std::string number = std::to_string(set);
+    sources.push_back({&attribute, "JOINTS_" + number, set, 4, kSkinSet * set});
+    sources.push_back({&attribute, "WEIGHTS_" + number, set, 4, kSkinSet * set + 4});
+  }
+}
 
 std::vector<WrittenSet> sources_of(const Attributes& attributes) {
   std::vector<WrittenSet> sources;
   std::set<std::string> taken;
-  std::array<std::size_t, 5> counts{};
+  std::array<std::size_t, 6> counts{};
   for (const CornerAttribute& attribute : attributes.corners) {
     const std::size_t components = written_components(attribute);
     const std::size_t number = counts[static_cast<std::size_t>(attribute.kind)];
     const bool is_single = attribute.kind == CornerAttribute::Kind::normal ||
-                           attribute.kind == CornerAttribute::Kind::tangent;
+                           attribute.kind == CornerAttribute::Kind::tangent ||
+                           attribute.kind == CornerAttribute::Kind::skin;
     if (components == 0 || attribute.of_corner.empty() || (is_single && number > 0)) continue;
     ++counts[static_cast<std::size_t>(attribute.kind)];
     std::string name;
@@ -91,8 +112,11 @@ std::vector<WrittenSet> sources_of(const Attributes& attributes) {
       case CornerAttribute::Kind::colour:
         name = "COLOR_" + std::to_string(number);
         break;
+      case CornerAttribute::Kind::skin:
+        add_skin(attribute, sources);
+        continue;
       case CornerAttribute::Kind::other:
-        name = name_of_other(attribute.name, taken);
+        name = morph_target_of(attribute) ? attribute.name : name_of_other(attribute.name, taken);
         break;
     }
     sources.push_back({&attribute, std::move(name), number, components});
@@ -103,8 +127,8 @@ std::vector<WrittenSet> sources_of(const Attributes& attributes) {
 class VertexMaker {
  public:
   VertexMaker(const TriangleSoup& soup, std::span<const std::uint32_t> triangles,
-              const Attributes* attributes, const GltfKeepsake* kept, std::size_t needed_textures)
-      : soup_(soup), triangles_(triangles), kept_(kept), needed_textures_(needed_textures) {
+              const Attributes* attributes, const GltfKeepsake* kept, const GltfNeeds& needs)
+      : soup_(soup), triangles_(triangles), kept_(kept), needs_(needs) {
     if (attributes != nullptr) sources_ = used(with_needed_textures(sources_of(*attributes)));
   }
 
@@ -130,7 +154,7 @@ class VertexMaker {
       return source.attribute->kind == CornerAttribute::Kind::texture;
     };
     auto count = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_texture));
-    for (; count < needed_textures_; ++count) {
+    for (; count < needs_.textures; ++count) {
       all.push_back({&no_values, "TEXCOORD_" + std::to_string(count), count, 2});
     }
     return all;
@@ -138,11 +162,12 @@ class VertexMaker {
 
   [[nodiscard]] bool is_used(const WrittenSet& source) const {
     const CornerAttribute& attribute = *source.attribute;
-    if (attribute.kind == CornerAttribute::Kind::texture && source.number < needed_textures_) {
+    if (attribute.kind == CornerAttribute::Kind::texture && source.number < needs_.textures) {
       return true;
     }
     const auto& of_corner = attribute.of_corner;
-    return std::any_of(triangles_.begin(), triangles_.end(), [&](std::size_t t) {
+    const auto triangles = source.is_of_mesh() ? needs_.of_mesh : triangles_;
+    return std::any_of(triangles.begin(), triangles.end(), [&](std::size_t t) {
       return of_corner[3 * t] != kNone || of_corner[3 * t + 1] != kNone ||
              of_corner[3 * t + 2] != kNone;
     });
@@ -170,12 +195,21 @@ class VertexMaker {
                            source.attribute->storage == CornerAttribute::Storage::byte;
       GltfLayout layout{is_byte ? GltfComponent::uint8 : GltfComponent::real32, is_byte,
                         source.components, source.components};
+      if (source.is_joints()) layout.component = joint_component(*source.attribute);
       const std::size_t stride = (layout.size() + 3) / 4 * 4;
       vertices_.columns.push_back({source.name, layout, stride, {}});
     }
     std::size_t size = 0;
     for (const GltfColumn& column : vertices_.columns) size += column.stride;
     record_.assign(size, '\0');
+  }
+
+  static GltfComponent joint_component(const CornerAttribute& skin) {
+    constexpr double kMost = std::numeric_limits<std::uint8_t>::max();
+    for (std::size_t i = 0; i < skin.values.size(); ++i) {
+      if (i % kSkinSet < 4 && skin.values[i] > kMost) return GltfComponent::uint16;
+    }
+    return GltfComponent::uint8;
   }
 
   void fill_record(std::size_t t, std::size_t k) {
@@ -193,8 +227,12 @@ class VertexMaker {
         for (const float value : value_) put(value);
         continue;
       }
+      const std::size_t size = size_of(column.layout.component);
       for (std::size_t i = 0; i < value_.size(); ++i) {
-        at[i] = static_cast<char>(std::lround(255 * std::clamp(value_[i], 0.0f, 1.0f)));
+        const float share = column.layout.normalized ? 255 * std::clamp(value_[i], 0.0f, 1.0f)
+                                                     : std::clamp(value_[i], 0.0f, 65535.0f);
+        const auto number = static_cast<std::uint16_t>(std::lround(share));
+        std::memcpy(at + size * i, &number, size);
       }
       at += column.stride;
     }
@@ -206,12 +244,15 @@ class VertexMaker {
         attribute.of_corner.empty() ? kNone : attribute.of_corner[3 * t + k];
     value_.assign(source.components, attribute.kind == CornerAttribute::Kind::colour ? 1.0f : 0.0f);
     if (number != kNone) {
-      const double* const given = attribute.values.data() + attribute.components * number;
+      const double* const given =
+          attribute.values.data() + attribute.components * number + source.first;
       for (std::size_t i = 0; i < value_.size(); ++i) value_[i] = value_to_float(given[i]);
       if (attribute.kind == CornerAttribute::Kind::texture)
         value_[1] = downwards(source, given[0], given[1]);
     }
-    if (attribute.kind == CornerAttribute::Kind::normal) {
+    if (attribute.kind == CornerAttribute::Kind::skin && number == kNone) {
+      value_[0] = source.first == 4 ? 1.0f : 0.0f;  // it moves with the first joint
+    } else if (attribute.kind == CornerAttribute::Kind::normal) {
       make_unit(normal_of(t));
     } else if (attribute.kind == CornerAttribute::Kind::tangent) {
       make_unit({1, 0, 0});
@@ -283,7 +324,7 @@ class VertexMaker {
   const TriangleSoup& soup_;
   std::span<const std::uint32_t> triangles_;
   const GltfKeepsake* kept_;
-  std::size_t needed_textures_;  // sets of coordinates
+  const GltfNeeds& needs_;
   std::vector<WrittenSet> sources_;
   std::string records_;  // of the vertices, all columns of one side by side
   std::string record_;   // of the corner that is looked at
@@ -295,8 +336,8 @@ class VertexMaker {
 
 GltfVertices make_vertices(const TriangleSoup& soup, std::span<const std::uint32_t> triangles,
                            const Attributes* attributes, const GltfKeepsake* kept,
-                           std::size_t needed_textures) {
-  return VertexMaker(soup, triangles, attributes, kept, needed_textures).run();
+                           const GltfNeeds& needs) {
+  return VertexMaker(soup, triangles, attributes, kept, needs).run();
 }
 
 }  // namespace meshrepair

@@ -30,14 +30,21 @@ struct GltfVertices {
   std::size_t count = 0;
 };
 
+// What vertices have, whether or not their triangles ask for it.
+struct GltfNeeds {
+  std::size_t textures = 0;                // sets of texture coordinates
+  std::span<const std::uint32_t> of_mesh;  // triangles: primitives of a mesh have joints and
+                                           // targets all alike
+};
+
 // Of these triangles, in their order. Corners that have the same bytes in all columns share a
 // vertex; vertices are in the order in which corners need them. `attributes` may be null; those
 // that no corner has a value of are left out, except for so many sets of texture coordinates as the
-// material needs; and where a corner alone has none it gets one that says nothing. Throws
-// OutputError if a coordinate does not fit into single precision.
+// material needs, and joints and targets of the mesh; and where a corner alone has none it gets one
+// that says nothing. Throws OutputError if a coordinate does not fit into single precision.
 [[nodiscard]] GltfVertices make_vertices(const TriangleSoup& soup,
                                          std::span<const std::uint32_t> triangles,
                                          const Attributes* attributes, const GltfKeepsake* kept,
-                                         std::size_t needed_textures);
+                                         const GltfNeeds& needs);
 
 }  // namespace meshrepair

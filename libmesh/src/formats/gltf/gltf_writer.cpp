@@ -5,17 +5,21 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <mesh/named_files.h>
 
+#include "formats/common/regions.h"
 #include "formats/common/uri.h"
 #include "formats/gltf/common/srgb.h"
 #include "gltf_builder.h"
 #include "gltf_io.h"
 #include "gltf_keepsake.h"
 #include "gltf_materials.h"
+#include "gltf_movement.h"
 #include "gltf_vertices.h"
 
 namespace meshrepair {
@@ -47,11 +51,9 @@ class GltfWriter {
     if (extras_.scene != nullptr) {
       add_scene(*extras_.scene);
     } else if (!soup_.triangles.empty()) {
-      const std::size_t mesh = add_mesh(0, 0, soup_.triangles.size(), GltfJson::object());
-      GltfJson node = {{"mesh", mesh}, {"name", name_of_object()}};
-      if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
-      add_gltf_node(builder_, std::move(node));
+      add_objects();
     }
+    settle_gltf_movement(builder_);
     return builder_.finish(binary);
   }
 
@@ -69,9 +71,37 @@ class GltfWriter {
     if (extras.is_object()) extras["comments"] = extras_.comments;
   }
 
-  [[nodiscard]] std::string name_of_object() const {
-    const bool is_one = attributes_ != nullptr && attributes_->objects.names.size() == 1;
-    return is_one ? attributes_->objects.names.front() : std::string();
+  // A node with a mesh for each; without any, for all.
+  void add_objects() {
+    if (attributes_ == nullptr || attributes_->objects.empty()) {
+      return add_object({}, numbers_between(0, soup_.triangles.size()));
+    }
+    const TriangleLabels& objects = attributes_->objects;
+    const SortedRegions sorted = sort_by_region(objects);
+    for (std::size_t i = 0; i + 1 < sorted.first.size(); ++i) {
+      if (sorted.first[i] == sorted.first[i + 1]) continue;
+      add_object(
+          i < objects.names.size() ? objects.names[i] : std::string(),
+          std::span(sorted.order).subspan(sorted.first[i], sorted.first[i + 1] - sorted.first[i]));
+    }
+  }
+
+  void add_object(const std::string& name, std::span<const std::uint32_t> triangles) {
+    GltfJson json = GltfJson::object();
+    GltfObject kept;
+    if (kept_ != nullptr && kept_->objects.contains(name)) kept = kept_->objects.at(name);
+    if (!kept.mesh.is_null()) json = std::move(kept.mesh);
+    if (!name.empty()) json["name"] = name;
+    GltfJson node = {{"mesh", add_mesh(0, triangles, std::move(json))}, {"name", name}};
+    if (kept.skin) node["skin"] = *kept.skin;
+    if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
+    add_gltf_node(builder_, std::move(node));
+  }
+
+  static std::vector<std::uint32_t> numbers_between(std::size_t first, std::size_t end) {
+    std::vector<std::uint32_t> numbers(end - first);
+    std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(first));
+    return numbers;
   }
 
   // Nodes name meshes by their numbers; meshes without triangles are left out.
@@ -83,9 +113,10 @@ class GltfWriter {
       const SceneMesh& mesh = scene.meshes[m];
       GltfJson json = is_kept && m < kept_->meshes.size() ? kept_->meshes[m] : GltfJson::object();
       if (!is_kept && !mesh.name.empty()) json["name"] = mesh.name;
-      numbers.push_back(mesh.triangles == 0
-                            ? kNoGltfMesh
-                            : add_mesh(m, first, first + mesh.triangles, std::move(json)));
+      numbers.push_back(
+          mesh.triangles == 0
+              ? kNoGltfMesh
+              : add_mesh(m, numbers_between(first, first + mesh.triangles), std::move(json)));
       first += mesh.triangles;
     }
     if (is_kept) {
@@ -122,15 +153,15 @@ class GltfWriter {
     return name_seen_from(extras_.folder, image.path);
   }
 
-  // Of the triangles from `first` to `end`; `mesh` is what else it has, `number` that of the scene.
-  std::size_t add_mesh(std::size_t number, std::size_t first, std::size_t end, GltfJson mesh) {
+  // Of these triangles; `mesh` is what else it has, `number` that of the scene.
+  std::size_t add_mesh(std::size_t number, std::span<const std::uint32_t> all, GltfJson mesh) {
     GltfJson primitives = GltfJson::array();
-    for (const auto& [label, triangles] : triangles_by_label(first, end)) {
+    for (const auto& [label, triangles] : triangles_by_material(all)) {
       const std::size_t material = label == kNone ? kNone : material_of(label);
       const GltfJson* const variants = variants_of(number, material);
       std::size_t textures = textures_of(material);
       if (variants != nullptr) textures = std::max(textures, textures_of_variants(*variants));
-      primitives.push_back(make_primitive(triangles, textures));
+      primitives.push_back(make_primitive(triangles, {textures, all}));
       if (material != kNone) primitives.back()["material"] = material;
       if (variants != nullptr) primitives.back()["extensions"][kGltfVariants] = *variants;
     }
@@ -163,23 +194,25 @@ class GltfWriter {
   }
 
   // In the order of the labels, those without at the end.
-  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_by_label(
-      std::size_t first, std::size_t end) const {
+  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_by_material(
+      std::span<const std::uint32_t> all) const {
     std::map<std::uint32_t, std::vector<std::uint32_t>> lists;
     const bool has_labels = attributes_ != nullptr && !attributes_->materials.empty();
-    for (auto t = static_cast<std::uint32_t>(first); t < end; ++t) {
+    for (const std::uint32_t t : all) {
       lists[has_labels ? attributes_->materials.of_triangle[t] : kNone].push_back(t);
     }
     return lists;
   }
 
-  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles, std::size_t textures) {
-    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_, textures);
-    GltfJson attributes = GltfJson::object();
+  GltfJson make_primitive(const std::vector<std::uint32_t>& triangles, const GltfNeeds& needs) {
+    const GltfVertices vertices = make_vertices(soup_, triangles, attributes_, kept_, needs);
+    GltfJson primitive = {{"attributes", GltfJson::object()}, {"mode", 4}};
     for (const GltfColumn& column : vertices.columns) {
-      attributes[column.name] = add_column(column, vertices.count);
+      const std::size_t accessor = add_column(column, vertices.count);
+      add_gltf_values(builder_, column.name, accessor, vertices.count, primitive);
     }
-    return {{"attributes", std::move(attributes)}, {"indices", add_indices(vertices)}, {"mode", 4}};
+    primitive["indices"] = add_indices(vertices);
+    return primitive;
   }
 
   std::size_t add_column(const GltfColumn& column, std::size_t count) {
@@ -190,7 +223,7 @@ class GltfWriter {
                          {"count", count},
                          {"type", type_of(column.layout.components)}};
     if (column.layout.normalized) accessor["normalized"] = true;
-    if (column.name == "POSITION") add_bounds(column, accessor);
+    if (column.name.ends_with("POSITION")) add_bounds(column, accessor);
     return builder_.append("accessors", std::move(accessor));
   }
 
@@ -231,7 +264,14 @@ class GltfWriter {
                                          {"type", "SCALAR"}});
   }
 
+  // Meshes share it.
   std::size_t material_of(std::uint32_t label) {
+    const auto [found, is_new] = material_numbers_.try_emplace(label, 0);
+    if (is_new) found->second = add_material(label);
+    return found->second;
+  }
+
+  std::size_t add_material(std::uint32_t label) {
     const std::string& name = attributes_->materials.names[label];
     if (kept_ != nullptr) {
       const auto known = std::find(kept_->materials.begin(), kept_->materials.end(), name);
@@ -335,6 +375,7 @@ class GltfWriter {
   const GltfKeepsake* kept_;
   double scale_;  // of the soup, to be in meters
   GltfBuilder builder_;
+  std::map<std::uint32_t, std::size_t> material_numbers_;  // by labels
   std::vector<WrittenTexture> textures_;
   std::vector<std::pair<TextureSampling, std::size_t>> samplers_;
 };

@@ -82,7 +82,7 @@ class ObjPoints {
     if (report.bad_points > 0) {
       report.warnings.push_back({WarningCode::points_unreadable,
                                  "coordinates of " + counted(report.bad_points, "point") +
-                                     " are not numbers (first: line " +
+                                     " are missing or not numbers (first: line " +
                                      std::to_string(source_.line_at(first_bad_)) + ")",
                                  {{"points", report.bad_points}}});
     }

@@ -138,7 +138,7 @@ class OffReader {
                                      std::to_string(lines),
                                  {{"promised", header_.faces}, {"found", lines}}});
     }
-    warn_of_bad(report, source_, first_bad_, "face", "cut or not numbers");
+    warn_of_bad(report, source_, first_bad_, "face", "cut, or no numbers of points");
   }
 
   const MeshSource& source_;

@@ -99,12 +99,12 @@ Names components_from(const PlyElement& element, std::size_t first) {
 }  // namespace
 
 PlyAttributes::PlyAttributes(const MeshSource& source, const PlyHeader& header) : source_(source) {
-  for (const std::string& comment : header.comments) {
-    if (const auto name = behind(comment, kPlyMaterialComment); !name.empty()) {
-      materials_.emplace_back(name);
-    }
-    if (const auto name = behind(comment, kPlyTextureComment); !name.empty()) {
-      textures_.emplace_back(name);
+  for (const auto& [word, named] : {std::pair(kPlyMaterialComment, &materials_),
+                                    {kPlyTextureComment, &textures_},
+                                    {kPlyGroupComment, &groups_},
+                                    {kPlyObjectComment, &objects_}}) {
+    for (const std::string& comment : header.comments) {
+      if (const auto name = behind(comment, word); !name.empty()) named->names.emplace_back(name);
     }
   }
   find_element("vertex", header, points_);
@@ -119,7 +119,7 @@ void PlyAttributes::find_element(std::string_view name, const PlyHeader& header,
   find_groups(*std::find_if(all.begin(), all.end(), is_it), found);
 }
 
-void PlyAttributes::find_groups(const PlyElement& element, Element& found) const {
+void PlyAttributes::find_groups(const PlyElement& element, Element& found) {
   found.group_of.assign(element.properties.size(), kNoColumn);
   found.component_of.assign(element.properties.size(), 0);
   for (const KnownGroup& known : known_groups()) {
@@ -131,11 +131,14 @@ void PlyAttributes::find_groups(const PlyElement& element, Element& found) const
     if (property.is_list && is_face && property.name.starts_with(kPlyTextureList)) {
       add_list(element, i, found);
     }
+    if (!is_face || property.is_list) continue;
     // Numbers of what has no names are any numbers.
-    const bool is_material = property.name == kPlyMaterial && !materials_.empty();
-    const bool is_texture = property.name == kPlyTexture && !textures_.empty();
-    if (is_face && !property.is_list && is_material) found.material = i;
-    if (is_face && !property.is_list && is_texture) found.texture = i;
+    for (const auto& [word, named] : {std::pair(kPlyMaterial, &materials_),
+                                      {kPlyTexture, &textures_},
+                                      {kPlyGroup, &groups_},
+                                      {kPlyObject, &objects_}}) {
+      if (property.name == word && !named->names.empty()) named->property = i;
+    }
   }
   add_others(element, found);
 }
@@ -176,7 +179,7 @@ void PlyAttributes::add_list(const PlyElement& element, std::size_t property,
 void PlyAttributes::add_others(const PlyElement& element, Element& found) const {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    const bool is_label = i == found.material || i == found.texture;
+    const bool is_label = element.name == "face" && is_name(i);
     if (property.is_list || found.group_of[i] != kNoColumn || is_label ||
         is_known_otherwise(property.name)) {
       continue;
@@ -188,6 +191,11 @@ void PlyAttributes::add_others(const PlyElement& element, Element& found) const 
     if (vector.size() > 1) name.remove_suffix(std::string_view("_0").size());
     found.groups.back().attribute.name = name;
   }
+}
+
+bool PlyAttributes::is_name(std::size_t property) const {
+  return property == materials_.property || property == textures_.property ||
+         property == groups_.property || property == objects_.property;
 }
 
 void PlyAttributes::begin_element(const PlyElement& element) {
@@ -252,8 +260,9 @@ void PlyAttributes::end_face(std::size_t corners) {
   if (current_ == nullptr) return;
   keep_row();
   end_lists(corners);
-  if (faces_.material != kNoColumn) material_of_face_.push_back(row_[faces_.material]);
-  if (faces_.texture != kNoColumn) texture_of_face_.push_back(row_[faces_.texture]);
+  for (Named* const named : {&materials_, &textures_, &groups_, &objects_}) {
+    if (named->is_there()) named->of_face.push_back(row_[named->property]);
+  }
   forget_item();
 }
 
@@ -266,8 +275,9 @@ void PlyAttributes::drop_face(std::size_t corners) {
       attribute.values.resize(attribute.values.size() - attribute.components);
     }
   }
-  if (faces_.material != kNoColumn) material_of_face_.pop_back();
-  if (faces_.texture != kNoColumn) texture_of_face_.pop_back();
+  for (Named* const named : {&materials_, &textures_, &groups_, &objects_}) {
+    if (named->is_there()) named->of_face.pop_back();
+  }
 }
 
 CornerAttribute PlyAttributes::take_of_points(
@@ -305,14 +315,15 @@ CornerAttribute PlyAttributes::take_of_faces(Group& group,
 // Materials have names of their own, or else are the textures.
 void PlyAttributes::take_materials(const std::vector<FaceList::Origin>& origins,
                                    Attributes& attributes) {
-  for (const std::string& name : textures_) {
+  const std::vector<std::string>& textures = textures_.names;
+  for (const std::string& name : textures) {
     Image image = picture_named(source_, name);
     if (image.path.empty() && !image.bytes) image.name = name;  // as it stands there
     attributes.images.push_back(std::move(image));
   }
-  const bool by_texture = materials_.empty() || faces_.material == kNoColumn;
-  const std::vector<double>& numbers = by_texture ? texture_of_face_ : material_of_face_;
-  attributes.materials.names = by_texture ? textures_ : materials_;
+  const bool by_texture = !materials_.is_there();
+  const std::vector<double>& numbers = by_texture ? textures_.of_face : materials_.of_face;
+  attributes.materials.names = by_texture ? textures : materials_.names;
   const std::size_t count = attributes.materials.names.size();
   if (count == 0) return;
   attributes.looks.resize(count);
@@ -320,12 +331,22 @@ void PlyAttributes::take_materials(const std::vector<FaceList::Origin>& origins,
     const bool is_all_one = by_texture && numbers.empty();
     const std::uint32_t material = is_all_one ? 0 : index_of(numbers[origin.face], count);
     attributes.materials.of_triangle.push_back(material);
-    if (material == kNone || textures_.empty()) continue;
+    if (material == kNone || textures.empty()) continue;
     attributes.looks[material].image =
-        by_texture || texture_of_face_.empty()
-            ? index_of(material, textures_.size())
-            : index_of(texture_of_face_[origin.face], textures_.size());
+        by_texture || textures_.of_face.empty()
+            ? index_of(material, textures.size())
+            : index_of(textures_.of_face[origin.face], textures.size());
   }
+}
+
+TriangleLabels PlyAttributes::Named::take(const std::vector<FaceList::Origin>& origins) {
+  TriangleLabels labels;
+  if (!is_there()) return labels;
+  for (const FaceList::Origin& origin : origins) {
+    labels.of_triangle.push_back(index_of(of_face[origin.face], names.size()));
+  }
+  labels.names = std::move(names);
+  return labels;
 }
 
 Attributes PlyAttributes::take(const std::vector<FaceList::Origin>& origins,
@@ -340,6 +361,8 @@ Attributes PlyAttributes::take(const std::vector<FaceList::Origin>& origins,
       attributes.corners.push_back(take_of_faces(group, origins));
     }
     take_materials(origins, attributes);
+    attributes.groups = groups_.take(origins);
+    attributes.objects = objects_.take(origins);
   }
   std::erase_if(attributes.corners, [](const CornerAttribute& attribute) {
     return std::all_of(attribute.of_corner.begin(), attribute.of_corner.end(),

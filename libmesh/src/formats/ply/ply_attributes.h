@@ -49,16 +49,25 @@ class PlyAttributes {
     std::vector<std::size_t> properties;
     bool is_list = false;  // of all corners, one after the other
   };
+  // What a property of faces numbers, by comments of the header.
+  struct Named {
+    std::vector<std::string> names;
+    std::size_t property = kNoColumn;
+    std::vector<double> of_face;
+
+    [[nodiscard]] bool is_there() const { return property != kNoColumn; }
+    [[nodiscard]] TriangleLabels take(const std::vector<FaceList::Origin>& origins);
+  };
   // Of `vertex` or `face`.
   struct Element {
     std::vector<Group> groups;
-    std::vector<std::size_t> group_of, component_of;        // of each property; kNoColumn: none
-    std::size_t material = kNoColumn, texture = kNoColumn;  // properties
+    std::vector<std::size_t> group_of, component_of;  // of each property; kNoColumn: none
     bool any() const { return !group_of.empty(); }
   };
 
   void find_element(std::string_view name, const PlyHeader& header, Element& found);
-  void find_groups(const PlyElement& element, Element& found) const;
+  void find_groups(const PlyElement& element, Element& found);
+  [[nodiscard]] bool is_name(std::size_t property) const;
   void add_group(const PlyElement& element, CornerAttribute::Kind kind,
                  const std::vector<std::string_view>& names, std::size_t least,
                  Element& found) const;
@@ -77,8 +86,7 @@ class PlyAttributes {
   Element* current_ = nullptr;
   std::vector<double> row_;                // of the item, by property
   std::vector<std::vector<double>> list_;  // of the item, by group
-  std::vector<double> material_of_face_, texture_of_face_;
-  std::vector<std::string> materials_, textures_;  // that the header names
+  Named materials_, textures_, groups_, objects_;
 };
 
 }  // namespace meshrepair

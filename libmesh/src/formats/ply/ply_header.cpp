@@ -11,24 +11,16 @@ namespace meshrepair {
 namespace {
 
 std::optional<ValueType> parse_type(std::string_view word) {
-  static constexpr std::array<std::pair<std::string_view, ValueType>, 18> kTypes = {{
-      {"char", ValueType::int8},
-      {"int8", ValueType::int8},
-      {"uchar", ValueType::uint8},
-      {"uint8", ValueType::uint8},
-      {"short", ValueType::int16},
-      {"int16", ValueType::int16},
-      {"ushort", ValueType::uint16},
-      {"uint16", ValueType::uint16},
-      {"int", ValueType::int32},
-      {"int32", ValueType::int32},
-      {"uint", ValueType::uint32},
-      {"uint32", ValueType::uint32},
-      {"int64", ValueType::int64},
-      {"uint64", ValueType::uint64},
-      {"float", ValueType::float32},
-      {"float32", ValueType::float32},
-      {"double", ValueType::float64},
+  static constexpr std::array<std::pair<std::string_view, ValueType>, 19> kTypes = {{
+      {"bool", ValueType::uint8},      {"char", ValueType::int8},
+      {"int8", ValueType::int8},       {"uchar", ValueType::uint8},
+      {"uint8", ValueType::uint8},     {"short", ValueType::int16},
+      {"int16", ValueType::int16},     {"ushort", ValueType::uint16},
+      {"uint16", ValueType::uint16},   {"int", ValueType::int32},
+      {"int32", ValueType::int32},     {"uint", ValueType::uint32},
+      {"uint32", ValueType::uint32},   {"int64", ValueType::int64},
+      {"uint64", ValueType::uint64},   {"float", ValueType::float32},
+      {"float32", ValueType::float32}, {"double", ValueType::float64},
       {"float64", ValueType::float64},
   }};
   for (const auto& [name, type] : kTypes) {

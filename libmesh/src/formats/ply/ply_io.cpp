@@ -277,7 +277,7 @@ class PlyBody {
     if (report.bad_points > 0) {
       report.warnings.push_back(
           {WarningCode::points_unreadable,
-           "coordinates of " + counted(report.bad_points, "point") + " are not numbers",
+           "coordinates of " + counted(report.bad_points, "point") + " are missing or not numbers",
            {{"points", report.bad_points}}});
     }
   }

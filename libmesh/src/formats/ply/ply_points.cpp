@@ -122,10 +122,11 @@ class PlyPoints {
   void warn() {
     PointReadReport& report = result_.report;
     if (report.bad_points > 0) {
-      report.warnings.push_back({WarningCode::points_unreadable,
-                                 counted(report.bad_points, "point") +
-                                     " left out: cut, or coordinates that are not numbers",
-                                 {{"points", report.bad_points}}});
+      report.warnings.push_back(
+          {WarningCode::points_unreadable,
+           counted(report.bad_points, "point") +
+               " left out: cut, or coordinates that are missing or not numbers",
+           {{"points", report.bad_points}}});
     }
     if (report.missing_points > 0) {
       report.warnings.push_back(cut_off("the header", report.declared_points, "point",

@@ -108,8 +108,12 @@ class PlyLayout {
     if (extras.attributes != nullptr) {
       if (!extras.attributes->materials.empty()) used_of_faces_.emplace(kPlyMaterial);
       if (!extras.attributes->images.empty()) used_of_faces_.emplace(kPlyTexture);
+      if (!extras.attributes->groups.empty()) used_of_faces_.emplace(kPlyGroup);
+      if (!extras.attributes->objects.empty()) used_of_faces_.emplace(kPlyObject);
       for (const CornerAttribute& attribute : extras.attributes->corners) add(attribute);
       add_materials(*extras.attributes);
+      add_names(kPlyGroup, kPlyGroupComment, extras.attributes->groups);
+      add_names(kPlyObject, kPlyObjectComment, extras.attributes->objects);
     }
     if (!extras.sources.empty()) {
       numbers.push_back({kPlySource, {extras.sources.begin(), extras.sources.end()}});
@@ -144,6 +148,7 @@ class PlyLayout {
   }
 
   void add(const CornerAttribute& attribute) {
+    if (attribute.kind == Kind::skin) return;
     const bool is_later_set = attribute.kind == Kind::texture && textures_++ > 0;
     if (attribute.place == Place::triangle) {
       if (auto of_face = values_by_triangle(attribute)) {
@@ -184,12 +189,15 @@ class PlyLayout {
     comments_.append("comment ").append(word).append(" ").append(what).append("\n");
   }
 
+  void add_names(std::string_view property, std::string_view word, const TriangleLabels& labels) {
+    if (labels.empty()) return;
+    for (const std::string& name : labels.names) add_comment(word, name);
+    numbers.push_back({property, labels.of_triangle});
+  }
+
   void add_materials(const Attributes& attributes) {
     if (attributes.materials.empty()) return;
-    for (const std::string& name : attributes.materials.names) {
-      add_comment(kPlyMaterialComment, name);
-    }
-    numbers.push_back({kPlyMaterial, attributes.materials.of_triangle});
+    add_names(kPlyMaterial, kPlyMaterialComment, attributes.materials);
     // Pictures that are no files have no name here.
     std::vector<std::uint32_t> texture_of(attributes.images.size(), kNone);
     std::uint32_t count = 0;

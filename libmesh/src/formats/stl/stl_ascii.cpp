@@ -13,17 +13,21 @@
 // corners that were not closed; a word that ends one makes the corners a face; after `solid` and
 // `endsolid` comes a name, which may hold any of the other words. Everything else (normals too) is
 // passed over.
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
 
+#include <mesh/edge_table.h>
 #include <mesh/read_guard.h>
 #include <mesh/triangulate_polygon.h>
 #include <mesh/weld_points.h>
 
+#include "formats/common/regions.h"
 #include "formats/common/text_scanner.h"
 #include "formats/common/text_writer.h"
 #include "stl_io.h"
+#include "stl_regions.h"
 
 namespace meshrepair {
 namespace {
@@ -46,15 +50,21 @@ class AsciiStlReader {
         close_face();
       } else if (equals_ignoring_case(word, "outer") || equals_ignoring_case(word, "facet")) {
         drop_face();
-      } else if (equals_ignoring_case(word, "solid") || equals_ignoring_case(word, "endsolid")) {
+      } else if (equals_ignoring_case(word, "solid")) {
         drop_face();
-        skip_name();
+        const std::string_view name = take_name();
+        if (source_.options.attributes) solids_.begin(name, result_.soup.triangles.size());
+      } else if (equals_ignoring_case(word, "endsolid")) {
+        drop_face();
+        const std::string_view name = take_name();
+        if (source_.options.attributes) solids_.end(name, result_.soup.triangles.size());
       }
     }
     guard_.step(result_.soup.triangles.size(), source_.bytes.size());
     drop_face();
     warn_of_bad(result_.report, source_, first_bad_, "facet",
                 "cut or with fewer than three vertices", "vertex line");
+    solids_.take(result_.soup.triangles.size(), result_.attributes);
     return std::move(result_);
   }
 
@@ -103,20 +113,26 @@ class AsciiStlReader {
   }
 
   // The name goes to the end of the line, unless the line goes on with facets.
-  void skip_name() {
+  std::string_view take_name() {
     const std::size_t start = text_.position();
     text_.skip_line();
     const std::size_t end = text_.position();
     text_.go_to(start);
+    std::size_t first = end, last = end;
     while (text_.position() < end && text_.next_on_line()) {
+      const std::size_t word_at = text_.position();
       const bool is_facet = equals_ignoring_case(text_.peek_token(), "facet");
-      const std::size_t facet_at = text_.position();
       text_.skip_token();
-      if (!is_facet || !text_.next_on_line()) continue;
-      if (!equals_ignoring_case(text_.peek_token(), "normal")) continue;
-      return text_.go_to(facet_at);
+      const std::size_t word_end = text_.position();
+      if (is_facet && text_.next_on_line() && equals_ignoring_case(text_.peek_token(), "normal")) {
+        text_.go_to(word_at);
+        return source_.bytes.substr(first, last - first);
+      }
+      first = std::min(first, word_at);
+      last = word_end;
     }
     text_.go_to(end);
+    return source_.bytes.substr(first, last - first);
   }
 
   const MeshSource& source_;
@@ -127,6 +143,7 @@ class AsciiStlReader {
   std::vector<std::uint32_t> corners_;
   std::size_t word_at_ = 0;
   FirstBad first_bad_;
+  StlSolids solids_;
 };
 
 // No -0: as it will be read back.
@@ -135,27 +152,47 @@ Eigen::Vector3<typename Vector::Scalar> without_minus(const Vector& v) {
   return v + Vector::Zero();
 }
 
+void append_facet(std::string& out, const TriangleSoup& soup, const IndexTriangle& triangle) {
+  const Vec3d& a = soup.points[triangle[0]];
+  const Vec3d& b = soup.points[triangle[1]];
+  const Vec3d& c = soup.points[triangle[2]];
+  out += "  facet normal ";
+  append_triple(out, without_minus(stl_normal(a, b, c).cast<float>()));
+  out += "\n    outer loop\n";
+  for (const std::uint32_t corner : triangle) {
+    out += "      vertex ";
+    append_triple(out, without_minus(soup.points[corner]));
+    out += '\n';
+  }
+  out += "    endloop\n  endfacet\n";
+}
+
 }  // namespace
 
 ReadResult read_stl_ascii(const MeshSource& source) { return AsciiStlReader(source).run(); }
 
-std::string format_stl_ascii(const TriangleSoup& soup) {
-  std::string out = "solid meshrepair\n";
-  for (const auto& triangle : soup.triangles) {
-    const Vec3d& a = soup.points[triangle[0]];
-    const Vec3d& b = soup.points[triangle[1]];
-    const Vec3d& c = soup.points[triangle[2]];
-    out += "  facet normal ";
-    append_triple(out, without_minus(stl_normal(a, b, c).cast<float>()));
-    out += "\n    outer loop\n";
-    for (const std::uint32_t corner : triangle) {
-      out += "      vertex ";
-      append_triple(out, without_minus(soup.points[corner]));
-      out += '\n';
-    }
-    out += "    endloop\n  endfacet\n";
+std::string format_stl_ascii(const TriangleSoup& soup, const Attributes* attributes) {
+  std::string out;
+  if (attributes == nullptr || attributes->groups.empty()) {
+    const auto* const kept = attributes == nullptr
+                                 ? nullptr
+                                 : dynamic_cast<const StlSolidName*>(attributes->keepsake.get());
+    const std::string name = kept == nullptr ? "meshrepair" : kept->name;
+    out += "solid " + name + '\n';
+    for (const auto& triangle : soup.triangles) append_facet(out, soup, triangle);
+    return out + "endsolid " + name + '\n';
   }
-  out += "endsolid meshrepair\n";
+  const TriangleLabels& groups = attributes->groups;
+  const SortedRegions sorted = sort_by_region(groups);
+  for (std::size_t i = 0; i + 1 < sorted.first.size(); ++i) {
+    if (sorted.first[i] == sorted.first[i + 1]) continue;
+    const std::string name = i < groups.names.size() ? ' ' + groups.names[i] : std::string();
+    out += "solid" + name + '\n';
+    for (std::size_t k = sorted.first[i]; k < sorted.first[i + 1]; ++k) {
+      append_facet(out, soup, soup.triangles[sorted.order[k]]);
+    }
+    out += "endsolid" + name + '\n';
+  }
   return out;
 }
 

@@ -6,7 +6,7 @@
 //       80     4  uint32: number of triangles (wrong in many files)
 //       84    50  for each triangle: float32 x 12 (normal, three corners), uint16 attribute
 //
-// Normals are ignored; of attributes, see stl_colours.h.
+// Normals are ignored; of attributes, see stl_colours.h and stl_regions.h.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -20,6 +20,7 @@
 #include "formats/common/written_float.h"
 #include "stl_colours.h"
 #include "stl_io.h"
+#include "stl_regions.h"
 
 namespace meshrepair {
 namespace {
@@ -88,12 +89,20 @@ ReadResult read_stl_binary(const MeshSource& source) {
     const std::uint32_t third = welder.index_of({c[6], c[7], c[8]});
     result.soup.triangles.push_back({first, second, third});
   }
-  if (source.options.attributes) result.attributes = read_stl_colours(source.bytes, count);
+  if (source.options.attributes) {
+    result.attributes = read_stl_colours(source.bytes, count);
+    if (result.attributes.empty()) {
+      result.attributes.groups = read_stl_regions(source.bytes, count);
+    }
+  }
   return result;
 }
 
 std::string format_stl_binary(const TriangleSoup& soup, const Attributes* attributes) {
-  const StlColours colours = make_stl_colours(attributes, "binary STL by meshrepair");
+  StlColours colours = make_stl_colours(attributes, "binary STL by meshrepair");
+  if (attributes != nullptr && colours.words.empty()) {
+    colours.words = stl_region_words(attributes->groups);
+  }
   std::string out = colours.header;
   out.reserve(kStlHeaderSize + kStlTriangleSize * soup.triangles.size());
   const auto count = static_cast<std::uint32_t>(soup.triangles.size());

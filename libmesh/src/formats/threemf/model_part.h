@@ -79,6 +79,12 @@ struct ObjectReference {
   std::shared_ptr<const ModelMarks> marks;  // null: none
 };
 
+// Triangles of an object that have a name together: from each first to each last of `ranges`.
+struct TriangleSet {
+  std::string name;
+  std::vector<std::array<std::uint32_t, 2>> ranges;
+};
+
 struct ModelObject {
   std::uint32_t id = kNone;
   VolumeRole role = VolumeRole::model;
@@ -86,8 +92,10 @@ struct ModelObject {
   std::shared_ptr<const ModelMarks> marks;  // null: none
   PropertyUse property;                     // of triangles that say nothing
   TriangleSoup mesh;
-  std::vector<PropertyUse> properties;  // of the triangles, if asked for
-  std::vector<std::uint32_t> bad;       // numbers in the file of triangles that are left out
+  std::vector<PropertyUse> properties;         // of the triangles, if asked for
+  std::vector<TriangleSet> sets;               // the same
+  std::vector<std::uint32_t> set_of_triangle;  // the first; kNone: in none. Empty: there are none
+  std::vector<std::uint32_t> bad;              // numbers in the file of triangles that are left out
   std::vector<ObjectReference> components;
   const ProjectObject* project = nullptr;  // what a slicer says of it; null: nothing
   // What split_volumes() made: an object of ranges of its mesh, and of such a range the number of

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <mesh/edge_table.h>
@@ -30,6 +31,10 @@ enum class ModelReader::Element : std::uint8_t {
   vertex,
   triangles,
   triangle,
+  trianglesets,
+  triangleset,
+  ref,
+  refrange,
   components,
   component,
   basematerials,
@@ -53,6 +58,8 @@ constexpr std::string_view kMaterialPrefix =
     "http://schemas.microsoft.com/3dmanufacturing/material/";
 constexpr std::string_view kProductionPrefix =
     "http://schemas.microsoft.com/3dmanufacturing/production/";
+constexpr std::string_view kSetPrefix =
+    "http://schemas.microsoft.com/3dmanufacturing/trianglesets/";
 constexpr std::string_view kPathAttribute =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
 
@@ -72,9 +79,11 @@ struct KnownElement {
 };
 
 // The most frequent ones first.
-constexpr std::array<KnownElement, 26> kElements = {{
+constexpr std::array<KnownElement, 30> kElements = {{
     {Element::triangles, "triangle", Element::triangle},
     {Element::vertices, "vertex", Element::vertex},
+    {Element::triangleset, "ref", Element::ref},
+    {Element::triangleset, "refrange", Element::refrange},
     {Element::texture2dgroup, "tex2coord", Element::tex2coord},
     {Element::multiproperties, "multi", Element::multi},
     {Element::colorgroup, "color", Element::color},
@@ -99,6 +108,8 @@ constexpr std::array<KnownElement, 26> kElements = {{
     {Element::object, "components", Element::components},
     {Element::mesh, "vertices", Element::vertices},
     {Element::mesh, "triangles", Element::triangles},
+    {Element::mesh, "trianglesets", Element::trianglesets},
+    {Element::trianglesets, "triangleset", Element::triangleset},
 }};
 
 // What stands in others is told in other ways, or no loss.
@@ -108,7 +119,8 @@ bool is_known_place(Element parent) {
 }
 
 bool is_known_space(std::string_view space) {
-  return space.empty() || space.starts_with(kCorePrefix) || space.starts_with(kMaterialPrefix);
+  return space.empty() || space.starts_with(kCorePrefix) || space.starts_with(kMaterialPrefix) ||
+         space.starts_with(kSetPrefix);
 }
 
 std::uint32_t index_in(const XmlAttributes& attributes, std::string_view name) {
@@ -161,6 +173,30 @@ VolumeRole role_of_settings(const std::vector<ModelMetadata>& settings) {
 
 bool is_truth(std::string_view word) {
   return word == "0" || word == "1" || word == "false" || word == "true";
+}
+
+// The first set that each triangle is in, or kNone; empty where there are no sets. Each triangle is
+// looked at once, however many ranges it is in.
+std::vector<std::uint32_t> sets_of_triangles(const std::vector<TriangleSet>& sets,
+                                             std::size_t triangles) {
+  if (sets.empty()) return {};
+  std::vector<std::uint32_t> set_of(triangles, kNone);
+  std::vector<std::uint32_t> next(triangles + 1);  // that is in none yet, or one on the way to it
+  std::iota(next.begin(), next.end(), 0);
+  const auto next_free = [&](std::uint32_t t) {
+    while (next[t] != t) t = next[t] = next[next[t]];
+    return t;
+  };
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (const auto& [first, last] : sets[s].ranges) {
+      if (first >= triangles) continue;
+      for (std::uint32_t t = next_free(first); t <= last && t < triangles; t = next_free(t)) {
+        set_of[t] = static_cast<std::uint32_t>(s);
+        next[t] = t + 1;
+      }
+    }
+  }
+  return set_of;
 }
 
 }  // namespace
@@ -301,11 +337,24 @@ void ModelReader::open_property(Element element, const XmlAttributes& attributes
       return read_layers(attributes);
     case Element::multi:
       return read_layer_entries(attributes);
+    case Element::triangleset:
+      object().sets.push_back({attributes.text("name"), {}});
+      return;
+    case Element::ref:
+      return add_range(index_in(attributes, "index"), index_in(attributes, "index"));
+    case Element::refrange:
+      return add_range(index_in(attributes, "startindex"), index_in(attributes, "endindex"));
     case Element::compositematerials:
       ++oddities_.unknown_groups;
       return add_group(GroupKind::unknown, attributes);
     default:
       return;
+  }
+}
+
+void ModelReader::add_range(std::uint32_t first, std::uint32_t last) {
+  if (first != kNone && last != kNone && first <= last) {
+    object().sets.back().ranges.push_back({first, last});
   }
 }
 
@@ -399,6 +448,7 @@ bool ModelReader::add_paint(std::string_view name, std::string_view value, Prope
 void ModelReader::end_mesh() {
   TriangleSoup& mesh = object().mesh;
   std::vector<PropertyUse>& properties = object().properties;
+  std::vector<std::uint32_t> set_of = sets_of_triangles(object().sets, mesh.triangles.size());
   const std::size_t points = mesh.points.size();
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -410,11 +460,15 @@ void ModelReader::end_mesh() {
     }
     mesh.triangles[kept] = triangle;
     if (properties_) properties[kept] = properties[t];
+    if (!set_of.empty()) set_of[kept] = set_of[t];
     ++kept;
   }
   oddities_.bad_triangles += mesh.triangles.size() - kept;
   mesh.triangles.resize(kept);
   if (properties_) properties.resize(kept);
+  if (set_of.empty()) return;
+  set_of.resize(kept);
+  object().set_of_triangle = std::move(set_of);
 }
 
 void ModelReader::read_reference(const XmlAttributes& attributes,

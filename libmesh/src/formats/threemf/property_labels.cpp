@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -250,6 +251,8 @@ class PropertyLabeler {
     if (attributes_.materials.empty()) attributes_.looks.clear();
     label_objects();
     drop_if_unused(attributes_.objects);
+    label_groups();
+    drop_if_unused(attributes_.groups);
     end_paints();
     return std::move(attributes_);
   }
@@ -345,6 +348,37 @@ class PropertyLabeler {
       objects.of_triangle.resize(
           is_last ? placed_.soup.triangles.size() : placed_.instances[i + 1].first, label);
     }
+  }
+
+  // By the sets of triangles. Copies of an object share its names.
+  void label_groups() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> labels;
+    std::unordered_map<std::string_view, std::uint32_t> numbers;
+    TriangleLabels& groups = attributes_.groups;
+    for (const MeshInstance& instance : placed_.instances) {
+      const ModelObject& object = parts_[instance.part].objects[instance.object];
+      const auto [known, is_new] = labels.try_emplace({instance.part, instance.object});
+      if (is_new) known->second = labels_of_sets(object, numbers);
+      groups.of_triangle.resize(instance.first, kNone);
+      for (const std::uint32_t set : object.set_of_triangle) {
+        groups.of_triangle.push_back(set == kNone ? kNone : known->second[set]);
+      }
+    }
+    groups.of_triangle.resize(placed_.soup.triangles.size(), kNone);
+  }
+
+  std::vector<std::uint32_t> labels_of_sets(
+      const ModelObject& object, std::unordered_map<std::string_view, std::uint32_t>& numbers) {
+    std::vector<std::string>& names = attributes_.groups.names;
+    std::vector<std::uint32_t> labels;
+    for (const TriangleSet& set : object.sets) {
+      const bool has_name = !set.name.empty();
+      const auto fresh = static_cast<std::uint32_t>(names.size());
+      const auto [found, is_new] = numbers.try_emplace(set.name, has_name ? fresh : kNone);
+      if (is_new && has_name) names.push_back(set.name);
+      labels.push_back(found->second);
+    }
+    return labels;
   }
 
   const std::vector<ModelPart>& parts_;

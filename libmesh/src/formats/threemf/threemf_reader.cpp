@@ -163,7 +163,7 @@ class ThreemfReader {
     warn_if(WarningCode::faces_unreadable, oddities_.bad_triangles, "triangle",
             left_out + "they name points that do not exist");
     warn_if(WarningCode::points_unreadable, oddities_.bad_points, "point",
-            " with coordinates that are not numbers");
+            " with coordinates that are missing or not numbers");
     warn_if(WarningCode::references_missing, oddities_.doubled_ids, "object",
             " passed over: no number of their own");
     warn_if(WarningCode::references_missing, missing_parts_, "part", " with objects missing");

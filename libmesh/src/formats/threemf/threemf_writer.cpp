@@ -28,6 +28,8 @@ constexpr std::string_view kMaterialSpace =
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 constexpr std::string_view kProductionSpace =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+constexpr std::string_view kSetSpace =
+    "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07";
 constexpr std::string_view kDescription = "Description";
 
 void require_writable(const TriangleSoup& soup) {
@@ -49,6 +51,7 @@ class ModelWriter {
       : soup_(soup), extras_(extras), attributes_(extras.attributes), kept_(kept) {
     material_ = free_prefix("m", kMaterialSpace);
     production_ = free_prefix("p", kProductionSpace);
+    sets_ = free_prefix("t", kSetSpace);
     collect_metadata();
     const std::uint32_t first_id = keep_ids();
     if (attributes_ != nullptr) {
@@ -137,6 +140,10 @@ class ModelWriter {
       append_xml_attribute(xml_, "xmlns:" + std::string(kPrusaPrefix), kPrusaSpace);
       declared_.emplace(kPrusaPrefix, kPrusaSpace);
     }
+    if (has_groups()) {
+      append_xml_attribute(xml_, "xmlns:" + sets_, kSetSpace);
+      declared_.emplace(sets_, kSetSpace);
+    }
     if (kept_ != nullptr) {
       for (const ModelNamespace& one : kept_->namespaces) {
         if (one.prefix.empty() || one.space.empty() || !is_in_use(one.prefix)) continue;
@@ -145,6 +152,10 @@ class ModelWriter {
       }
     }
     xml_ += ">\n";
+  }
+
+  [[nodiscard]] bool has_groups() const {
+    return attributes_ != nullptr && !attributes_->groups.empty();
   }
 
   // Of the scene that is written; null: none was kept.
@@ -442,8 +453,49 @@ class ModelWriter {
     append_lines(xml_, range.end - range.first, [&](std::string& lines, std::size_t t) {
       append_triangle(lines, range.first + t, static_cast<std::uint32_t>(range.first_point));
     });
-    xml_ += "</triangles>\n</mesh>\n</object>\n";
+    xml_ += "</triangles>\n";
+    if (has_groups()) append_groups(range);
+    xml_ += "</mesh>\n</object>\n";
     return id;
+  }
+
+  // As sets of triangles.
+  void append_groups(const MeshRange& range) {
+    const std::vector<std::uint32_t>& of_triangle = attributes_->groups.of_triangle;
+    std::vector<std::uint32_t> order;
+    for (std::size_t t = range.first; t < range.end; ++t) {
+      if (of_triangle[t] != kNone) order.push_back(static_cast<std::uint32_t>(t));
+    }
+    if (order.empty()) return;
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return of_triangle[a] < of_triangle[b];
+    });
+    xml_ += '<' + sets_ + ":trianglesets>\n";
+    for (std::size_t i = 0; i < order.size();) {
+      const std::uint32_t group = of_triangle[order[i]];
+      xml_ += '<' + sets_ + ":triangleset";
+      append_xml_attribute(xml_, "name", attributes_->groups.names[group]);
+      append_xml_attribute(xml_, "identifier", "group" + std::to_string(group + 1));
+      xml_ += ">\n";
+      for (; i < order.size() && of_triangle[order[i]] == group; ++i) {
+        const std::uint32_t first = order[i];
+        const auto follows = [&] {
+          return i + 1 < order.size() && order[i + 1] == order[i] + 1 &&
+                 of_triangle[order[i + 1]] == group;
+        };
+        while (follows()) ++i;
+        append_set_range(first - range.first, order[i] - range.first);
+      }
+      xml_ += "</" + sets_ + ":triangleset>\n";
+    }
+    xml_ += "</" + sets_ + ":trianglesets>\n";
+  }
+
+  void append_set_range(std::size_t first, std::size_t last) {
+    xml_ += '<' + sets_ + (first == last ? ":ref" : ":refrange");
+    append_xml_attribute(xml_, first == last ? "index" : "startindex", std::to_string(first));
+    if (first != last) append_xml_attribute(xml_, "endindex", std::to_string(last));
+    xml_ += "/>\n";
   }
 
   void append_triangle(std::string& lines, std::size_t t, std::uint32_t first_point) const {
@@ -480,7 +532,7 @@ class ModelWriter {
   const SoupExtras& extras_;
   const Attributes* attributes_;
   const KeptPackage* kept_;
-  std::string material_, production_;  // prefixes
+  std::string material_, production_, sets_;  // prefixes
   WrittenProperties properties_;
   std::unordered_map<std::string, std::string_view> declared_;  // spaces by their prefixes
   std::vector<const ModelMetadata*> metadata_;                  // of the model, objects and items

@@ -94,6 +94,14 @@ TEST(ReadObj, RepeatedCornersOfAPolygonAreLeftOut) {
   EXPECT_EQ(triangles_of(kPoints + "f 1 1 2\n"), (std::vector<Triangle>{{0, 0, 1}}));
 }
 
+TEST(ReadObj, CountsMayComeFirst) {
+  for (const char* counts : {"3 1\n", "3\n1\n", "3 1 0\n"}) {
+    const ReadResult result = read_text(counts + kPoints + "f 1 2 3\n", "a");
+    EXPECT_EQ(result.report.format, SoupFormat::obj) << counts;
+    EXPECT_EQ(result.soup.triangles, kFirst) << counts;
+  }
+}
+
 TEST(ReadObj, PointsWithoutFacesAreRefused) {
   EXPECT_EQ(refusal_of(kPoints, "a.obj"), "a.obj: holds 4 points but no faces");
   EXPECT_THAT(refusal_of(kPoints + "f 7 8 9\n", "a.obj"),

@@ -110,6 +110,23 @@ TEST(ReadPly, BinaryOfAllTypes) {
   }
 }
 
+TEST(ReadPly, BoolIsOneByte) {
+  const std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n" + kAxes +
+                             "property bool x_is_fixed\nelement face 2\nproperty bool is_seen\n" +
+                             kIndices + "end_header\n";
+  std::string bytes = header;
+  for (const Vec3d& point : kExpectedPoints) {
+    for (const double value : point) bytes += raw(static_cast<float>(value), false);
+    bytes += '\1';
+  }
+  for (const Triangle& triangle : kTriangles) {
+    bytes += '\0';
+    bytes += '\3';
+    for (const std::uint32_t corner : triangle) bytes += raw(corner, false);
+  }
+  expect_both_triangles(bytes);
+}
+
 TEST(ReadPly, LineEndOfABinaryHeaderIsThatOfItsFirstLine) {
   const std::string bytes =
       binary_ply<float, std::uint8_t, std::int32_t>("float uchar int", false, false);

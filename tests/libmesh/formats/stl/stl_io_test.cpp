@@ -154,6 +154,20 @@ TEST(ReadStl, SolidsAreJoined) {
   EXPECT_EQ(read_text(line + line, "a.stl").soup.triangles.size(), 8u);
 }
 
+TEST(ReadStl, TextWithZeroBytesIsText) {
+  const std::string zeros(80, '\0');
+  const std::string text = ascii_tetrahedron();
+  std::string padded = text;
+  padded.insert(padded.find('\n'), zeros);
+  for (const std::string& bytes : {padded, text + zeros, replaced(text, "\n", "\n" + zeros)}) {
+    const ReadResult result = read_text(bytes, "a.stl");
+    EXPECT_EQ(result.report.format, SoupFormat::stl_ascii);
+    expect_tetrahedron(result);
+  }
+  const std::string binary = "solid" + binary_tetrahedron().substr(5) + "rest";
+  EXPECT_EQ(read_text(binary, "a.stl").report.format, SoupFormat::stl_binary);
+}
+
 TEST(ReadStl, OddNumbersAreNumbers) {
   const std::string text =
       "facet normal 0 0 0 outer loop vertex 1,5 +2 -3,25e-1 vertex 1.0D+02 nan -1.#IND "
