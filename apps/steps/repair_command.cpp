@@ -149,12 +149,12 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   if (is_shown) reading.attributes = !options.assets.drops_all();
   reading.negative = command.negative;
   AnySoup input = read_any_stage(command.points, reading, run, findings);
-  const std::vector<std::uint32_t> before =
-      subtract_negatives_stage(input, options.repair, run, findings);
   const bool is_single_output =
       is_single(*format.format) || options.repair.certify.precision == Precision::float32;
   move_origin_stage(options.origin, is_single_output, has_instances(*format.format), input,
                     findings);
+  const std::vector<std::uint32_t> before =
+      subtract_negatives_stage(input, options.repair, run, findings);
   check_picture(options.picture, input.attributes);
   const Attributes given = is_shown ? input.attributes : Attributes();
   warn_of_lost_groups(input, *format.format, options.assets, findings);

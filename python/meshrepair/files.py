@@ -32,8 +32,9 @@ def read(path: Any, *, attributes: bool = True, progress: Progress | bool | None
     ``attributes`` of a mesh is a dict of arrays:
 
     - "texture" (coordinates, k = 2 or 3), "normal" (k = 3), "tangent" (k = 4), "colour" (k = 3 or 4, from 0 to 1, or uint8
-      from 0 to 255), "skin_weights" (k = 8: four numbers of joints, their weights; or more such). The second of a kind is "texture_1", and so on. Others go by their names. Shape
-      (n, k), a row for each vertex, (m, k), for each face, or (m, 3, k), for each corner of each face. NaN is none.
+      from 0 to 255), "skin_weights" (k = 8: the numbers of four joints, then their weights; or several times 8). The
+      second of a kind is "texture_1", and so on. Others go by their names. Shape (n, k), a row for each vertex, (m, k),
+      for each face, or (m, 3, k), for each corner of each face. NaN is none.
     - "material", "group", "object", "smoothing": (m,) int32, -1 for none, into the lists "material_names" and so on.
     """
     keywords = keywords_of(options)

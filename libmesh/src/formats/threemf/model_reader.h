@@ -51,8 +51,8 @@ class ModelReader final : public XmlHandler {
   void read_layer_entries(const XmlAttributes& attributes);
   void add_group(PropertyGroup::Kind kind, const XmlAttributes& attributes);
   void add_colour(std::string_view text);
-  bool add_paint(std::string_view name, std::string_view value, PropertyUse& property);
   void add_range(std::uint32_t first, std::uint32_t last);
+  bool add_paint(std::string_view name, std::string_view value, PropertyUse& property);
   void end_mesh();
   void end_group(bool is_of_item);
 

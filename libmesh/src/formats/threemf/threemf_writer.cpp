@@ -136,13 +136,13 @@ class ModelWriter {
       append_xml_attribute(xml_, "xmlns:" + production_, kProductionSpace);
       declared_.emplace(production_, kProductionSpace);
     }
-    if (has_prusa_paint()) {
-      append_xml_attribute(xml_, "xmlns:" + std::string(kPrusaPrefix), kPrusaSpace);
-      declared_.emplace(kPrusaPrefix, kPrusaSpace);
-    }
     if (has_groups()) {
       append_xml_attribute(xml_, "xmlns:" + sets_, kSetSpace);
       declared_.emplace(sets_, kSetSpace);
+    }
+    if (has_prusa_paint()) {
+      append_xml_attribute(xml_, "xmlns:" + std::string(kPrusaPrefix), kPrusaSpace);
+      declared_.emplace(kPrusaPrefix, kPrusaSpace);
     }
     if (kept_ != nullptr) {
       for (const ModelNamespace& one : kept_->namespaces) {
