@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,19 @@ void add_triangles(const ModelObject& from, std::size_t first, std::size_t end, 
   };
   copy(from.mesh.triangles, to.mesh.triangles);
   copy(from.properties, to.properties);
+  copy(from.set_of_triangle, to.set_of_triangle);
+}
+
+// Of the sets those that the triangles are in.
+void take_sets(const std::vector<TriangleSet>& sets, ModelObject& piece) {
+  std::unordered_map<std::uint32_t, std::uint32_t> numbers;
+  for (std::uint32_t& set : piece.set_of_triangle) {
+    if (set == kNone) continue;
+    const auto fresh = static_cast<std::uint32_t>(piece.sets.size());
+    const auto [number, is_new] = numbers.try_emplace(set, fresh);
+    if (is_new) piece.sets.push_back({sets[set].name, {}});
+    set = number->second;
+  }
 }
 
 // Of the points those that the triangles have, in their order.
@@ -99,6 +113,7 @@ void split_volumes(ModelPart& part, std::uint32_t number, const ProjectObject& p
   if (!rest.mesh.triangles.empty()) pieces.push_back(std::move(rest));
   for (ModelObject& piece : pieces) {
     take_points(whole.mesh.points, piece.mesh);
+    take_sets(whole.sets, piece);
     piece.property = whole.property;
     piece.id = kFirstFreeId + static_cast<std::uint32_t>(part.objects.size());
     part.object_of_id.emplace(piece.id, static_cast<std::uint32_t>(part.objects.size()));
@@ -107,6 +122,7 @@ void split_volumes(ModelPart& part, std::uint32_t number, const ProjectObject& p
   }
   whole.mesh = {};
   whole.properties = {};
+  whole.set_of_triangle = {};
   whole.is_split = true;
   part.objects[number] = std::move(whole);
 }

@@ -162,6 +162,22 @@ TEST(ThreemfVolumes, RangesAreOneMeshAgainWithTheirNewTriangles) {
   EXPECT_EQ(project_again(read_each(package)), package);
 }
 
+TEST(ThreemfVolumes, RangesKeepTheirSetsOfTriangles) {
+  std::string object = tetrahedra_object(7, 2);
+  object.insert(object.find("</mesh>"),
+                "<t:trianglesets xmlns:t=\"http://schemas.microsoft.com/3dmanufacturing/"
+                "trianglesets/2021/07\"><t:triangleset name=\"low\" identifier=\"a\"><t:refrange "
+                "startindex=\"2\" endindex=\"4\"/></t:triangleset></t:trianglesets>");
+  const std::string config = config_of(7, volume_of(0, 3, "body", type_of("ModelPart")) +
+                                              volume_of(4, 7, "cut", type_of("NegativeVolume")));
+  const ReadResult result = read_each(package_of(model_of(object, item_of(7)), {{kPrusa, config}}));
+  EXPECT_THAT(result.attributes.groups.names, ElementsAre("low"));
+  EXPECT_THAT(result.attributes.groups.of_triangle,
+              ElementsAre(kNone, kNone, 0u, 0u, 0u, kNone, kNone, kNone));
+  EXPECT_EQ(read_each(project_again(result)).attributes.groups.of_triangle,
+            result.attributes.groups.of_triangle);
+}
+
 TEST(ThreemfVolumes, RangesThatAreNotThereOrOverlapAreModel) {
   const std::string cut = type_of("NegativeVolume");
   for (const std::string& volume :
