@@ -118,6 +118,10 @@ def threemf_seeds():
     layers = '<m:multiproperties id="9" pids="5 8 6"><m:multi pindices="0 0 1"/></m:multiproperties>'
     sets = (f'<t:trianglesets xmlns:t="{core}trianglesets/2021/07"><t:triangleset name="s" identifier="i"><t:ref index="0"/>'
             '<t:refrange startindex="2" endindex="3"/></t:triangleset></t:trianglesets>')
+    beams = f"{core}beamlattice/2017/02"
+    lattice = (f'<b:beamlattice xmlns:b="{beams}" radius="0.1" minlength="0.01" ballmode="mixed" ballradius="0.2" cap="butt"><b:beams>'
+               '<b:beam v1="0" v2="1"/><b:beam v1="1" v2="2" r1="0.1" r2="0.2" cap1="hemisphere" cap2="sphere"/></b:beams>'
+               '<b:balls><b:ball vindex="3" r="0.3"/></b:balls></b:beamlattice>')
     plain = model(mesh(1))
     ranges = (b'<config><object id="1" instances_count="1"><metadata type="object" key="name" value="a"/>'
               b'<volume firstid="0" lastid="1"><metadata type="volume" key="volume_type" value="ModelPart"/></volume>'
@@ -141,6 +145,7 @@ def threemf_seeds():
         "materials": model(base + mesh(1, ' pid="5" p1="0"', ' name="n" pid="5" pindex="0"')),
         "colours": model(colours + mesh(1, ' pid="6" p1="0" p2="1" p3="1"')),
         "layers": model(base + colours + texture + layers + mesh(1, ' pid="9" p1="0"')),
+        "lattice": model(mesh(1).replace("</mesh>", lattice + "</mesh>")),
         "sets": model(mesh(1).replace("</mesh>", sets + "</mesh>")),
         "metadata": model(mesh(1), head='<metadata name="Title" preserve="1">a &amp; b</metadata>'),
         "numbers": model(mesh(1).replace('"1"', '"nan"', 3).replace('"0"', '"1,5"', 2)),

@@ -171,8 +171,8 @@ class ThreemfReader {
             " to objects that are not there");
     warn_if(WarningCode::references_missing, oddities_.bad_ranges, "volume",
             " taken for model: their triangles are not there, or those of others");
-    warn_if(WarningCode::faces_unreadable, oddities_.bad_beams, "beam or ball",
-            left_out + "of points that do not exist, or without a size");
+    warn_if(WarningCode::faces_unreadable, oddities_.bad_beams, "beam",
+            left_out + "of points that do not exist, or without a size; balls among them");
     warn_if(WarningCode::extension_unknown, oddities_.clipped_lattices, "beam lattice",
             " not cut by the mesh that clips it");
     if (!oddities_.unknown_unit.empty()) {
