@@ -26,6 +26,7 @@
 #include "steps/run_steps.h"
 #include "summary/summary.h"
 #include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 namespace {
@@ -151,6 +152,7 @@ void print_result(const BoolOptions& options, const RepairReport& repair,
                   const std::string& written, Run& run, const std::string& shown = {}) {
   const double seconds = run.progress.seconds();
   run.progress.finish();
+  show_held_warnings();
   print_summary(fmt::format("operands  {} of {}\n{}{}written   {}: {}, in {:.2f} s\n",
                             operation_name(options.command.operation),
                             number_of(options.command.inputs.size(), "solid"), gaps_summary(repair),
@@ -221,10 +223,7 @@ ExitCode combine_files(BoolOptions options, Run& run) {
   options.output_has_unit = format.format && has_unit(*format.format);
   Json facts = Json::array();
   Operands operands;
-  Intake intake{
-      CommonUnit(options),
-      CommonOrigin(options.command.step.origin, format.format && is_single(*format.format)),
-      {}};
+  Intake intake{CommonUnit(options), CommonOrigin(options.command.step.origin, format.format), {}};
   for (const std::string& name : options.command.inputs) {
     Operand operand = take_operand(options, name, run, facts, intake);
     if (options.carries_attributes) {

@@ -44,10 +44,11 @@ void convert(StepOptions options, Run& run, Findings& findings) {
   AnySoup moved;
   moved.soup = std::move(input.soup);
   moved.scene = std::move(input.scene);
-  move_origin_stage(options.origin, is_single(*format.format), has_instances(*format.format), moved,
-                    findings);
+  moved.attributes = std::move(input.attributes);
+  move_origin_stage(options.origin, *format.format, Precision::float64, moved, findings);
   input.soup = std::move(moved.soup);
   input.scene = std::move(moved.scene);
+  input.attributes = std::move(moved.attributes);
   const TriangleSoup& soup = input.soup;
   const Attributes& all = input.attributes;
   check_picture(options.picture, all);

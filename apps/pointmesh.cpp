@@ -34,7 +34,7 @@ int run_program(int argc, char** argv) {
         const WriteOptions format = mesh_format(steps);
         AnySoup input;
         input.cloud = read_points_stage(run, findings);
-        move_origin_stage(steps.origin, is_single(*format.format), false, input, findings);
+        move_origin_stage(steps.origin, *format.format, Precision::float64, input, findings);
         const PointSoup result = triangulate_stage(*input.cloud, points, run, findings);
         write_soup_stage(result.soup, format, run, findings);
       });

@@ -5,6 +5,7 @@
 
 #include "report/words.h"
 #include "terminal/logging.h"
+#include "terminal/warning_log.h"
 
 namespace meshrepair {
 
@@ -43,11 +44,13 @@ ExitCode verdict(Run& run, const Findings& findings) {
   std::vector<std::string> faults = findings.not_met;
   if (!findings.missing_guarantees.empty()) {
     faults.insert(faults.begin(),
-                  (findings.withheld ? "it would be " : "") + findings.missing_guarantees);
+                  (findings.withheld && findings.summary.empty() ? "it would be " : "") +
+                      findings.missing_guarantees);
   }
   if (faults.empty()) return ExitCode::done;
   const std::string head =
       findings.output_name() + (findings.withheld ? ": not written, as " : ": written, but ");
+  show_held_warnings();
   for (const std::string& fault : faults) logger().error("{}{}", head, fault);
   run.report.set_error("error: " + head + joined_with("; ", faults));
   return ExitCode::not_certified;

@@ -58,7 +58,21 @@ ReadResult read_mesh_stage(const ReadOptions& options, Run& run, Findings& findi
   return result;
 }
 
+namespace {
+
+// What only a package could hold again.
+bool is_written_as_package(const std::string& output) {
+  return output == "-" || format_of_extension(output) == SoupFormat::threemf;
+}
+
+}  // namespace
+
 void keep_read_report(ReadReport report, Findings& findings) {
+  if (!is_written_as_package(findings.output)) {
+    std::erase_if(report.warnings, [](const Warning& warning) {
+      return warning.code == WarningCode::package_parts_lost;
+    });
+  }
   findings.unit = report.unit;
   findings.mesh_read = std::move(report);
   warn(findings.input_name(), findings.mesh_read->warnings);
@@ -100,8 +114,7 @@ Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes
 
 // Of a mesh without a name: nobody knows what those beside it are to be called.
 void write_with_files(const TriangleSoup& soup, WriteOptions format, Run& run, Findings& findings) {
-  Scene place;
-  keep_origin(findings, soup, place, format);
+  keep_origin(findings, format);
   const Attributes* const attributes = format.extras.attributes;
   if (findings.output == "-" && attributes != nullptr &&
       has_files_beside(*format.format, *attributes)) {

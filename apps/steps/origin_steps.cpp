@@ -101,23 +101,53 @@ void add_origin_options(CommandLine& app, OriginOptions& options) {
       ->group("Output");
 }
 
-void move_origin_stage(const OriginOptions& options, bool is_single, bool has_instances,
+namespace {
+
+// Programs read these in single precision, or the format holds no other.
+bool is_read_as_single(SoupFormat format, Precision precision) {
+  return precision == Precision::float32 || is_single(format) || format == SoupFormat::threemf ||
+         format == SoupFormat::stl_ascii;
+}
+
+bool is_gltf(SoupFormat format) { return format == SoupFormat::glb || format == SoupFormat::gltf; }
+
+// What cannot be moved.
+void check_movable(SoupFormat output, const AnySoup& input, const Findings& findings) {
+  if (!findings.mesh_read || !has_instances(output)) return;
+  const SoupFormat given = findings.mesh_read->format;
+  if (!input.scene.meshes.empty() && (given == output || (is_gltf(given) && is_gltf(output)))) {
+    throw UsageError("--origin: with --scene each, meshes stay where the scene of IN has them");
+  }
+  const auto& corners = input.attributes.corners;
+  if (is_gltf(output) && std::any_of(corners.begin(), corners.end(), [](const auto& attribute) {
+        return attribute.kind == CornerAttribute::Kind::skin;
+      })) {
+    throw UsageError("--origin: a mesh with a skin stands where its joints are; --drop others");
+  }
+}
+
+}  // namespace
+
+void move_origin_stage(const OriginOptions& options, SoupFormat output, Precision precision,
                        AnySoup& input, Findings& findings) {
-  const bool has_places = has_instances && !input.scene.meshes.empty();
+  const bool has_places = has_instances(output) && !input.scene.meshes.empty();
   findings.origin = known_offset(findings);
-  if (options.restore) {
-    if (!findings.origin) throw UsageError("--restore-origin: IN names no offset");
+  if (options.restore && findings.origin) {
     subtract(-*findings.origin, false, input);
     findings.origin.reset();
+  } else if (options.restore &&
+             !(findings.mesh_read && has_instances(findings.mesh_read->format))) {
+    throw UsageError("--restore-origin: IN names no offset");
   }
   Vec3d offset = options.offset.value_or(Vec3d::Zero());
   if (options.automatic) offset = fitting_offset(points_of(input), spacing_of(input));
   if (offset != Vec3d::Zero()) {
+    check_movable(output, input, findings);
     subtract(offset, has_places, input);
     findings.origin = findings.origin.value_or(Vec3d::Zero()) + offset;
     findings.is_origin_in_places = has_places;
   }
-  if (is_single && !options.stays) {
+  if (is_read_as_single(output, precision) && !options.stays) {
     warn_of_single_precision(points_of(input), spacing_of(input), findings);
   }
 }
@@ -133,7 +163,7 @@ void CommonOrigin::apply(std::optional<Vec3d> known, TriangleSoup& soup, const F
   if (move != Vec3d::Zero()) {
     for (Vec3d& point : soup.points) point += move;
   }
-  if (is_single_ && !options_.stays) {
+  if (output_ && is_read_as_single(*output_, Precision::float64) && !options_.stays) {
     warn_of_single_precision(soup.points, typical_edge(soup), findings);
   }
 }
@@ -142,17 +172,13 @@ std::optional<Vec3d> CommonOrigin::get() const {
   return origin_ == Vec3d::Zero() ? std::nullopt : std::optional(origin_);
 }
 
-void keep_origin(const Findings& findings, const TriangleSoup& soup, Scene& scene,
-                 WriteOptions& format) {
+void keep_origin(const Findings& findings, WriteOptions& format) {
   if (!findings.origin || findings.is_origin_in_places) return;
-  if (!has_instances(*format.format)) {
+  if (has_instances(*format.format)) {
+    format.extras.origin = findings.origin;
+  } else {
     format.extras.comments.push_back(offset_comment(*findings.origin));
-    return;
   }
-  scene.meshes = {{"", soup.points.size(), soup.triangles.size()}};
-  scene.instances.resize(1);
-  scene.instances.front().placement.offset = *findings.origin;
-  format.extras.scene = &scene;
 }
 
 }  // namespace meshrepair

@@ -25,16 +25,18 @@ void add_origin_options(CommandLine& app, OriginOptions& options);
 
 // Moves what was read: `known` is the offset that its file names. Returns the offset of what it is
 // now, which findings.origin gets, too. Where meshes stand in a scene of a format that has such,
-// they are moved in their own frames, and their places back. Warns where OUT has single precision
-// and loses by that. Throws UsageError where an offset is to be restored and none is known.
-void move_origin_stage(const OriginOptions& options, bool is_single, bool has_instances,
+// they are moved in their own frames, and their places back. Warns where OUT is read in single
+// precision and loses by that. Throws UsageError where an offset is to be restored and none is
+// known, or what has its place elsewhere cannot be moved.
+void move_origin_stage(const OriginOptions& options, SoupFormat output, Precision precision,
                        AnySoup& input, Findings& findings);
 
 // One origin for several meshes: that of the first.
 class CommonOrigin {
  public:
-  CommonOrigin(const OriginOptions& options, bool is_single)
-      : options_(options), is_single_(is_single) {}
+  // `output`: of a tree, nothing.
+  CommonOrigin(const OriginOptions& options, std::optional<SoupFormat> output)
+      : options_(options), output_(output) {}
 
   // Brings a mesh there whose file names the offset `known`. Warns as above.
   void apply(std::optional<Vec3d> known, TriangleSoup& soup, const Findings& findings);
@@ -44,14 +46,12 @@ class CommonOrigin {
 
  private:
   OriginOptions options_;
-  bool is_single_;
+  std::optional<SoupFormat> output_;
   bool is_known_ = false;
   Vec3d origin_ = Vec3d::Zero();
 };
 
-// As it is to be written: with a comment, or at a place in a scene of its own, for which `scene` is
-// taken.
-void keep_origin(const Findings& findings, const TriangleSoup& soup, Scene& scene,
-                 WriteOptions& format);
+// As it is to be written: with a comment, or at a place.
+void keep_origin(const Findings& findings, WriteOptions& format);
 
 }  // namespace meshrepair

@@ -150,9 +150,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   if (is_shown) reading.attributes = !options.assets.drops_all();
   reading.negative = command.negative;
   AnySoup input = read_any_stage(command.points, reading, run, findings);
-  const bool is_single_output =
-      is_single(*format.format) || options.repair.certify.precision == Precision::float32;
-  move_origin_stage(options.origin, is_single_output, has_instances(*format.format), input,
+  move_origin_stage(options.origin, *format.format, options.repair.certify.precision, input,
                     findings);
   const std::vector<std::uint32_t> before =
       subtract_negatives_stage(input, options.repair, run, findings);

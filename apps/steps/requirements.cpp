@@ -23,7 +23,7 @@ namespace meshrepair {
 namespace {
 
 using Relation = Requirement::Relation;
-using Kind = Requirement::Kind;
+using BoundKind = Requirement::Kind;
 
 // A short name. `before`: the same of the input, or what the number is a share of; may be empty.
 struct Key {
@@ -78,12 +78,12 @@ void check_key(const Requirement& one) {
     refuse(one.text, "'" + one.key + "' is none of " + all_names() +
                          "the code of a warning, or a key of the report such as result.parts");
   }
-  if (one.kind == Kind::number) return;
+  if (one.kind == BoundKind::number) return;
   const bool has_before = key != nullptr && !key->before.empty();
   if (!has_before) refuse(one.text, "takes a number alone");
-  if (key->is_share && one.kind != Kind::percent)
+  if (key->is_share && one.kind != BoundKind::percent)
     refuse(one.text, "takes a number or a percentage");
-  if (!key->is_share && one.kind == Kind::percent && one.relation == Relation::at_least)
+  if (!key->is_share && one.kind == BoundKind::percent && one.relation == Relation::at_least)
     refuse(one.text,
            "a change can only be at most so large; a ratio, such as 0.9x, is a bound below");
 }
@@ -92,21 +92,21 @@ void check_key(const Requirement& one) {
 void parse_bound(std::string word, Requirement& one) {
   if (word == "same") {
     if (one.relation != Relation::equal) refuse(one.text, "'same' needs =");
-    one.kind = Kind::same;
+    one.kind = BoundKind::same;
     one.bound = 1;
     return;
   }
   const char unit = word.empty() ? '\0' : word.back();
-  if (unit == '%') one.kind = Kind::percent;
-  if (unit == 'x') one.kind = Kind::ratio;
-  if (one.kind != Kind::number) word.pop_back();
+  if (unit == '%') one.kind = BoundKind::percent;
+  if (unit == 'x') one.kind = BoundKind::ratio;
+  if (one.kind != BoundKind::number) word.pop_back();
   const std::optional<double> number = parse_number(trimmed(word));
-  const bool may_be_negative = one.kind == Kind::number;
+  const bool may_be_negative = one.kind == BoundKind::number;
   if (!number || !std::isfinite(*number) || (*number < 0 && !may_be_negative)) {
     refuse(one.text,
            "the bound is no number, percentage such as 1%, ratio such as 1.5x, or 'same'");
   }
-  one.bound = one.kind == Kind::percent ? *number / 100 : *number;
+  one.bound = one.kind == BoundKind::percent ? *number / 100 : *number;
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ Requirement parse_requirement(const std::string& text) {
   one.text = trimmed(text);
   const std::size_t at = one.text.find_first_of("<>=");
   if (at == std::string::npos)
-    refuse(one.text, "is no condition such as parts=same or moved<=0.01");
+    refuse(one.text, "is no condition such as parts=same, and no file NAME.json");
   one.key = trimmed(std::string_view(one.text).substr(0, at));
   std::size_t end = at + 1;
   if (one.text[at] != '=') {
@@ -131,7 +131,7 @@ Requirement parse_requirement(const std::string& text) {
 
 namespace {
 
-constexpr std::size_t kMostFileBytes = std::size_t{1} << 20;
+constexpr std::size_t kMostPolicyBytes = std::size_t{1} << 20;
 
 // "1%" and 3 are what a number has to be, "<=3" says it itself.
 std::string condition_of(const std::string& key, const Json& value, const std::string& file) {
@@ -146,12 +146,12 @@ std::string condition_of(const std::string& key, const Json& value, const std::s
 std::vector<std::string> conditions_in(const std::string& file) {
   std::string bytes;
   try {
-    bytes = std::string(FileBytes(file).bytes().substr(0, kMostFileBytes + 1));
+    bytes = std::string(FileBytes(file).bytes().substr(0, kMostPolicyBytes + 1));
   } catch (const InputError& error) {
     throw UsageError(std::string("--require: ") + error.what());
   }
   const std::optional<Json> policy = Json::parse(bytes);
-  if (bytes.size() > kMostFileBytes || !policy || !(policy->is_object() || policy->is_array())) {
+  if (bytes.size() > kMostPolicyBytes || !policy || !(policy->is_object() || policy->is_array())) {
     throw UsageError("--require: " + file +
                      " is no JSON object of conditions such as {\"parts\": \"same\"}");
   }
@@ -178,7 +178,8 @@ std::vector<std::string> conditions_of(const std::string& word) {
   std::vector<std::string> conditions;
   for (std::size_t start = 0; start <= word.size();) {
     const std::size_t comma = std::min(word.find(',', start), word.size());
-    conditions.push_back(word.substr(start, comma - start));
+    std::string one = trimmed(std::string_view(word).substr(start, comma - start));
+    if (!one.empty() || word.empty()) conditions.push_back(std::move(one));
     start = comma + 1;
   }
   return conditions;
@@ -276,21 +277,21 @@ class Facts {
 
 // What is compared with the bound.
 std::optional<double> measured(const Requirement& one, double value, std::optional<double> before) {
-  if (one.kind == Kind::number) return value;
+  if (one.kind == BoundKind::number) return value;
   if (!before) return std::nullopt;
   const Key* const key = find_key(one.key);
   // A mesh may have been inside out.
   const double from = std::abs(*before), now = std::abs(value);
   if (from == 0) {
-    if (now == 0) return one.kind == Kind::percent ? 0 : 1;
+    if (now == 0) return one.kind == BoundKind::percent ? 0 : 1;
     return std::nullopt;
   }
-  if (one.kind != Kind::percent) return now / from;
+  if (one.kind != BoundKind::percent) return now / from;
   return key->is_share ? now / from : std::abs(now - from) / from;
 }
 
 bool holds(const Requirement& one, double measure) {
-  const bool is_change = one.kind == Kind::percent && one.relation == Relation::equal;
+  const bool is_change = one.kind == BoundKind::percent && one.relation == Relation::equal;
   if (one.relation == Relation::at_most || is_change) return measure <= one.bound;
   return one.relation == Relation::at_least ? measure >= one.bound : measure == one.bound;
 }
@@ -300,8 +301,8 @@ std::string words_on(const Requirement& one, std::optional<double> value,
   if (!value) return one.text + " is not met: unknown";
   std::string text = fmt::format("{} is not met: {:.6g}", one.text, *value);
   if (before && !find_key(one.key)->is_share) text += fmt::format(", before {:.6g}", *before);
-  if (measure && one.kind == Kind::percent) text += fmt::format(" ({:.3g} %)", 100 * *measure);
-  if (measure && one.kind == Kind::ratio) text += fmt::format(" ({:.4g}x)", *measure);
+  if (measure && one.kind == BoundKind::percent) text += fmt::format(" ({:.3g} %)", 100 * *measure);
+  if (measure && one.kind == BoundKind::ratio) text += fmt::format(" ({:.4g}x)", *measure);
   return text;
 }
 

@@ -19,7 +19,7 @@ constexpr std::size_t kDeepestPaint =
 constexpr int kDeepestPiece = 5;
 // Two triangles have less in common where they only touch; the sides of the painted one are 1 long.
 constexpr double kTouch = 1e-9;
-constexpr PaintCorners kWhole = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr PaintCorners kWholeTriangle = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 struct PaintNode {
   std::uint32_t sides = 0;  // that are divided
@@ -204,7 +204,7 @@ class PaintResample {
 
   [[nodiscard]] PaintDigits run(const PaintCorners& piece, int depth) const {
     std::optional<std::uint32_t> state;
-    if (!is_mixed(0, kWhole, piece, state)) {
+    if (!is_mixed(0, kWholeTriangle, piece, state)) {
       return state_digits(state ? *state : state_at(piece));
     }
     if (depth == kDeepestPiece) return state_digits(state_at(piece));
@@ -268,7 +268,7 @@ class PaintResample {
     for (const PaintPlace& corner : piece) {
       for (std::size_t k = 0; k < 3; ++k) centre[k] += corner[k] / 3;
     }
-    PaintCorners corners = kWhole;
+    PaintCorners corners = kWholeTriangle;
     std::uint32_t number = 0;
     while (tree_[number].sides > 0) {
       const PaintNode& node = tree_[number];
@@ -309,8 +309,9 @@ std::string paint_within(std::string_view code, const std::array<PaintPlace, 3>&
   const PaintTree tree(code);
   if (!tree.is_good()) return {};
   if (tree[0].sides == 0) return text_of(state_digits(tree[0].state));
-  return text_of(same_corners(kWhole, corners) ? PaintReorder(tree).run(0, kWhole, corners)
-                                               : PaintResample(tree).run(corners, 0));
+  return text_of(same_corners(kWholeTriangle, corners)
+                     ? PaintReorder(tree).run(0, kWholeTriangle, corners)
+                     : PaintResample(tree).run(corners, 0));
 }
 
 std::optional<std::uint32_t> main_state(std::string_view code) {

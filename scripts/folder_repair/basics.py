@@ -95,6 +95,14 @@ def value_of(report, *keys):
     return report if isinstance(report, (int, float, str)) else None
 
 
+def is_certified(report):
+    """All guarantees hold, of each mesh of a scene where there are several."""
+    meshes = report.get("meshes") if isinstance(report, dict) else None
+    if isinstance(meshes, list) and meshes:
+        return all(value_of(mesh, "certified") is True for mesh in meshes)
+    return all(value_of(report, "certificate", name) == "PASS" for name in GUARANTEES)
+
+
 def warnings_of(report):
     """The codes of its warnings, each once, those that change the object first; None without any."""
     told = report.get("warnings") if isinstance(report, dict) else None

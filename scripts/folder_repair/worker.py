@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from .basics import DONE, GUARANTEES, INTERNAL, LIMIT, NO_SOLID, WRITTEN, text, value_of
+from .basics import DONE, INTERNAL, LIMIT, NO_SOLID, WRITTEN, is_certified, text, value_of
 from .gallery import SIZE
 from .program import last_line
 from .starter import started_process
@@ -134,7 +134,7 @@ class Worker:
         if value_of(report, "exit_code") != self.code:
             return f"ended with exit code {self.code}, but without a report that says so"
         if self.code == DONE:
-            if any(value_of(report, "certificate", name) != "PASS" for name in GUARANTEES):
+            if not is_certified(report):
                 return "ended with exit code 0, but without a certificate"
             if not os.path.isfile(self.mesh) or os.path.getsize(self.mesh) == 0:
                 return "ended with exit code 0, but wrote no mesh"
@@ -168,7 +168,7 @@ class Worker:
 
     def error_line(self, report):
         """Without the names of files, which stand beside it."""
-        line = str(value_of(report, "error") or last_line(self.said))
+        line = str(value_of(report, "error") or last_line(self.said)).removeprefix("error: ")
         for path in (self.job.source, self.mesh, self.job.target):
             line = line.removeprefix(path.decode("utf-8", "replace") + ": ")
         for path in (self.mesh, self.job.target):

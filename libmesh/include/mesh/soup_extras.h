@@ -29,6 +29,9 @@ struct SoupExtras {
   const Scene* scene = nullptr;
   // Of the soup. Formats that have a unit say it; glTF by the scale of a node.
   std::optional<LengthUnit> unit = std::nullopt;
+  // Added to all coordinates by those who read the file: formats whose meshes have places have it
+  // there. Others have comments for it.
+  std::optional<Vec3d> origin = std::nullopt;
   // Which names of other files are relative to.
   std::filesystem::path folder = {};
 };

@@ -95,6 +95,10 @@ class GltfWriter {
     GltfJson node = {{"mesh", add_mesh(0, triangles, std::move(json))}, {"name", name}};
     if (kept.skin) node["skin"] = *kept.skin;
     if (scale_ != 1) node["scale"] = {scale_, scale_, scale_};
+    if (extras_.origin) {
+      const Vec3d origin = scale_ * *extras_.origin;
+      node["translation"] = {origin.x(), origin.y(), origin.z()};
+    }
     add_gltf_node(builder_, std::move(node));
   }
 

@@ -110,7 +110,8 @@ class PartKeeper {
       report.warnings.push_back({WarningCode::package_parts_lost, text, {{"parts", parts}}});
     };
     const std::size_t named = kept_.graph ? std::min(names.size(), kMostNamed) : 0;
-    for (std::size_t i = 0; i < named; ++i) tell(printable(names[i]) + lost + ": " + why, 1);
+    const std::string lost_one = lost + ": " + why;
+    for (std::size_t i = 0; i < named; ++i) tell(printable(names[i]) + lost_one, 1);
     if (names.size() == named) return;
     tell(counted(names.size() - named, named == 0 ? "part" : "more part") + " of the package " +
              which + lost + " (first: " + printable(names[named]) + ")",

@@ -137,7 +137,17 @@ class ThreemfReader {
   void apply(const ProjectObject& said) {
     ModelPart& part = parts_.front();
     const auto number = part.object_of_id.find(said.id);
-    if (number == part.object_of_id.end()) return;
+    if (number == part.object_of_id.end()) {
+      return warn(WarningCode::project_unreadable,
+                  "the project speaks of the object " + printable(said.name) +
+                      ", which is not there: what it says is not used");
+    }
+    for (const ProjectVolume& volume : said.volumes) {
+      if (volume.unknown_role.empty()) continue;
+      warn(WarningCode::project_unreadable, "the volume " + printable(volume.name) + " is a " +
+                                                printable(volume.unknown_role) +
+                                                ", which is unknown: taken for model");
+    }
     if (part.objects[number->second].project != nullptr) return;
     part.objects[number->second].project = &said;
     if (part.objects[number->second].components.empty()) {

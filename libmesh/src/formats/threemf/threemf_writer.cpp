@@ -65,7 +65,10 @@ class ModelWriter {
     open_model();
     write_metadata();
     xml_ += "<resources>\n" + properties_.resources;
-    const std::vector<KeptReference> items = write_objects();
+    std::vector<KeptReference> items = write_objects();
+    if (extras_.origin) {
+      for (KeptReference& item : items) item.placement.offset += *extras_.origin;
+    }
     xml_ += "</resources>\n<build";
     if (const KeptGraph* const graph = kept_graph()) append_uuid(graph->build_uuid);
     xml_ += ">\n";

@@ -77,7 +77,7 @@ TEST(BeamLattice, BallsAreWhereTheModeSays) {
 }
 
 TEST(BeamLattice, CornersLieOnTheRoundSurface) {
-  for (const std::size_t sides : {3, 4, 7, 16}) {
+  for (const std::size_t sides : {3U, 4U, 7U, 16U}) {
     const ReadResult read = read_lattice("radius=\"1\" cap=\"butt\"", beam(""), sides);
     ASSERT_EQ(read.soup.triangles.size(), 4 * sides - 4);
     const Vec3d axis = Vec3d(6, 0, 8) / 10;

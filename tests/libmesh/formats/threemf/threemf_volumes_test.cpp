@@ -229,7 +229,8 @@ TEST(ThreemfVolumes, ComponentsAreVolumesAndMayBeSeveral) {
 TEST(ThreemfVolumes, ProjectsFollowIdsAndLoseWhatIsGone) {
   const ReadResult result = read_each(orca_package());
   EXPECT_THAT(texts(result.report.warnings),
-              ElementsAre(HasSubstr("plate_1.gcode will not be written again: it belongs to")));
+              ElementsAre(HasSubstr("the object gone, which is not there"),
+                          HasSubstr("plate_1.gcode will not be written again: it belongs to")));
   EXPECT_EQ(text_in(project_again(result), kOrca),
             "<?xml version=\"1.0\"?>\n<config>\n<!-- kept --><object id=\"8\">"
             "<metadata key=\"name\" value=\"box\"/><metadata face_count=\"16\"/>"

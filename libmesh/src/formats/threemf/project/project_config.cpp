@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "formats/common/part_names.h"
 #include "formats/threemf/common/xml_stream.h"
 
 namespace meshrepair {
@@ -14,21 +15,27 @@ namespace {
 
 using Spot = ProjectConfig::Spot;
 
-// What PrusaSlicer and its descendants call them; all others are parts of the model.
-VolumeRole role_named(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, VolumeRole>, 8> kNames = {{
-      {"NegativeVolume", VolumeRole::negative},
+// What PrusaSlicer and its descendants call them. All others are parts of the model, and what is
+// unknown of them is kept to be told.
+void set_role(std::string_view name, ProjectVolume& volume) {
+  constexpr std::array<std::pair<std::string_view, VolumeRole>, 11> kNames = {{
+      {"", VolumeRole::model},
+      {"modelpart", VolumeRole::model},
+      {"normal_part", VolumeRole::model},
+      {"negativevolume", VolumeRole::negative},
       {"negative_part", VolumeRole::negative},
-      {"ParameterModifier", VolumeRole::modifier},
+      {"parametermodifier", VolumeRole::modifier},
       {"modifier_part", VolumeRole::modifier},
-      {"SupportBlocker", VolumeRole::support_blocker},
+      {"supportblocker", VolumeRole::support_blocker},
       {"support_blocker", VolumeRole::support_blocker},
-      {"SupportEnforcer", VolumeRole::support_enforcer},
+      {"supportenforcer", VolumeRole::support_enforcer},
       {"support_enforcer", VolumeRole::support_enforcer},
   }};
+  const std::string word = in_lower_case(name);
   const auto* const found = std::find_if(kNames.begin(), kNames.end(),
-                                         [&](const auto& one) { return one.first == name; });
-  return found == kNames.end() ? VolumeRole::model : found->second;
+                                         [&](const auto& one) { return one.first == word; });
+  volume.role = found == kNames.end() ? VolumeRole::model : found->second;
+  volume.unknown_role = found == kNames.end() ? std::string(name) : std::string();
 }
 
 // An id or an index; kNone where it is none.
@@ -200,7 +207,7 @@ class ConfigReader final : public XmlHandler {
     volume.part = number(attributes, "id");
     volume.first = number(attributes, "firstid");
     volume.last = number(attributes, "lastid");
-    volume.role = role_named(attributes.find("subtype").value_or(""));
+    set_role(attributes.find("subtype").value_or(""), volume);
     const auto fresh = static_cast<std::uint32_t>(objects_.back().volumes.size() - 1);
     if (volume.part != kNone) objects_.back().volume_of_part.try_emplace(volume.part, fresh);
     open_spot(Spot::Kind::volume);
@@ -224,7 +231,7 @@ class ConfigReader final : public XmlHandler {
     ProjectVolume& volume = object.volumes.back();
     if (key == "name") volume.name = value;
     if (key == "modifier" && value == "1") volume.role = VolumeRole::modifier;
-    if (key == "volume_type" || key == "part_type") volume.role = role_named(value);
+    if (key == "volume_type" || key == "part_type") set_role(value, volume);
   }
 
   // What slicing left: other parts of the package.

@@ -29,6 +29,7 @@ namespace meshrepair {
 
 struct ProjectVolume {
   VolumeRole role = VolumeRole::model;
+  std::string unknown_role;  // what stands there, where it is none that is known
   std::string name;
   std::uint32_t part = kNone;                 // the object that it is
   std::uint32_t first = kNone, last = kNone;  // or its triangles in the mesh of its object
