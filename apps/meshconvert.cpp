@@ -40,15 +40,12 @@ ReadResult read_input(SoupFormat output, StepOptions& options, Run& run, Finding
 
 void convert(StepOptions options, Run& run, Findings& findings) {
   WriteOptions format = mesh_format(options);
-  ReadResult input = read_input(*format.format, options, run, findings);
-  AnySoup moved;
-  moved.soup = std::move(input.soup);
-  moved.scene = std::move(input.scene);
-  moved.attributes = std::move(input.attributes);
-  move_origin_stage(options.origin, *format.format, Precision::float64, moved, findings);
-  input.soup = std::move(moved.soup);
-  input.scene = std::move(moved.scene);
-  input.attributes = std::move(moved.attributes);
+  ReadResult read = read_input(*format.format, options, run, findings);
+  AnySoup input;
+  input.soup = std::move(read.soup);
+  input.attributes = std::move(read.attributes);
+  input.scene = std::move(read.scene);
+  move_origin_stage(options.origin, *format.format, Precision::float64, input, findings);
   const TriangleSoup& soup = input.soup;
   const Attributes& all = input.attributes;
   check_picture(options.picture, all);

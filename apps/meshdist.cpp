@@ -9,6 +9,7 @@
 
 #include <base/error.h>
 #include <check/mesh_distance.h>
+#include <mesh/far_coordinates.h>
 
 #include "options/file_kinds.h"
 #include "page/distance_page.h"
@@ -63,9 +64,7 @@ void bring_to_same_unit(const Read& first, Read& second, std::string& lines) {
 // Files may name offsets that were subtracted from their coordinates.
 void bring_to_same_origin(const Read& first, Read& second) {
   const Vec3d none = Vec3d::Zero();
-  const Vec3d move = second.offset.value_or(none) - first.offset.value_or(none);
-  if (move == none) return;
-  for (Vec3d& point : second.soup.points) point += move;
+  move_points(second.soup.points, second.offset.value_or(none) - first.offset.value_or(none));
 }
 
 // The sections of the report, which stays as it is.

@@ -51,7 +51,7 @@ double spacing_of(const AnySoup& input) {
 
 // Where meshes have places, these move the other way.
 void subtract(const Vec3d& offset, bool has_places, AnySoup& input) {
-  for (Vec3d& point : points_of(input)) point -= offset;
+  move_points(points_of(input), -offset);
   if (!has_places) return;
   for (SceneInstance& instance : input.scene.instances) {
     instance.placement.offset += instance.placement.linear * offset;
@@ -159,10 +159,7 @@ void CommonOrigin::apply(std::optional<Vec3d> known, TriangleSoup& soup, const F
     if (options_.offset) origin_ += *options_.offset;
     if (options_.automatic) origin_ += fitting_offset(soup.points, typical_edge(soup));
   }
-  const Vec3d move = own - origin_;
-  if (move != Vec3d::Zero()) {
-    for (Vec3d& point : soup.points) point += move;
-  }
+  move_points(soup.points, own - origin_);
   if (output_ && is_read_as_single(*output_, Precision::float64) && !options_.stays) {
     warn_of_single_precision(soup.points, typical_edge(soup), findings);
   }

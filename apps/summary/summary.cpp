@@ -68,15 +68,6 @@ std::string dropped_triangles(const CleanReport& clean) {
   return texts.empty() ? std::string() : "triangles dropped: " + joined(texts);
 }
 
-// The mesh in hand is not that of the file.
-bool is_difference(const Findings& findings) {
-  if (!findings.mesh_read) return false;
-  const auto& volumes = findings.mesh_read->volumes;
-  return std::any_of(volumes.begin(), volumes.end(), [](const ModelVolume& volume) {
-    return volume.fate == VolumeFate::subtracted;
-  });
-}
-
 std::vector<std::string> troubles_of(const Findings& findings) {
   const Topology& input = findings.repair.input;
   std::vector<std::string> texts;
@@ -92,7 +83,7 @@ std::vector<std::string> troubles_of(const Findings& findings) {
         number_of(input.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"));
   }
   if (findings.repair.kept_valid) {
-    texts.emplace_back(is_difference(findings)
+    texts.emplace_back(findings.mesh_read && is_difference(findings.mesh_read->volumes)
                            ? "nothing: what the subtraction leaves bounds a solid"
                            : "nothing: the mesh bounds a solid and is not changed");
   } else if (texts.empty()) {

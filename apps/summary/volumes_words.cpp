@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "summary/volumes_words.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <tuple>
@@ -32,6 +33,12 @@ std::string volumes_words(const std::vector<ModelVolume>& volumes) {
     words += fate == VolumeFate::left_out ? " left out" : " " + std::string(fate_name(fate));
   }
   return words;
+}
+
+bool is_difference(const std::vector<ModelVolume>& volumes) {
+  return std::any_of(volumes.begin(), volumes.end(), [](const ModelVolume& volume) {
+    return volume.fate == VolumeFate::subtracted;
+  });
 }
 
 }  // namespace meshrepair

@@ -13,4 +13,7 @@ namespace meshrepair {
 // none.
 [[nodiscard]] std::string volumes_words(const std::vector<ModelVolume>& volumes);
 
+// Whether the mesh in hand is not that of the file: negative volumes are subtracted from it.
+[[nodiscard]] bool is_difference(const std::vector<ModelVolume>& volumes);
+
 }  // namespace meshrepair

@@ -9,6 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "report/words.h"
+#include "summary/volumes_words.h"
 #include "terminal/warning_log.h"
 
 namespace meshrepair {
@@ -81,6 +82,18 @@ double share_of_surface(double area, const RepairReport& repair) {
   return area > 0 ? area / (area + repair.output_area) : 0;
 }
 
+// A purpose may have asked for that, and whoever subtracts volumes for their hollows.
+void warn_of_filled_difference(const Findings& findings) {
+  const std::size_t voids = findings.repair.inside.filled_voids;
+  if (voids == 0 || !findings.mesh_read || !is_difference(findings.mesh_read->volumes)) return;
+  warn(findings.input_name(),
+       {WarningCode::hollow_filled,
+        fmt::format("{} filled after negative volumes were subtracted; --cavities keep leaves "
+                    "what they hollow out",
+                    number_of(voids, "void")),
+        {{"voids", voids}}});
+}
+
 void warn_of_poking_walls(const Findings& findings) {
   constexpr double kWorthAWarning = 0.01;
   const InsideReport& inside = findings.repair.inside;
@@ -142,6 +155,7 @@ void warn_of_findings(Findings& findings) {
   warn_of_lost_surface(findings);
   warn_of_made_up_surface(findings);
   warn_of_filled_walls(findings);
+  warn_of_filled_difference(findings);
   warn_of_poking_walls(findings);
   warn_of_unknown_parts(findings);
   warn_of_coarse_numbers(findings);

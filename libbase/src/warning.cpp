@@ -26,7 +26,7 @@ constexpr auto kWarningKinds = std::to_array<WarningKind>({
     {"W-BELOW-GRID", true, "Triangles smaller than the step of the working grid are dropped"},
     {"W-THIN-PARTS-LOST", true, "Parts too thin for the numbers of OUT are left out"},
     {"W-SLITS-FILLED", true, "Slits too narrow for the numbers of OUT are filled"},
-    {"W-HOLLOW-FILLED", true, "The hollow between two walls is filled, as only pinholes lead in"},
+    {"W-HOLLOW-FILLED", true, "The hollow of double walls, or of negative volumes, is filled"},
     {"W-WALL-POKES-OUT", true, "The wall of a cavity pokes out of the solid around it"},
     {"W-POINTS-NOISY", true, "The points are noisy, and the triangles of few of them agree"},
     {"W-POINTS-UNUSED", true, "Many points are not on the result"},
@@ -40,7 +40,7 @@ constexpr auto kWarningKinds = std::to_array<WarningKind>({
     {"W-PACKAGE-PARTS-LOST", false, "Parts of the package are not written again"},
     {"W-PICTURE-UNREADABLE", false, "A picture cannot be read and is not drawn"},
     {"W-PARTS-ALL-KEPT", false, "No part is removed, as the surface is not closed"},
-    {"W-ONE-BLOCK", false, "The input is a single block, or blocks lack its attributes"},
+    {"W-ONE-BLOCK", false, "The input is a single block, and several machines do not help"},
     {"W-STATES-NOT-SAVED", false, "Saved states are ignored, or none are saved"},
     {"W-REPORT-NOT-WRITTEN", false, "The report cannot be written"},
 });

@@ -53,6 +53,7 @@ std::optional<MorphTarget> morph_target_of(const CornerAttribute& attribute) {
   const char* const last = name.data() + name.size();
   const auto [end, error] = std::from_chars(name.data() + kBegin.size(), last, target.number);
   if (error != std::errc() || end == last || *end != '/') return std::nullopt;
+  if (target.number >= kMostMorphTargets) return std::nullopt;
   target.semantic = name.substr(static_cast<std::size_t>(end - name.data()) + 1);
   const bool is_known =
       target.semantic == "POSITION" || target.semantic == "NORMAL" || target.semantic == "TANGENT";

@@ -4,22 +4,14 @@
 #include <limits>
 #include <map>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <base/ids.h>
 #include <mesh/triangle_paint.h>
 
 namespace meshrepair {
-namespace {
-
-using PaintCorners = std::array<PaintPlace, 3>;
-
-constexpr std::size_t kDeepestPaint =
-    24;  // as far as halves of halves are exact, and no stack ends
-constexpr int kDeepestPiece = 5;
-// Two triangles have less in common where they only touch; the sides of the painted one are 1 long.
-constexpr double kTouch = 1e-9;
-constexpr PaintCorners kWholeTriangle = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+namespace internal {
 
 struct PaintNode {
   std::uint32_t sides = 0;  // that are divided
@@ -28,28 +20,6 @@ struct PaintNode {
   std::array<std::uint32_t, 4> pieces = {0, 0, 0, 0};
 };
 
-PaintPlace middle(const PaintPlace& a, const PaintPlace& b) {
-  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-}
-
-std::array<PaintCorners, 4> pieces_of(std::uint32_t sides, std::uint32_t first,
-                                      const PaintCorners& corners) {
-  const PaintPlace &a = corners[first], &b = corners[(first + 1) % 3],
-                   &c = corners[(first + 2) % 3];
-  const PaintPlace ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-  if (sides == 1) return {{{a, b, bc}, {bc, c, a}, {}, {}}};
-  if (sides == 2) return {{{a, ab, ca}, {ab, b, ca}, {b, c, ca}, {}}};
-  return {{{a, ab, ca}, {ab, b, bc}, {bc, c, ca}, {ab, bc, ca}}};
-}
-
-std::uint32_t digit_of(char c) {
-  if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0');
-  if (c >= 'A' && c <= 'F') return static_cast<std::uint32_t>(c - 'A') + 10;
-  if (c >= 'a' && c <= 'f') return static_cast<std::uint32_t>(c - 'a') + 10;
-  return kNone;
-}
-
-// Of a code.
 class PaintTree {
  public:
   explicit PaintTree(std::string_view code) : rest_(code) {
@@ -61,6 +31,16 @@ class PaintTree {
   [[nodiscard]] const PaintNode& operator[](std::uint32_t node) const { return nodes_[node]; }
 
  private:
+  // As far as halves of halves are exact, and no stack ends.
+  static constexpr std::size_t kDeepestPaint = 24;
+
+  static std::uint32_t digit_of(char c) {
+    if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0');
+    if (c >= 'A' && c <= 'F') return static_cast<std::uint32_t>(c - 'A') + 10;
+    if (c >= 'a' && c <= 'f') return static_cast<std::uint32_t>(c - 'a') + 10;
+    return kNone;
+  }
+
   std::uint32_t take() {
     if (rest_.empty()) return kNone;
     const std::uint32_t digit = digit_of(rest_.back());
@@ -101,6 +81,34 @@ class PaintTree {
   std::vector<PaintNode> nodes_;
   bool is_good_ = false;
 };
+
+}  // namespace internal
+
+namespace {
+
+using internal::PaintNode;
+using internal::PaintTree;
+
+using PaintCorners = std::array<PaintPlace, 3>;
+
+constexpr int kDeepestPiece = 5;
+// Two triangles have less in common where they only touch; the sides of the painted one are 1 long.
+constexpr double kTouch = 1e-9;
+constexpr PaintCorners kWholeTriangle = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+PaintPlace middle(const PaintPlace& a, const PaintPlace& b) {
+  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+}
+
+std::array<PaintCorners, 4> pieces_of(std::uint32_t sides, std::uint32_t first,
+                                      const PaintCorners& corners) {
+  const PaintPlace &a = corners[first], &b = corners[(first + 1) % 3],
+                   &c = corners[(first + 2) % 3];
+  const PaintPlace ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+  if (sides == 1) return {{{a, b, bc}, {bc, c, a}, {}, {}}};
+  if (sides == 2) return {{{a, ab, ca}, {ab, b, ca}, {b, c, ca}, {}}};
+  return {{{a, ab, ca}, {ab, b, bc}, {bc, c, ca}, {ab, bc, ca}}};
+}
 
 // Digits in the order in which they are read.
 using PaintDigits = std::vector<std::uint8_t>;
@@ -305,30 +313,30 @@ void add_areas(const PaintTree& tree, std::uint32_t number, double area,
 
 }  // namespace
 
-std::string paint_within(std::string_view code, const std::array<PaintPlace, 3>& corners) {
-  const PaintTree tree(code);
-  if (!tree.is_good()) return {};
-  if (tree[0].sides == 0) return text_of(state_digits(tree[0].state));
-  return text_of(same_corners(kWholeTriangle, corners)
-                     ? PaintReorder(tree).run(0, kWholeTriangle, corners)
-                     : PaintResample(tree).run(corners, 0));
+PaintCode::PaintCode(std::string_view text) {
+  auto tree = std::make_shared<const PaintTree>(text);
+  if (tree->is_good()) tree_ = std::move(tree);
 }
 
-std::optional<std::uint32_t> main_state(std::string_view code) {
-  const PaintTree tree(code);
-  if (!tree.is_good()) return std::nullopt;
+std::string PaintCode::within(const std::array<PaintPlace, 3>& corners) const {
+  if (!tree_) return {};
+  if ((*tree_)[0].sides == 0) return text_of(state_digits((*tree_)[0].state));
+  return text_of(same_corners(kWholeTriangle, corners)
+                     ? PaintReorder(*tree_).run(0, kWholeTriangle, corners)
+                     : PaintResample(*tree_).run(corners, 0));
+}
+
+std::optional<std::uint32_t> PaintCode::main_state() const {
+  if (!tree_) return std::nullopt;
   std::map<std::uint32_t, double> areas;
-  add_areas(tree, 0, 1, areas);
+  add_areas(*tree_, 0, 1, areas);
   // Of equal ones the first.
   return std::max_element(areas.begin(), areas.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
-bool is_divided(std::string_view code) {
-  const PaintTree tree(code);
-  return tree.is_good() && tree[0].sides > 0;
-}
+bool PaintCode::is_divided() const { return tree_ && (*tree_)[0].sides > 0; }
 
 void turn_paint(TrianglePaint& paint, std::span<const std::size_t> triangles) {
   TriangleLabels& codes = paint.codes;
@@ -340,7 +348,7 @@ void turn_paint(TrianglePaint& paint, std::span<const std::size_t> triangles) {
     if (code == kNone) continue;
     const auto [found, is_new] = turned.try_emplace(code, kNone);
     if (is_new) {
-      std::string text = paint_within(codes.names[code], kTurned);
+      std::string text = PaintCode(codes.names[code]).within(kTurned);
       if (!text.empty()) {
         found->second = static_cast<std::uint32_t>(codes.names.size());
         codes.names.push_back(std::move(text));

@@ -26,8 +26,9 @@ void check_paint(const meshrepair::Attributes& attributes) {
   const std::array<PaintPlace, 3> piece = {{{0.7, 0.2, 0.1}, {0.1, 0.6, 0.3}, {0.2, 0.1, 0.7}}};
   for (const TrianglePaint& paint : attributes.paints) {
     for (const std::string& code : paint.codes.names) {
-      const std::string within = paint_within(code, piece);
-      testing::require(within.empty() || main_state(within).has_value(), "a piece has no code");
+      const std::string within = PaintCode(code).within(piece);
+      testing::require(within.empty() || PaintCode(within).main_state().has_value(),
+                       "a piece has no code");
     }
   }
 }

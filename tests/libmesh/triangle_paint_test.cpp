@@ -116,7 +116,7 @@ TEST(TrianglePaint, CornersInAnotherOrderHaveTheSamePaint) {
     Triangle corners = kUnit;
     std::sort(corners.begin(), corners.end());
     do {
-      const std::string again = paint_within(code, corners);
+      const std::string again = PaintCode(code).within(corners);
       const auto after = pieces_in(again, corners);
       for (int k = 0; k < 20; ++k) {
         const PaintPlace place = random_place(random);
@@ -125,7 +125,7 @@ TEST(TrianglePaint, CornersInAnotherOrderHaveTheSamePaint) {
         ASSERT_EQ(state_in(after, place), state) << code << " as " << again;
       }
     } while (std::next_permutation(corners.begin(), corners.end()));
-    EXPECT_EQ(paint_within(code, kUnit), code == "0" ? "" : code);
+    EXPECT_EQ(PaintCode(code).within(kUnit), code == "0" ? "" : code);
   }
 }
 
@@ -137,7 +137,7 @@ TEST(TrianglePaint, PiecesHaveThePaintOfTheirPlace) {
     const auto before = pieces_in(code);
     const Triangle corners = {random_place(random), random_place(random), random_place(random)};
     if (std::abs(area_of(corners[0], corners[1], corners[2])) < 0.02) continue;
-    const auto after = pieces_in(paint_within(code, corners), corners);
+    const auto after = pieces_in(PaintCode(code).within(corners), corners);
     for (int k = 0; k < 50; ++k) {
       const PaintPlace place = place_in(corners, random_place(random));
       const int state = state_in(before, place), now = state_in(after, place);
@@ -152,27 +152,27 @@ TEST(TrianglePaint, PiecesHaveThePaintOfTheirPlace) {
 
 TEST(TrianglePaint, APieceInOneStateIsOne) {
   const Triangle small = {{{0.9, 0.05, 0.05}, {0.8, 0.1, 0.1}, {0.9, 0, 0.1}}};
-  EXPECT_EQ(paint_within("04483", small), "");  // at the first corner, which is read last
-  EXPECT_EQ(paint_within("48443", small), "4");
-  EXPECT_EQ(paint_within("0C", small), "0C");
-  EXPECT_EQ(paint_within("44448", small), "");  // no code: something is left
+  EXPECT_EQ(PaintCode("04483").within(small), "");  // at the first corner, which is read last
+  EXPECT_EQ(PaintCode("48443").within(small), "4");
+  EXPECT_EQ(PaintCode("0C").within(small), "0C");
+  EXPECT_EQ(PaintCode("44448").within(small), "");  // no code: something is left
 }
 
 TEST(TrianglePaint, WhatIsNoCodeIsNoPaint) {
   const std::string deep = std::string(200, '4') + std::string(100, '1');
   for (const std::string code : {"", "G", "3", "F", "44F", "C", "FC", "-4", "44", deep.c_str()}) {
-    EXPECT_EQ(paint_within(code, kUnit), "") << code;
-    EXPECT_EQ(main_state(code), std::nullopt) << code;
+    EXPECT_EQ(PaintCode(code).within(kUnit), "") << code;
+    EXPECT_EQ(PaintCode(code).main_state(), std::nullopt) << code;
   }
 }
 
 TEST(TrianglePaint, MainStateIsThatOfMostArea) {
-  EXPECT_EQ(main_state("4"), 1u);
-  EXPECT_EQ(main_state("0C"), 3u);
-  EXPECT_EQ(main_state("1FC"), 19u);
-  EXPECT_EQ(main_state("4881"), std::nullopt);
-  EXPECT_EQ(main_state("481"), 1u);   // halves
-  EXPECT_EQ(main_state("4882"), 2u);  // a half, which is read first, and two quarters
+  EXPECT_EQ(PaintCode("4").main_state(), 1u);
+  EXPECT_EQ(PaintCode("0C").main_state(), 3u);
+  EXPECT_EQ(PaintCode("1FC").main_state(), 19u);
+  EXPECT_EQ(PaintCode("4881").main_state(), std::nullopt);
+  EXPECT_EQ(PaintCode("481").main_state(), 1u);   // halves
+  EXPECT_EQ(PaintCode("4882").main_state(), 2u);  // a half, which is read first, and two quarters
 }
 
 }  // namespace

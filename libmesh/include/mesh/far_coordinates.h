@@ -2,8 +2,8 @@
 // Coordinates far from the origin, such as those of surveys (UTM: 500000 and 4649776), for programs
 // and formats with single precision, whose numbers are half a unit apart there.
 //
-//   if (const Vec3d offset = fitting_offset(soup.points); offset != Vec3d::Zero())
-//     for (Vec3d& point : soup.points) point -= offset;
+//   const Vec3d offset = fitting_offset(soup.points, typical_edge(soup));
+//   move_points(soup.points, -offset);
 //
 // Files without a place for such an offset have it in a comment at their beginning:
 // "# offset 500000 4649776 0" in OBJ, OFF and lists of points, "comment offset ..." in PLY. The
@@ -39,6 +39,8 @@ struct SinglePrecisionLoss {
 // bounding box is large; 0 in axes where they are not. Then the difference of a coordinate and the
 // offset is exact, and so is their sum later. All 0 where single precision holds the points well.
 [[nodiscard]] Vec3d fitting_offset(std::span<const Vec3d> points, double spacing);
+
+void move_points(std::span<Vec3d> points, const Vec3d& by);
 
 // "offset 500000 4649776 0", for a comment.
 [[nodiscard]] std::string offset_comment(const Vec3d& offset);

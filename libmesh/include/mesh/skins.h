@@ -33,8 +33,11 @@ class SkinMixer {
   std::vector<std::pair<double, double>> joints_;  // and their weights
 };
 
-// What a morph target adds to, and its number. Such attributes are `other` ones with names like
-// "TARGET_0/POSITION", of three numbers; nothing for others.
+// Files with few bytes could name very large numbers, and all below are written.
+inline constexpr std::size_t kMostMorphTargets = 4096;
+
+// What a morph target adds to, and its number below kMostMorphTargets. Such attributes are `other`
+// ones with names like "TARGET_0/POSITION", of three numbers; nothing for others.
 struct MorphTarget {
   std::uint32_t number = 0;
   std::string_view semantic;  // POSITION, NORMAL or TANGENT

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,20 +25,32 @@
 
 namespace meshrepair {
 
+namespace internal {
+class PaintTree;
+}
+
 // Shares of the three corners of the painted triangle.
 using PaintPlace = std::array<double, 3>;
 
-// The code of a triangle that lies in the painted one, by its corners: exact where these are the
-// same corners in another order, else down to pieces of a 32nd of its sides. Empty: there is no
-// paint, or the code is none, or divides pieces of pieces more than 24 times.
-[[nodiscard]] std::string paint_within(std::string_view code,
-                                       const std::array<PaintPlace, 3>& corners);
+// A code that is read once, for all triangles that lie in the painted one.
+class PaintCode {
+ public:
+  explicit PaintCode(std::string_view text);
 
-// The state of most of the area; nothing where the code is none.
-[[nodiscard]] std::optional<std::uint32_t> main_state(std::string_view code);
+  // The code of a triangle that lies in the painted one, by its corners: exact where these are the
+  // same corners in another order, else down to pieces of a 32nd of its sides. Empty: there is no
+  // paint, or the code is none, or divides pieces of pieces more than 24 times.
+  [[nodiscard]] std::string within(const std::array<PaintPlace, 3>& corners) const;
 
-// Whether there is a code, and it divides the triangle.
-[[nodiscard]] bool is_divided(std::string_view code);
+  // The state of most of the area; nothing where the code is none.
+  [[nodiscard]] std::optional<std::uint32_t> main_state() const;
+
+  // Whether it is a code, and divides the triangle.
+  [[nodiscard]] bool is_divided() const;
+
+ private:
+  std::shared_ptr<const internal::PaintTree> tree_;  // null: it is no code
+};
 
 // For triangles whose second and third corners change places.
 void turn_paint(TrianglePaint& paint, std::span<const std::size_t> triangles);

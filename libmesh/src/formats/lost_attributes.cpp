@@ -106,7 +106,9 @@ class Finder {
     for (const TrianglePaint& paint : all_.paints) {
       if (&paint != filaments || !are_materials) {
         add("'" + paint.name + "'");
-      } else if (std::any_of(paint.codes.names.begin(), paint.codes.names.end(), is_divided)) {
+      } else if (std::any_of(
+                     paint.codes.names.begin(), paint.codes.names.end(),
+                     [](const std::string& code) { return PaintCode(code).is_divided(); })) {
         add("'" + paint.name + "' of parts of triangles");
       }
     }

@@ -24,7 +24,7 @@ void make_materials_of_paint(Attributes& attributes) {
   std::map<std::uint32_t, std::uint32_t> number_of;  // materials of filaments, which count from 1
   std::vector<std::uint32_t> filament_of_code;
   for (const std::string& code : paint->codes.names) {
-    filament_of_code.push_back(main_state(code).value_or(0));
+    filament_of_code.push_back(PaintCode(code).main_state().value_or(0));
     if (filament_of_code.back() > 0) number_of.emplace(filament_of_code.back(), 0);
   }
   for (auto& [filament, number] : number_of) {

@@ -40,7 +40,7 @@ void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
 // than to be parallel has the normals of its own plane.
 //
 // Paint of slicers stays on whole triangles, bit for bit, and pieces have that of their place, see
-// paint_within(); patches have none.
+// PaintCode::within(); patches have none.
 //
 // `attributes` are of `input`, of which `surface` was made. Linear; on several threads.
 [[nodiscard]] Attributes transfer_attributes(const TriangleSoup& input,

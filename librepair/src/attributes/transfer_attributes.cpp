@@ -225,11 +225,13 @@ class PaintTransfer {
   [[nodiscard]] TrianglePaint run(const TrianglePaint& given) const {
     TrianglePaint result{given.name, {given.codes.names, {}}};
     std::unordered_map<std::string, std::uint32_t> numbers;
+    std::unordered_map<std::uint32_t, PaintCode> codes;  // by their numbers, read once
     for (std::size_t t = 0; t < sources_.size(); ++t) {
       const std::uint32_t source = sources_[t];
       std::uint32_t code = source == Surface::kNoSource ? kNone : given.codes.of_triangle[source];
       if (code != kNone && !is_whole(t, source)) {
-        code = number_of(code_of(given.codes.names[code], t, source), result.codes.names, numbers);
+        const auto known = codes.try_emplace(code, given.codes.names[code]).first;
+        code = number_of(code_of(known->second, t, source), result.codes.names, numbers);
       }
       result.codes.of_triangle.push_back(code);
     }
@@ -241,7 +243,7 @@ class PaintTransfer {
     return places_of(surface_.mesh, t) == places_of(input_, source);
   }
 
-  [[nodiscard]] std::string code_of(const std::string& code, std::size_t t,
+  [[nodiscard]] std::string code_of(const PaintCode& code, std::size_t t,
                                     std::uint32_t source) const {
     const Places from = places_of(input_, source), to = places_of(surface_.mesh, t);
     std::array<PaintPlace, 3> corners;
@@ -257,7 +259,7 @@ class PaintTransfer {
       if (!shares) return {};
       corners[k] = *shares;
     }
-    return paint_within(code, corners);
+    return code.within(corners);
   }
 
   // The names of the input are different ones already; those of pieces come behind.

@@ -102,6 +102,11 @@ Vec3d fitting_offset(std::span<const Vec3d> points, double spacing) {
   return offset;
 }
 
+void move_points(std::span<Vec3d> points, const Vec3d& by) {
+  if (by == Vec3d::Zero()) return;  // not even the sign of a zero changes
+  for (Vec3d& point : points) point += by;
+}
+
 std::string offset_comment(const Vec3d& offset) {
   std::string text = "offset";
   for (const double coordinate : offset) {

@@ -9,8 +9,10 @@
 #include <base/ids.h>
 #include <mesh/mesh_limits.h>
 #include <mesh/read_guard.h>
+#include <mesh/skins.h>
 
 #include "gltf_draco.h"
+#include "gltf_movement.h"
 
 namespace meshrepair {
 namespace {
@@ -109,7 +111,7 @@ class PrimitiveReader {
 
   void read_attributes() {
     for (const auto& [name, value] : attributes_->items()) {
-      if (!is_wanted(name) || has(name)) continue;
+      if (!is_wanted(name) || has(name) || name.starts_with(kGltfTarget)) continue;
       take(name, GltfAccessor(document_, buffers_, document_.whole_of(value, "attribute")));
     }
   }
@@ -133,11 +135,12 @@ class PrimitiveReader {
   void read_targets() {
     const GltfJson* const targets = gltf_member(json_, "targets");
     if (targets == nullptr) return;
-    bool is_whole = source_.options.attributes && !corners_ && targets->is_array();
+    bool is_whole = source_.options.attributes && !corners_ && targets->is_array() &&
+                    targets->size() <= kMostMorphTargets;
     for (std::size_t i = 0; is_whole && i < targets->size(); ++i) {
       if (!(*targets)[i].is_object()) continue;
       for (const auto& [name, number] : (*targets)[i].items()) {
-        is_whole = read_target("TARGET_" + std::to_string(i) + "/" + name, number) && is_whole;
+        is_whole = read_target(kGltfTarget + std::to_string(i) + "/" + name, number) && is_whole;
       }
     }
     if (!is_whole) ++oddities_.morphed;

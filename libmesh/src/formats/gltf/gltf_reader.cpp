@@ -69,7 +69,7 @@ class GltfReader {
         {WarningCode::objects_left_out,
          counted(count, "node") + " with meshes left out: hidden (--scene each keeps them)" +
              (names.empty() ? "" : ": " + names),
-         {{"objects", count}}});
+         {{"count", count}}});
   }
 
   // Files may have them of very few bytes.

@@ -5,11 +5,73 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
+#include <base/ids.h>
+
+#include "common/model_values.h"
+
 namespace meshrepair {
+namespace {
+
+BeamCap cap_of(std::string_view word, BeamCap otherwise) {
+  if (word == "sphere") return BeamCap::sphere;
+  if (word == "hemisphere") return BeamCap::hemisphere;
+  return word == "butt" ? BeamCap::butt : otherwise;
+}
+
+// Of the extension's own attributes; those of balls are of an extension of it.
+std::string_view plain_name(std::string_view name) { return name.substr(name.rfind('|') + 1); }
+
+}  // namespace
+
+BeamLattice read_lattice(const XmlAttributes& attributes) {
+  BeamLattice lattice;
+  attributes.visit([&](std::string_view full_name, std::string_view value) {
+    const std::string_view name = plain_name(full_name);
+    if (name == "radius") (void)read_model_number(value, lattice.radius);
+    if (name == "minlength") (void)read_model_number(value, lattice.shortest);
+    if (name == "ballradius") (void)read_model_number(value, lattice.ball_radius);
+    if (name == "ballmode") {
+      lattice.has_ball_everywhere = value == "all";
+      lattice.has_balls = value == "all" || value == "mixed";
+    }
+    if (name == "cap") lattice.cap = cap_of(value, BeamCap::sphere);
+    if (name == "clippingmode") lattice.is_clipped = value != "none";
+  });
+  return lattice;
+}
+
+Beam read_beam(const XmlAttributes& attributes, const BeamLattice& lattice) {
+  Beam beam{{kNone, kNone}, {lattice.radius, lattice.radius}, {lattice.cap, lattice.cap}};
+  bool has_second = false;
+  attributes.visit([&](std::string_view name, std::string_view value) {
+    if (name == "v1") beam.points[0] = read_model_index(value);
+    if (name == "v2") beam.points[1] = read_model_index(value);
+    if (name == "r1") {
+      (void)read_model_number(value, beam.radii[0]);
+      if (!has_second) beam.radii[1] = beam.radii[0];
+    }
+    if (name == "r2") has_second = read_model_number(value, beam.radii[1]);
+    if (name == "cap1") beam.caps[0] = cap_of(value, lattice.cap);
+    if (name == "cap2") beam.caps[1] = cap_of(value, lattice.cap);
+  });
+  return beam;
+}
+
+BeamBall read_ball(const XmlAttributes& attributes, const BeamLattice& lattice) {
+  BeamBall ball{kNone, lattice.ball_radius};
+  attributes.visit([&](std::string_view name, std::string_view value) {
+    if (name == "vindex") ball.point = read_model_index(value);
+    if (name == "r") (void)read_model_number(value, ball.radius);
+  });
+  return ball;
+}
+
 namespace {
 
 using Direction = std::array<double, 2>;  // cosine and sine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Beam lattices of 3MF, and the closed bodies that they stand for.
+// Beam lattices of 3MF, as its elements say them, and the closed bodies that they stand for.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <mesh/soup.h>
+
+#include "common/xml_stream.h"
 
 namespace meshrepair {
 
@@ -31,9 +33,17 @@ struct BeamLattice {
   BeamCap cap = BeamCap::sphere;
   bool has_balls = false;            // else those that are listed are none
   bool has_ball_everywhere = false;  // where a beam ends
+  bool is_clipped = false;           // by a mesh
   std::vector<Beam> beams;
   std::vector<BeamBall> balls;
 };
+
+// Without its beams and balls.
+[[nodiscard]] BeamLattice read_lattice(const XmlAttributes& attributes);
+
+// What they do not say is as in the lattice.
+[[nodiscard]] Beam read_beam(const XmlAttributes& attributes, const BeamLattice& lattice);
+[[nodiscard]] BeamBall read_ball(const XmlAttributes& attributes, const BeamLattice& lattice);
 
 // How many triangles they become at most.
 [[nodiscard]] std::size_t most_triangles_of(const BeamLattice& lattice, std::size_t sides);

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "model_values.h"
+#include "common/model_values.h"
+#include "formats/gltf/common/gltf_json.h"
 
 namespace meshrepair {
 namespace {
@@ -20,11 +21,11 @@ std::string_view without(std::string_view text, std::string_view around) {
   return text.substr(first, text.find_last_not_of(around) - first + 1);
 }
 
-std::vector<std::string_view> split(std::string_view list, char separator) {
-  std::vector<std::string_view> words;
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> words;
   while (words.size() < kMostFilaments) {
-    const std::size_t end = list.find(separator);
-    words.push_back(without(list.substr(0, end), " \t\r\n\""));
+    const std::size_t end = list.find(';');
+    words.emplace_back(without(list.substr(0, end), " \t\r\n\""));
     if (end == std::string_view::npos) return words;
     list.remove_prefix(end + 1);
   }
@@ -32,7 +33,7 @@ std::vector<std::string_view> split(std::string_view list, char separator) {
 }
 
 // What stands behind "; NAME = " in a line of its own.
-std::vector<std::string_view> list_in_lines(std::string_view settings, std::string_view name) {
+std::vector<std::string> list_in_lines(std::string_view settings, std::string_view name) {
   const std::string key = "; " + std::string(name) + " =";
   std::size_t at = settings.find(key);
   while (at != std::string_view::npos && at > 0 && settings[at - 1] != '\n') {
@@ -40,15 +41,18 @@ std::vector<std::string_view> list_in_lines(std::string_view settings, std::stri
   }
   if (at == std::string_view::npos) return {};
   const std::string_view rest = settings.substr(at + key.size());
-  return split(rest.substr(0, rest.find('\n')), ';');
+  return split(rest.substr(0, rest.find('\n')));
 }
 
-std::vector<std::string_view> list_in_json(std::string_view settings, std::string_view name) {
-  const std::size_t at = settings.find('"' + std::string(name) + '"');
-  if (at == std::string_view::npos) return {};
-  const std::size_t first = settings.find('[', at), last = settings.find(']', at);
-  if (first == std::string_view::npos || last == std::string_view::npos || last < first) return {};
-  return split(settings.substr(first + 1, last - first - 1), ',');
+std::vector<std::string> list_in_json(const GltfJson& settings, const char* name) {
+  std::vector<std::string> words;
+  const GltfJson* const list = gltf_member(settings, name);
+  if (list == nullptr || !list->is_array()) return words;
+  for (const GltfJson& word : *list) {
+    if (words.size() == kMostFilaments) break;
+    words.push_back(word.is_string() ? word.get<std::string>() : std::string());
+  }
+  return words;
 }
 
 }  // namespace
@@ -58,12 +62,12 @@ bool is_print_settings(std::string_view key) {
 }
 
 Colours read_filament_colours(std::string_view settings) {
-  const bool is_json = without(settings, " \t\r\n").starts_with('{');
-  const auto list = [&](std::string_view name) {
-    return is_json ? list_in_json(settings, name) : list_in_lines(settings, name);
+  const GltfJson json = GltfJson::parse(settings, nullptr, false);
+  const auto list = [&](const char* name) {
+    return json.is_object() ? list_in_json(json, name) : list_in_lines(settings, name);
   };
-  const std::vector<std::string_view> filaments = list("filament_colour");
-  const std::vector<std::string_view> extruders = list("extruder_colour");
+  const std::vector<std::string> filaments = list("filament_colour");
+  const std::vector<std::string> extruders = list("extruder_colour");
   Colours colours;
   for (std::size_t i = 0; i < std::max(filaments.size(), extruders.size()); ++i) {
     std::optional<ModelColour> colour;

@@ -8,8 +8,8 @@
 
 #include <base/error.h>
 
+#include "common/model_values.h"
 #include "formats/common/part_names.h"
-#include "model_values.h"
 
 namespace meshrepair {
 namespace {

@@ -13,7 +13,7 @@
 #include <mesh/mesh_limits.h>
 #include <mesh/read_guard.h>
 
-#include "model_values.h"
+#include "common/model_values.h"
 #include "volume_ranges.h"
 
 namespace meshrepair {

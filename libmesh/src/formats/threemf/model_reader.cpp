@@ -12,8 +12,8 @@
 #include <mesh/edge_table.h>
 #include <mesh/mesh_limits.h>
 
+#include "common/model_values.h"
 #include "formats/common/part_names.h"
-#include "model_values.h"
 
 namespace meshrepair {
 
@@ -270,11 +270,12 @@ void ModelReader::open(Element element, const XmlAttributes& attributes) {
     case Element::triangle:
       return read_triangle(attributes);
     case Element::beam:
-      return read_beam(attributes);
+      return lattice_.beams.push_back(read_beam(attributes, lattice_));
     case Element::ball:
-      return read_ball(attributes);
+      return lattice_.balls.push_back(read_ball(attributes, lattice_));
     case Element::beamlattice:
-      return read_lattice(attributes);
+      lattice_ = read_lattice(attributes);
+      return;
     case Element::model:
       return read_model(attributes);
     case Element::object:
@@ -496,67 +497,13 @@ void ModelReader::end_mesh() {
   object().set_of_triangle = std::move(set_of);
 }
 
-namespace {
-
-BeamCap cap_of(std::string_view word, BeamCap otherwise) {
-  if (word == "sphere") return BeamCap::sphere;
-  if (word == "hemisphere") return BeamCap::hemisphere;
-  return word == "butt" ? BeamCap::butt : otherwise;
-}
-
-// Of the extension's own attributes; those of balls are of an extension of it.
-std::string_view plain_name(std::string_view name) { return name.substr(name.rfind('|') + 1); }
-
-}  // namespace
-
-void ModelReader::read_lattice(const XmlAttributes& attributes) {
-  lattice_ = {};
-  attributes.visit([&](std::string_view full_name, std::string_view value) {
-    const std::string_view name = plain_name(full_name);
-    if (name == "radius") (void)read_model_number(value, lattice_.radius);
-    if (name == "minlength") (void)read_model_number(value, lattice_.shortest);
-    if (name == "ballradius") (void)read_model_number(value, lattice_.ball_radius);
-    if (name == "ballmode") {
-      lattice_.has_ball_everywhere = value == "all";
-      lattice_.has_balls = value == "all" || value == "mixed";
-    }
-    if (name == "cap") lattice_.cap = cap_of(value, BeamCap::sphere);
-    if (name == "clippingmode" && value != "none") ++oddities_.clipped_lattices;
-  });
-}
-
-void ModelReader::read_beam(const XmlAttributes& attributes) {
-  Beam beam{{kNone, kNone}, {lattice_.radius, lattice_.radius}, {lattice_.cap, lattice_.cap}};
-  bool has_second = false;
-  attributes.visit([&](std::string_view name, std::string_view value) {
-    if (name == "v1") beam.points[0] = read_model_index(value);
-    if (name == "v2") beam.points[1] = read_model_index(value);
-    if (name == "r1") {
-      (void)read_model_number(value, beam.radii[0]);
-      if (!has_second) beam.radii[1] = beam.radii[0];
-    }
-    if (name == "r2") has_second = read_model_number(value, beam.radii[1]);
-    if (name == "cap1") beam.caps[0] = cap_of(value, lattice_.cap);
-    if (name == "cap2") beam.caps[1] = cap_of(value, lattice_.cap);
-  });
-  lattice_.beams.push_back(beam);
-}
-
-void ModelReader::read_ball(const XmlAttributes& attributes) {
-  BeamBall ball{kNone, lattice_.ball_radius};
-  attributes.visit([&](std::string_view name, std::string_view value) {
-    if (name == "vindex") ball.point = read_model_index(value);
-    if (name == "r") (void)read_model_number(value, ball.radius);
-  });
-  lattice_.balls.push_back(ball);
-}
-
 // Its bodies are triangles of the mesh that say nothing.
 void ModelReader::end_lattice() {
   if (lattice_.beams.empty() && lattice_.balls.empty()) return;
   const BeamLattice lattice = std::exchange(lattice_, {});
   TriangleSoup& mesh = object().mesh;
   require_triangles(mesh.triangles.size() + most_triangles_of(lattice, beam_sides_), part_.name);
+  if (lattice.is_clipped) ++oddities_.clipped_lattices;
   oddities_.bad_beams += append_lattice(lattice, beam_sides_, mesh);
   if (properties_) object().properties.resize(mesh.triangles.size());
   if (!object().set_of_triangle.empty()) {

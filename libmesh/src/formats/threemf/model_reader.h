@@ -56,9 +56,6 @@ class ModelReader final : public XmlHandler {
   void add_colour(std::string_view text);
   void add_range(std::uint32_t first, std::uint32_t last);
   bool add_paint(std::string_view name, std::string_view value, PropertyUse& property);
-  void read_lattice(const XmlAttributes& attributes);
-  void read_beam(const XmlAttributes& attributes);
-  void read_ball(const XmlAttributes& attributes);
   void end_mesh();
   void end_lattice();
   void end_group(bool is_of_item);

@@ -11,7 +11,7 @@
 
 #include <mesh/triangle_paint.h>
 
-#include "model_values.h"
+#include "common/model_values.h"
 
 namespace meshrepair {
 namespace {

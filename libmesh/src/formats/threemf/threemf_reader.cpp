@@ -139,7 +139,8 @@ class ThreemfReader {
     const auto number = part.object_of_id.find(said.id);
     if (number == part.object_of_id.end()) {
       return warn(WarningCode::project_unreadable,
-                  "the project speaks of the object " + printable(said.name) +
+                  "the project speaks of the object " +
+                      (said.name.empty() ? std::to_string(said.id) : printable(said.name)) +
                       ", which is not there: what it says is not used");
     }
     for (const ProjectVolume& volume : said.volumes) {

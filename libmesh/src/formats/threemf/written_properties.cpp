@@ -14,10 +14,10 @@
 #include <base/error.h>
 #include <base/file_bytes.h>
 
+#include "common/model_values.h"
 #include "common/xml_text.h"
 #include "formats/common/part_names.h"
 #include "formats/common/text_writer.h"
-#include "model_values.h"
 #include "property_labels.h"
 #include "threemf_io.h"
 

@@ -261,5 +261,22 @@ TEST(GltfMovement, SceneOfHiddenNodesHoldsNothing) {
               HasSubstr("holds no triangles (1 node with meshes left out: hidden"));
 }
 
+// All targets below one would be written.
+TEST(GltfMovement, AttributesAreNoMorphTargetsWhateverTheyAreCalled) {
+  GltfMaker maker;
+  const std::size_t points = maker.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  maker.add_mesh(points)["attributes"]["TARGET_20000000/POSITION"] = points;
+  const ReadResult read = read_moving(maker.glb(), false);
+  EXPECT_THAT(read.attributes.corners, IsEmpty());
+  EXPECT_LT(write_moving(read, false).size(), 2000U);
+  CornerAttribute far;
+  far.kind = CornerAttribute::Kind::other;
+  far.components = 3;
+  far.name = "TARGET_4095/POSITION";
+  EXPECT_TRUE(morph_target_of(far));
+  far.name = "TARGET_4096/POSITION";
+  EXPECT_FALSE(morph_target_of(far));
+}
+
 }  // namespace
 }  // namespace meshrepair

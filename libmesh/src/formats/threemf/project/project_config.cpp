@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "formats/common/part_names.h"
+#include "formats/threemf/common/model_values.h"
 #include "formats/threemf/common/xml_stream.h"
 
 namespace meshrepair {
@@ -36,17 +37,6 @@ void set_role(std::string_view name, ProjectVolume& volume) {
                                          [&](const auto& one) { return one.first == word; });
   volume.role = found == kNames.end() ? VolumeRole::model : found->second;
   volume.unknown_role = found == kNames.end() ? std::string(name) : std::string();
-}
-
-// An id or an index; kNone where it is none.
-std::uint32_t number_in(std::string_view text) {
-  std::uint64_t number = 0;
-  if (text.empty() || text.size() > 10) return kNone;
-  for (const char c : text) {
-    if (c < '0' || c > '9') return kNone;
-    number = 10 * number + static_cast<std::uint64_t>(c - '0');
-  }
-  return number < (std::uint64_t{1} << 31) ? static_cast<std::uint32_t>(number) : kNone;
 }
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -192,7 +182,7 @@ class ConfigReader final : public XmlHandler {
   }
 
   static std::uint32_t number(const XmlAttributes& attributes, std::string_view name) {
-    return number_in(attributes.find(name).value_or(""));
+    return read_model_index(attributes.find(name).value_or(""));
   }
 
   void open_object(const XmlAttributes& attributes) {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string_view>
 
+#include <base/ids.h>
 #include <mesh/attributes.h>
-
-#include "model_part.h"
+#include <mesh/placement.h>
 
 namespace meshrepair {
 
