@@ -78,6 +78,17 @@ class Meshes(FolderTest):
         self.assertIn("refuses the options: --inside: magic", result.stderr)
 
 
+    def test_a_scene_is_certified_mesh_by_mesh_and_warnings_and_requirements_stand_in_the_table(self):
+        write_files(self.source, {"scene.obj": b"o one\n" + TETRAHEDRON, "odd.obj": TETRAHEDRON + b"f 1 2 99\n"})
+        self.run_script("--", "--scene", "each", program=self.meshrepair)
+        self.assertEqual(self.codes(), {"odd.obj": 0, "scene.obj": 0})
+        self.assertEqual(self.rows()["odd.obj"]["warnings"], "W-FACES-UNREADABLE")
+        self.assertEqual(self.rows()["scene.obj"]["warnings"], "")
+        self.run_script("--", "--scene", "each", "--require", "warnings=0", program=self.meshrepair, code=1)
+        self.assertEqual(self.codes(), {"odd.obj": 1, "scene.obj": 0})
+        self.assertIn("warnings=0 is not met: 1", self.rows()["odd.obj"]["error"])
+
+
 class Names(FolderTest):
     def test_odd_names(self):
         odd = [b"-x.stl", b"a b.stl", b"new\nline.stl", b"caf\xe9.stl", "\u00e9\u4e2d.StL".encode(),
