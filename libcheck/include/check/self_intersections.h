@@ -42,7 +42,7 @@ struct SelfIntersections {
 // share: also those with a common corner that meet elsewhere too, and those folded onto each other
 // at a common edge. Of faces that cross along an edge that both have with points of their own, one
 // pair (welded only). Exact; the same for any number of threads. Throws Cancelled. n log n and the
-// number of pairs whose boxes meet.
+// number of pairs that are near each other, whatever the shape of the triangles.
 [[nodiscard]] SelfIntersections self_intersections(const TriangleSoup& soup,
                                                    const SelfIntersectionOptions& options = {});
 

@@ -14,15 +14,16 @@
 
 #include "crossing_sheets.h"
 #include "findings.h"
-#include "spatial_comparison.h"
+#include "height_fields.h"
+#include "left_out.h"
 #include "tree_comparison.h"
 #include "triangle_hubs.h"
 
 namespace meshrepair::internal {
 namespace {
 
-// Enough that looking up takes longer than handing out the task.
-constexpr std::size_t kLookUpsPerTask = 4096;
+// Of each triangle of the soup whether its pairs are asked for; empty: all are.
+using Listed = std::span<const char>;
 
 // The triangles of one group, to be compared with each other.
 struct Group {
@@ -36,7 +37,7 @@ void visit_groups(const TriangleAt& triangle_at, std::span<const std::uint32_t> 
                   const std::vector<std::uint32_t>& hubs, Visit visit) {
   std::vector<std::uint32_t> items;
   for (std::uint32_t i = 0; i < hubs.size(); ++i) {
-    if (hubs[i] != kNoHub) items.push_back(i);
+    if (hubs[i] != kNone) items.push_back(i);
   }
   std::stable_sort(items.begin(), items.end(),
                    [&](std::uint32_t i, std::uint32_t j) { return hubs[i] < hubs[j]; });
@@ -52,7 +53,7 @@ void visit_groups(const TriangleAt& triangle_at, std::span<const std::uint32_t> 
 }
 
 // Two triangles with a common edge that meet elsewhere leave it in one direction.
-void compare_around_edge(const Group& group, std::array<std::uint32_t, 2> edge,
+void compare_around_edge(const Group& group, std::array<std::uint32_t, 2> edge, Listed is_listed,
                          const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
   std::vector<Box> boxes;
   boxes.reserve(group.triangles.size());
@@ -60,12 +61,14 @@ void compare_around_edge(const Group& group, std::array<std::uint32_t, 2> edge,
     boxes.push_back(direction_across(edge, triangle));
   }
   const BoxTree tree(boxes);
-  compare(SortedTriangles(group.triangles, boxes, group.ids, tree), options, findings);
+  SortedTriangles sorted(group.triangles, boxes, group.ids, tree);
+  if (!is_listed.empty()) sorted.leave_out_unlisted(is_listed);
+  compare(sorted, options, findings);
 }
 
 // All boxes around a hub meet there; but two triangles with a common corner that meet elsewhere do
 // so in some direction from it.
-void compare_around_hub(const Group& group, std::uint32_t hub,
+void compare_around_hub(const Group& group, std::uint32_t hub, Listed is_listed,
                         const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
   std::vector<Box> boxes;
   boxes.reserve(group.triangles.size());
@@ -75,11 +78,12 @@ void compare_around_hub(const Group& group, std::uint32_t hub,
   const std::vector<std::uint32_t> second = find_second_hubs(hub, group.triangles);
   const BoxTree tree(boxes);
   SortedTriangles sorted(group.triangles, boxes, group.ids, tree);
-  sorted.leave_out_hubs(second);
+  sorted.leave_out(second);
+  if (!is_listed.empty()) sorted.leave_out_unlisted(is_listed);
   compare(sorted, options, findings);
   const auto triangle_at = [&](std::uint32_t i) { return group.triangles[i]; };
   visit_groups(triangle_at, group.ids, second, [&](std::uint32_t end, const Group& around) {
-    compare_around_edge(around, {hub, end}, options, findings);
+    compare_around_edge(around, {hub, end}, is_listed, options, findings);
   });
 }
 
@@ -91,77 +95,64 @@ SelfIntersections with_left_out(SelfIntersections result, std::size_t degenerate
 }
 
 // Unless enough has been found.
-template <class TriangleAt>
-void compare_around_hubs(const TriangleAt& triangle_at, std::span<const std::uint32_t> ids,
-                         const std::vector<std::uint32_t>& hubs,
-                         const SelfIntersectionOptions& options, std::vector<Findings>& findings) {
+void compare_around_hubs(const SortedTriangles& sorted, const std::vector<std::uint32_t>& hubs,
+                         Listed is_listed, const SelfIntersectionOptions& options,
+                         std::vector<Findings>& findings) {
   const bool any =
       std::any_of(findings.begin(), findings.end(), [](const Findings& f) { return f.any(); });
   if (options.only_whether && any) return;
   CancelOnly quiet(options.progress);
   SelfIntersectionOptions around_hubs = options;
   around_hubs.progress = &quiet;
-  visit_groups(triangle_at, ids, hubs, [&](std::uint32_t hub, const Group& group) {
-    compare_around_hub(group, hub, around_hubs, findings);
-  });
+  visit_groups([&](std::uint32_t i) { return sorted.triangles[i]; }, sorted.ids, hubs,
+               [&](std::uint32_t hub, const Group& group) {
+                 compare_around_hub(group, hub, is_listed, around_hubs, findings);
+               });
+}
+
+SelfIntersections compare(TriangleList list, Listed is_listed,
+                          const SelfIntersectionOptions& options) {
+  const BoxTree tree(list.boxes());
+  // Around hubs, directions tell what meets, not what is near.
+  const std::vector<std::uint32_t> hubs =
+      options.nearness == 0 ? find_hubs(list) : std::vector<std::uint32_t>();
+  const std::vector<std::uint32_t> fields = find_height_fields(list);
+  const bool tell_little =
+      boxes_tell_little(tree, list.boxes(), [&](std::uint32_t i, std::uint32_t j) {
+        return have_one_group(hubs, i, j) || have_one_group(fields, i, j);
+      });
+  SortedTriangles sorted(std::move(list), tree);
+  sorted.look_within(options.nearness);
+  sorted.leave_out(hubs);
+  sorted.leave_out(fields);
+  if (!is_listed.empty()) sorted.leave_out_unlisted(is_listed);
+  if (tell_little) sorted.use_oriented_boxes();
+  std::vector<Findings> findings;
+  compare(sorted, options, findings);
+  if (!hubs.empty()) {
+    compare_around_hubs(sorted, sorted.left_out_groups.front().of_triangle, is_listed, options,
+                        findings);
+  }
+  return gather(findings, options.most_pairs);
 }
 
 }  // namespace
 
 SelfIntersections compare_all(const SoupCorners& corners, const SelfIntersectionOptions& options) {
+  SelfIntersectionOptions all = options;
+  all.nearness = 0;
   TriangleList list(corners);
   const std::size_t degenerate = list.degenerate(), not_finite = list.not_finite();
-  const BoxTree tree(list.boxes());
-  const std::vector<std::uint32_t> hubs = find_hubs(list);
-  std::vector<Findings> findings;
-  std::optional<std::vector<MeetingPair>> in_space;
-  if (boxes_tell_little(list, hubs, tree)) {
-    in_space = compare_in_space(list, hubs, options.progress);
-  }
-  if (in_space) {
-    findings.emplace_back(options.most_pairs);
-    for (const auto& [a, b, meeting] : *in_space) {
-      findings.back().add(list.ids()[a], list.ids()[b], meeting);
-    }
-    const auto triangle_at = [&](std::uint32_t i) { return list.triangle(i); };
-    compare_around_hubs(triangle_at, list.ids(), hubs, options, findings);
-  } else {
-    SortedTriangles sorted(std::move(list), tree);
-    sorted.leave_out_hubs(hubs);
-    compare(sorted, options, findings);
-    const auto triangle_at = [&](std::uint32_t i) { return sorted.triangles[i]; };
-    compare_around_hubs(triangle_at, sorted.ids, sorted.hub, options, findings);
-  }
-  return with_left_out(gather(findings, options.most_pairs), degenerate, not_finite);
+  return with_left_out(compare(std::move(list), {}, all), degenerate, not_finite);
 }
 
 SelfIntersections compare_with(const SoupCorners& corners, const TriangleList& list,
                                const SelfIntersectionOptions& options) {
-  const TriangleSoup& soup = corners.soup();
-  const BoxTree tree(list.boxes());
-  if (tree.nodes().empty()) return with_left_out({}, list.degenerate(), list.not_finite());
-  const SortedTriangles sorted(list, tree);
-  std::vector<char> is_listed(soup.triangles.size(), 0);
+  if (list.size() == 0) return with_left_out({}, list.degenerate(), list.not_finite());
+  std::vector<char> is_listed(corners.soup().triangles.size(), 0);
   for (const std::uint32_t id : list.ids()) is_listed[id] = 1;
-  const std::size_t count = soup.triangles.size();
-  const std::size_t tasks = tasks_of(count, kLookUpsPerTask);
-  std::vector<Findings> findings(tasks, Findings(options.most_pairs));
-  SharedProgress progress(options.progress, tasks);
-  parallel_tasks(count, kLookUpsPerTask,
-                 [&](std::size_t task, std::size_t first, std::size_t last) {
-                   LookUp look_up(sorted, options.nearness, progress, findings[task]);
-                   for (std::size_t t = first; t < last; ++t) {
-                     const auto id = static_cast<std::uint32_t>(t);
-                     Box box = box_of(soup, id);
-                     box.widen(options.nearness);
-                     if (!look_up.may_meet_any(box)) continue;
-                     CornerTriangle triangle;
-                     if (corners.fetch(id, triangle) != Fetched::usable) continue;
-                     look_up.run(id, triangle, box, is_listed[t] != 0);
-                   }
-                   progress.done();
-                 });
-  return with_left_out(gather(findings, options.most_pairs), list.degenerate(), list.not_finite());
+  return with_left_out(compare(TriangleList(corners), is_listed, options), list.degenerate(),
+                       list.not_finite());
 }
 
 void add_crossing_sheets(const SoupCorners& corners, std::span<const std::uint32_t> among,

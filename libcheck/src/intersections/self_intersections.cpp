@@ -4,6 +4,7 @@
 
 #include "compare_triangles.h"
 #include "nearby_part.h"
+#include "tree_comparison.h"
 
 namespace meshrepair {
 namespace {
@@ -35,7 +36,8 @@ SelfIntersections self_intersections(const TriangleSoup& soup, std::span<const s
   if (among.size() > soup.triangles.size() / internal::kFew) {
     return with_those(soup, among, options);
   }
-  const internal::NearbyPart part = internal::nearby_part(soup, among, options.nearness);
+  const internal::NearbyPart part =
+      internal::nearby_part(soup, among, internal::kRoom * options.nearness);
   SelfIntersections result = with_those(part.soup, part.among, options);
   for (auto& pair : result.pairs) pair = {part.triangles[pair[0]], part.triangles[pair[1]]};
   return result;

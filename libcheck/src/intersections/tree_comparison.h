@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Triangles in a tree of their boxes, compared with each other or with others.
+// Triangles in a tree of their boxes, compared with each other.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <base/raw_vector.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
+#include <check/internal/node_pairs.h>
+#include <check/internal/oriented_boxes.h>
 #include <check/internal/triangle_list.h>
 #include <check/internal/triangle_pair.h>
 #include <check/self_intersections.h>
 
 #include "findings.h"
-#include "triangle_hubs.h"
+#include "left_out.h"
 
 namespace meshrepair::internal {
 
-// Two nodes to be compared, or, if they are one, a node with itself.
-struct NodePair {
-  std::uint32_t a;
-  std::uint32_t b;
-};
+// Boxes of what is looked for within a distance reach so much farther, so that rounding does not
+// decide.
+inline constexpr double kRoom = 1.01;
 
 // The triangles of a list in the order of a tree's leaves, so that what is compared lies together.
 struct SortedTriangles {
@@ -33,19 +35,40 @@ struct SortedTriangles {
   // Drops the list's boxes, so that they are never there twice with the triangles.
   SortedTriangles(TriangleList&& list, const BoxTree& box_tree);
 
-  // Leaves out pairs of triangles with the same hub. `hubs` are those of the triangles as given;
-  // empty: there are none.
-  void leave_out_hubs(const std::vector<std::uint32_t>& hubs);
+  // Leaves out pairs of triangles with the same group, but for kNone. `groups` are those of the
+  // triangles as given; empty: there are none. May be called again, with other groups.
+  void leave_out(std::span<const std::uint32_t> groups);
+
+  // Leaves out pairs without one of these, of which `is_listed` is not 0: by their ids.
+  void leave_out_unlisted(std::span<const char> is_listed);
+
+  // As SelfIntersectionOptions::nearness.
+  void look_within(double distance) {
+    nearness = distance;
+    reach = kRoom * distance;
+  }
+
+  // For long triangles.
+  void use_oriented_boxes();
 
   [[nodiscard]] bool may_meet(NodePair pair) const {
-    if (!node_hub.empty() && node_hub[pair.a] != internal::kNoHub &&
-        node_hub[pair.a] == node_hub[pair.b]) {
+    if (!node_is_listed.empty() && node_is_listed[pair.a] == 0 && node_is_listed[pair.b] == 0) {
       return false;
     }
-    return pair.a == pair.b || tree.nodes()[pair.a].box.meets(tree.nodes()[pair.b].box);
+    for (const Groups& groups : left_out_groups) {
+      if (have_one_group(groups.of_node, pair.a, pair.b)) return false;
+    }
+    if (pair.a == pair.b) return true;
+    Box around = tree.nodes()[pair.a].box;
+    around.widen(reach);
+    return around.meets(tree.nodes()[pair.b].box) &&
+           (!oriented || oriented->are_within(reach, pair.a, pair.b));
   }
   [[nodiscard]] bool left_out(std::uint32_t i, std::uint32_t j) const {
-    return !hub.empty() && hub[i] != internal::kNoHub && hub[i] == hub[j];
+    if (!is_listed.empty() && is_listed[i] == 0 && is_listed[j] == 0) return true;
+    return std::any_of(left_out_groups.begin(), left_out_groups.end(), [&](const Groups& groups) {
+      return have_one_group(groups.of_triangle, i, j);
+    });
   }
 
   void sort_boxes(const TriangleList& list);
@@ -55,40 +78,20 @@ struct SortedTriangles {
   RawVector<CornerTriangle> triangles;
   RawVector<Box> boxes;
   RawVector<std::uint32_t> ids;
-  std::vector<std::uint32_t> hub, node_hub;  // empty: nothing is left out
+  struct Groups {
+    std::vector<std::uint32_t> of_triangle;
+    std::vector<std::uint32_t> of_node;  // that of all its triangles, or kNone
+  };
+  std::vector<Groups> left_out_groups;
+  std::vector<char> is_listed, node_is_listed;  // empty: all are
+  std::optional<OrientedBoxes> oriented;        // none: boxes tell enough
+  double nearness = 0;
+  double reach = 0;  // of boxes
 };
 
 // Each with each; adds the findings of as many tasks as there are, the same whatever the number of
 // threads.
 void compare(const SortedTriangles& sorted, const SelfIntersectionOptions& options,
              std::vector<Findings>& findings);
-
-// Looks up triangles in a tree of others. The tree is not empty.
-class LookUp {
- public:
-  LookUp(const SortedTriangles& sorted, double nearness, SharedProgress& progress,
-         Findings& findings)
-      : sorted_(sorted),
-        nodes_(sorted.tree.nodes()),
-        nearness_(nearness),
-        progress_(progress),
-        findings_(findings) {}
-
-  [[nodiscard]] bool may_meet_any(const Box& box) const { return nodes_[0].box.meets(box); }
-
-  // Of two triangles that are both in the tree the pair is found once.
-  void run(std::uint32_t id, const CornerTriangle& triangle, const Box& box, bool is_in_tree);
-
- private:
-  [[nodiscard]] Meeting meeting_with(const CornerTriangle& a, const CornerTriangle& b) const;
-
-  const SortedTriangles& sorted_;
-  std::span<const BoxNode> nodes_;
-  double nearness_;
-  SharedProgress& progress_;
-  Findings& findings_;
-  std::vector<std::uint32_t> stack_;
-  std::size_t steps_ = 0;
-};
 
 }  // namespace meshrepair::internal

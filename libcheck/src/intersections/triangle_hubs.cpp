@@ -18,11 +18,11 @@ constexpr double kDirectionMargin = 1e-12;
 // Of a triangle's corners, the one with the highest count if that is high; the lowest of several.
 template <class CountOf>
 std::uint32_t hub_of(const IndexTriangle& corners, CountOf count_of) {
-  std::uint32_t hub = kNoHub;
+  std::uint32_t hub = kNone;
   std::uint32_t most = kManyTriangles;
   for (const std::uint32_t c : corners) {
     const std::uint32_t count = count_of(c);
-    if (count < most || (count == most && hub != kNoHub && hub < c)) continue;
+    if (count < most || (count == most && hub != kNone && hub < c)) continue;
     most = count;
     hub = c;
   }

@@ -8,15 +8,14 @@
 #include <span>
 #include <vector>
 
+#include <base/ids.h>
 #include <check/box_tree.h>
 #include <check/internal/triangle_list.h>
 #include <check/internal/triangle_pair.h>
 
 namespace meshrepair::internal {
 
-inline constexpr std::uint32_t kNoHub = ~std::uint32_t{0};
-
-// For each triangle the corner that most triangles share, if these are very many, or kNoHub; empty
+// For each triangle the corner that most triangles share, if these are very many, or kNone; empty
 // if there are none.
 [[nodiscard]] std::vector<std::uint32_t> find_hubs(const TriangleList& triangles);
 

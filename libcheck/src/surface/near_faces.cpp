@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which triangles face each other across a small distance: gaps between bodies, and walls that are
-// thin. A tree of boxes gives the pairs. Of two that are nearly parallel the overlap is found in
-// the plane of the larger one, by clipping the other against its three sides as Sutherland and
-// Hodgman do (1974), and the distance is that at the corners of the overlap.
+// thin. A tree of boxes, compared with itself, gives the pairs. Of two that are nearly parallel the
+// overlap is found in the plane of the larger one, by clipping the other against its three sides as
+// Sutherland and Hodgman do (1974), and the distance is that at the corners of the overlap.
 //
 // Whether solid or space is in between follows from the bodies, connected through edges of two
 // triangles, and from the sign of their volumes: two faces that turn their backs on each other and
@@ -14,14 +14,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include <Eigen/Geometry>
 
 #include <base/disjoint_sets.h>
+#include <base/ids.h>
 #include <base/parallel.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
+#include <check/internal/node_pairs.h>
+#include <check/internal/oriented_boxes.h>
 #include <check/near_faces.h>
 #include <mesh/edge_table.h>
 #include <mesh/weld_points.h>
@@ -37,7 +41,8 @@ constexpr double kParallel = 0.9;
 // difference and three products on the way to a height. What is nearer is not apart.
 constexpr double kRounding = 0x1p-49;
 
-constexpr std::size_t kItemsPerTask = 4096;
+// A few milliseconds of work.
+constexpr std::size_t kLeavesPerQuestion = 4096;
 
 using Corners = std::array<Vec3d, 3>;
 
@@ -53,6 +58,34 @@ struct Facing {
   double longest = 0;            // edge
 };
 
+// Of triangles.
+struct Summary {
+  std::uint32_t body = 0;  // that of all, or kNone
+  Box normals;
+  double reach = 0;  // the largest distance that one looks for
+
+  void add(const Summary& other) {
+    if (other.body != body) body = kNone;
+    normals.add(other.normals);
+    reach = std::max(reach, other.reach);
+  }
+};
+
+// Whether one of these may be nearly parallel to one of those, and turned the other way if they are
+// of one body.
+bool may_face(const Summary& a, const Summary& b) {
+  double least = -kRounding, most = kRounding;  // of the cosine
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] =
+        std::minmax({a.normals.low[k] * b.normals.low[k], a.normals.low[k] * b.normals.high[k],
+                     a.normals.high[k] * b.normals.low[k], a.normals.high[k] * b.normals.high[k]});
+    least += low;
+    most += high;
+  }
+  const bool is_one_body = a.body != kNone && a.body == b.body;
+  return least <= -kParallel || (most >= kParallel && !is_one_body);
+}
+
 class NearFacesFinder {
  public:
   NearFacesFinder(const TriangleSoup& soup, const NearFacesOptions& options)
@@ -62,21 +95,11 @@ class NearFacesFinder {
     place_triangles();
     find_bodies();
     const BoxTree tree(boxes_);
-    SharedProgress progress(options_.progress, 1);
-    NearFacesFound found = parallel_reduce(
-        sound_.size(), kItemsPerTask,
-        [&](std::size_t first, std::size_t last) {
-          NearFacesFound part;
-          progress.poll();
-          for (const std::uint32_t i : tree.order().subspan(first, last - first)) {
-            look_around(tree, i, part);
-          }
-          return part;
-        },
-        [](NearFacesFound& all, const NearFacesFound& part) {
-          all.gaps.insert(all.gaps.end(), part.gaps.begin(), part.gaps.end());
-          all.walls.insert(all.walls.end(), part.walls.begin(), part.walls.end());
-        });
+    summarize(tree);
+    if (internal::boxes_tell_little(tree, boxes_, [](auto, auto) { return false; })) {
+      oriented_.emplace(tree, corners_in_order(tree));
+    }
+    NearFacesFound found = compare_all(tree);
     const auto by_triangles = [](const NearFaces& x, const NearFaces& y) {
       return std::array{x.a, x.b} < std::array{y.a, y.b};
     };
@@ -150,13 +173,76 @@ class NearFacesFinder {
     });
   }
 
-  void look_around(const BoxTree& tree, std::uint32_t i, NearFacesFound& found) const {
-    Box around = boxes_[i];
-    around.widen(largest_between(i));
-    tree.visit([&](const Box& box) { return box.meets(around); },
-               [&](std::uint32_t k) {
-                 if (k > i && boxes_[k].meets(around)) compare(i, k, found);
-               });
+  void summarize(const BoxTree& tree) {
+    const auto nodes = tree.nodes();
+    summary_.resize(nodes.size());
+    for (std::size_t n = nodes.size(); n-- > 0;) {  // children come behind their parent
+      if (nodes[n].is_leaf()) {
+        const auto items = tree.order().subspan(nodes[n].first, nodes[n].count);
+        summary_[n].body = facing_[items[0]].body;
+        for (const std::uint32_t i : items) {
+          Summary item{facing_[i].body, {}, largest_between(i)};
+          item.normals.add(facing_[i].normal);
+          summary_[n].add(item);
+        }
+      } else {
+        summary_[n] = summary_[n + 1];
+        summary_[n].add(summary_[nodes[n].right]);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Vec3d> corners_in_order(const BoxTree& tree) const {
+    std::vector<Vec3d> corners;
+    corners.reserve(3 * triangles_.size());
+    for (const std::uint32_t i : tree.order()) {
+      for (const Vec3d& p : corners_of(i)) corners.push_back(p);
+    }
+    return corners;
+  }
+
+  [[nodiscard]] NearFacesFound compare_all(const BoxTree& tree) const {
+    const auto may_be_near = [&](internal::NodePair pair) {
+      if (pair.a == pair.b) return true;
+      const Summary &a = summary_[pair.a], &b = summary_[pair.b];
+      const double reach = std::min(a.reach, b.reach);
+      Box around = tree.nodes()[pair.a].box;
+      around.widen(reach);
+      return around.meets(tree.nodes()[pair.b].box) && may_face(a, b) &&
+             (!oriented_ || oriented_->are_within(reach, pair.a, pair.b));
+    };
+    const auto tasks = internal::upper_node_pairs(tree.nodes(), may_be_near);
+    SharedProgress progress(options_.progress, tasks.size());
+    return parallel_reduce(
+        tasks.size(), 1,
+        [&](std::size_t task, std::size_t) {
+          NearFacesFound part;
+          std::size_t steps = 0;
+          internal::walk_node_pairs(tree.nodes(), tasks[task], may_be_near,
+                                    [&](internal::NodePair leaves) {
+                                      if (++steps % kLeavesPerQuestion == 0) progress.poll();
+                                      compare_leaves(tree, leaves, part);
+                                    });
+          progress.done();
+          return part;
+        },
+        [](NearFacesFound& all, const NearFacesFound& part) {
+          all.gaps.insert(all.gaps.end(), part.gaps.begin(), part.gaps.end());
+          all.walls.insert(all.walls.end(), part.walls.begin(), part.walls.end());
+        });
+  }
+
+  void compare_leaves(const BoxTree& tree, internal::NodePair leaves, NearFacesFound& found) const {
+    const BoxNode &a = tree.nodes()[leaves.a], &b = tree.nodes()[leaves.b];
+    for (std::uint32_t p = a.first; p < a.first + a.count; ++p) {
+      const std::uint32_t i = tree.order()[p];
+      for (std::uint32_t q = leaves.a == leaves.b ? p + 1 : b.first; q < b.first + b.count; ++q) {
+        const std::uint32_t k = tree.order()[q];
+        Box around = boxes_[i];
+        around.widen(std::min(largest_between(i), largest_between(k)));
+        if (around.meets(boxes_[k])) compare(i, k, found);
+      }
+    }
   }
 
   void compare(std::uint32_t i, std::uint32_t k, NearFacesFound& found) const {
@@ -185,6 +271,8 @@ class NearFacesFinder {
   void measure(std::uint32_t i, std::uint32_t k, double cosine, NearFacesFound& found) const {
     const bool is_larger = facing_[i].longest >= facing_[k].longest;
     const std::uint32_t base = is_larger ? i : k, other = is_larger ? k : i;
+    const double largest = std::min(largest_between(i), largest_between(k));
+    if (is_apart(base, other, largest)) return;
     const std::vector<OverlapCorner> overlap = overlap_of(base, other);
     if (overlap.size() < 3) return;
     double least = std::abs(overlap[0].height), most = 0, low = 0, high = 0, extent = 0;
@@ -200,7 +288,6 @@ class NearFacesFinder {
       if (c > 1) area += (overlap[c - 1].at - overlap[0].at).cross(along);
     }
     if (low < 0 && high > 0) least = 0;
-    const double largest = std::min(largest_between(i), largest_between(k));
     const bool is_behind = cosine < 0 && std::abs(low) > high;
     const bool is_wall = is_behind && have_solid_between(facing_[i].body, facing_[k].body);
     double apart = is_wall ? least : most;
@@ -208,6 +295,20 @@ class NearFacesFinder {
     if (apart > largest || 0.5 * area.norm() <= apart * extent) return;
     (is_wall ? found.walls : found.gaps)
         .push_back({std::min(sound_[i], sound_[k]), std::max(sound_[i], sound_[k]), apart});
+  }
+
+  // Farther above the first or below it than `largest` all over, or beside it?
+  [[nodiscard]] bool is_apart(std::uint32_t base, std::uint32_t other, double largest) const {
+    const Corners a = corners_of(base), b = corners_of(other);
+    const Vec3d& normal = facing_[base].normal;
+    const auto all = [&](const auto& is) { return is(b[0]) && is(b[1]) && is(b[2]); };
+    if (all([&](const Vec3d& p) { return normal.dot(p - a[0]) > largest; })) return true;
+    if (all([&](const Vec3d& p) { return normal.dot(p - a[0]) < -largest; })) return true;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Vec3d inward = normal.cross(a[(side + 1) % 3] - a[side]);
+      if (all([&](const Vec3d& p) { return inward.dot(p - a[side]) < 0; })) return true;
+    }
+    return false;
   }
 
   // As seen along the normal of the first.
@@ -244,6 +345,8 @@ class NearFacesFinder {
   std::vector<Box> boxes_;
   std::vector<char> is_void_;  // of each body
   std::vector<Box> body_box_;
+  std::vector<Summary> summary_;                     // of each node of the tree
+  std::optional<internal::OrientedBoxes> oriented_;  // none: boxes tell enough
 };
 
 }  // namespace

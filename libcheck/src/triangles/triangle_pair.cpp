@@ -44,17 +44,24 @@ SharedCorners shared_corners(const CornerTriangle& a, const CornerTriangle& b) {
   return shared;
 }
 
-// The sides of the plane of `t` on which the corners of `other` lie. `skip` is a shared corner, 3
-// if there is none.
-Signs sides(const CornerTriangle& t, const CornerTriangle& other, std::size_t skip) {
+// The sides of the plane of `t` on which the corners of `other` lie, 0 where doubles cannot tell.
+// `skip` is a shared corner, 3 if there is none.
+Signs filtered_sides(const CornerTriangle& t, const CornerTriangle& other, std::size_t skip) {
   const PlaneFilter plane(t.at[0], t.at[1], t.at[2]);
   Signs signs{};
   for (std::size_t k = 0; k < 3; ++k) {
-    if (k == skip) continue;
-    signs[k] = plane.side(other.at[k]);
-    if (signs[k] == 0) signs[k] = exact_orientation(t.at[0], t.at[1], t.at[2], other.at[k]);
+    if (k != skip) signs[k] = plane.side(other.at[k]);
   }
   return signs;
+}
+
+// Those that doubles do not tell.
+void complete_sides(Signs& signs, const CornerTriangle& t, const CornerTriangle& other,
+                    std::size_t skip) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k == skip || signs[k] != 0) continue;
+    signs[k] = exact_orientation(t.at[0], t.at[1], t.at[2], other.at[k]);
+  }
 }
 
 // All but the skipped corner lie strictly on one side.
@@ -132,10 +139,34 @@ bool opposite_side_meets_in_plane(const CornerTriangle& a, std::size_t corner,
   return segment_meets_in_plane(a.at[next(corner)], a.at[next(next(corner))], b);
 }
 
+// Seen along the axis of `t`: has a side of it all of `other` strictly beyond it, but for the
+// corner that they share, at `i` and `j`, 3 for none? Then the two are apart, whatever their
+// planes.
+bool is_seen_beyond_a_side(const CornerTriangle& t, std::size_t i, const CornerTriangle& other,
+                           std::size_t j) {
+  const int inward = orientation_along(t.axis, t.at[0], t.at[1], t.at[2]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (i < 3 && k == next(i)) continue;  // the shared corner is not beyond the side opposite to it
+    bool beyond = true;
+    for (std::size_t p = 0; p < 3 && beyond; ++p) {
+      beyond = p == j || orientation_along(t.axis, t.at[k], t.at[next(k)], other.at[p]) == -inward;
+    }
+    if (beyond) return true;
+  }
+  return false;
+}
+
 // With at most one shared corner, at `i` of a and `j` of b, 3 for none.
 Meeting meeting_across(const CornerTriangle& a, std::size_t i, const CornerTriangle& b,
                        std::size_t j) {
-  const Signs of_b = sides(a, b, j);
+  Signs of_b = filtered_sides(a, b, j);
+  if (is_one_sided(of_b, j)) return Meeting::apart;
+  Signs of_a = filtered_sides(b, a, i);
+  if (is_one_sided(of_a, i)) return Meeting::apart;
+  if (is_seen_beyond_a_side(a, i, b, j) || is_seen_beyond_a_side(b, j, a, i)) {
+    return Meeting::apart;
+  }
+  complete_sides(of_b, a, b, j);
   if (is_one_sided(of_b, j)) return Meeting::apart;
   const bool one_corner = i < 3;
   if (of_b == Signs{}) {
@@ -144,7 +175,7 @@ Meeting meeting_across(const CornerTriangle& a, std::size_t i, const CornerTrian
                    : overlap_in_plane(a, b);
     return meet ? Meeting::coplanar : Meeting::apart;
   }
-  const Signs of_a = sides(b, a, i);
+  complete_sides(of_a, b, a, i);
   if (is_one_sided(of_a, i)) return Meeting::apart;
   const bool meet = one_corner ? edge_meets(a, next(i), next(next(i)), of_a, b) ||
                                      edge_meets(b, next(j), next(next(j)), of_b, a)
@@ -169,9 +200,10 @@ Meeting meeting_at_edge(const CornerTriangle& a, const CornerTriangle& b,
 bool is_near_plane(const CornerTriangle& a, const CornerTriangle& b, double distance) {
   const Vec3d first = b.at[1] - b.at[0], second = b.at[2] - b.at[0];
   const double unit = std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
-  const Vec3d normal = (first / unit).cross(second / unit).normalized();
+  const Vec3d normal = (first / unit).cross(second / unit);
+  const double most = distance * normal.norm();
   return std::all_of(a.at.begin(), a.at.end(),
-                     [&](const Vec3d& p) { return std::abs(normal.dot(p - b.at[0])) <= distance; });
+                     [&](const Vec3d& p) { return std::abs(normal.dot(p - b.at[0])) <= most; });
 }
 
 // Seen along the axis: has a side of b all of a on or beyond it?
@@ -197,8 +229,8 @@ Meeting meeting_of(const CornerTriangle& a, const CornerTriangle& b) {
 }
 
 bool nearly_overlap(const CornerTriangle& a, const CornerTriangle& b, double distance) {
-  if (!is_near_plane(a, b, distance) && !is_near_plane(b, a, distance)) return false;
-  return !is_outside_a_side(a, b, b.axis) && !is_outside_a_side(b, a, b.axis);
+  if (is_outside_a_side(a, b, b.axis) || is_outside_a_side(b, a, b.axis)) return false;
+  return is_near_plane(a, b, distance) || is_near_plane(b, a, distance);
 }
 
 }  // namespace meshrepair::internal

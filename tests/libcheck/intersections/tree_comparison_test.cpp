@@ -1,60 +1,49 @@
 // SPDX-License-Identifier: MIT
-#include "intersections/spatial_comparison.h"
+#include "intersections/tree_comparison.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <base/error.h>
-#include <check/internal/triangle_list.h>
 #include <check/self_intersections.h>
 
 #include "degenerate_soups.h"
 #include "each_seed.h"
-#include "intersections/triangle_hubs.h"
 #include "shapes.h"
 
 namespace meshrepair::internal {
 namespace {
 
-using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+constexpr std::size_t kAll = 1'000'000;
 
 class Compared {
  public:
   explicit Compared(TriangleSoup soup)
-      : soup_(std::move(soup)), corners_(soup_, true), list_(corners_) {
-    for (std::uint32_t t = 0; t < list_.size(); ++t) triangles_.push_back(list_.triangle(t));
-  }
+      : soup_(std::move(soup)), corners_(soup_, true), list_(corners_), tree_(list_.boxes()) {}
 
   Compared(const Compared&) = delete;
   Compared& operator=(const Compared&) = delete;
 
-  void use_hubs() { hubs_ = find_hubs(list_); }
-
-  [[nodiscard]] std::optional<Pairs> in_space(ProgressObserver* progress = nullptr) const {
-    const auto found = compare_in_space(list_, hubs_, progress);
-    if (!found) return std::nullopt;
-    Pairs pairs;
-    for (const MeetingPair& pair : *found) {
-      EXPECT_EQ(pair.meeting, meeting_of(triangles_[pair.a], triangles_[pair.b]));
-      pairs.push_back({pair.a, pair.b});
-    }
-    return pairs;
+  [[nodiscard]] std::vector<Pair> with_oriented_boxes() const {
+    SortedTriangles sorted(list_, tree_);
+    sorted.use_oriented_boxes();
+    SelfIntersectionOptions options;
+    options.most_pairs = kAll;
+    std::vector<Findings> findings;
+    compare(sorted, options, findings);
+    return gather(findings, kAll).pairs;
   }
 
-  [[nodiscard]] Pairs one_by_one() const {
-    Pairs pairs;
+  [[nodiscard]] std::vector<Pair> one_by_one() const {
+    std::vector<Pair> pairs;
     for (std::uint32_t a = 0; a < list_.size(); ++a) {
       for (std::uint32_t b = a + 1; b < list_.size(); ++b) {
-        if (!hubs_.empty() && hubs_[a] != kNoHub && hubs_[a] == hubs_[b]) continue;
-        if (meeting_of(triangles_[a], triangles_[b]) != Meeting::apart) {
-          pairs.push_back({a, b});
+        if (meeting_of(list_.triangle(a), list_.triangle(b)) != Meeting::apart) {
+          pairs.push_back({list_.ids()[a], list_.ids()[b]});
         }
       }
     }
@@ -62,15 +51,14 @@ class Compared {
   }
 
   [[nodiscard]] bool boxes_tell_little() const {
-    return internal::boxes_tell_little(list_, hubs_, BoxTree(list_.boxes()));
+    return internal::boxes_tell_little(tree_, list_.boxes(), [](auto, auto) { return false; });
   }
 
  private:
   TriangleSoup soup_;
   SoupCorners corners_;
   TriangleList list_;
-  std::vector<CornerTriangle> triangles_;
-  std::vector<std::uint32_t> hubs_;  // empty: none
+  BoxTree tree_;
 };
 
 // Two cones base to base, all of whose upper triangles have boxes that meet many lower ones.
@@ -86,50 +74,63 @@ TriangleSoup double_cone(std::uint32_t sides) {
   return soup;
 }
 
-TEST(CompareInSpace, FindsWhatComparingOneByOneFinds) {
-  std::size_t given_up = 0;
+// Long and thin, in all directions through a ball.
+TriangleSoup straws(std::uint32_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<> normal;
+  TriangleSoup soup;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec3d middle(normal(random), normal(random), normal(random));
+    const Vec3d along(normal(random), normal(random), normal(random));
+    const Vec3d across(1e-3 * normal(random), 1e-3 * normal(random), 1e-3 * normal(random));
+    soup.points.insert(soup.points.end(), {middle - along, middle + along, middle + across});
+    soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return soup;
+}
+
+TEST(OrientedBoxes, MissNothing) {
   for (const testing::SoupFamily& family : testing::degenerate_families()) {
     for_each_seed(1, 8, [&](std::uint64_t seed) {
       const Compared compared(family.make(seed));
-      const auto in_space = compared.in_space();
-      given_up += !in_space;
-      if (in_space) {
-        EXPECT_EQ(in_space, compared.one_by_one()) << family.name << ", seed " << seed;
-      }
+      EXPECT_EQ(compared.with_oriented_boxes(), compared.one_by_one())
+          << family.name << ", seed " << seed;
     });
   }
-  EXPECT_LE(given_up, 4u);
+  for_each_seed(1, 4, [&](std::uint64_t seed) {
+    const Compared compared(straws(1500, seed));
+    EXPECT_EQ(compared.with_oriented_boxes(), compared.one_by_one()) << "seed " << seed;
+  });
 }
 
-TEST(CompareInSpace, HoldsAtAllScalesAndFarFromTheOrigin) {
+TEST(OrientedBoxes, MissNothingAtAnyScaleAndFarFromTheOrigin) {
   const TriangleSoup soup = testing::random_cubes(20, 3);
-  const Pairs pairs = Compared(soup).one_by_one();
+  const std::vector<Pair> pairs = Compared(soup).one_by_one();
   ASSERT_GT(pairs.size(), 10u);
-  for (const double scale : {0x1p-900, 0x1p-60, 0x1p60, 0x1p900}) {
-    EXPECT_EQ(Compared(testing::scaled(soup, scale)).in_space(), pairs) << scale;
+  for (const double scale : {0x1p-1020, 0x1p-900, 0x1p-60, 0x1p60, 0x1p900, 0x1p1018}) {
+    const Compared scaled(testing::scaled(soup, scale));
+    EXPECT_EQ(scaled.with_oriented_boxes(), scaled.one_by_one()) << scale;
   }
-  const TriangleSoup far = testing::moved(soup, {1e9, -1e9, 1e9});
-  EXPECT_EQ(Compared(far).in_space(), Compared(far).one_by_one());
+  for (const double away : {1e9, 1e15}) {
+    const Compared far(testing::moved(soup, {away, -away, away}));
+    EXPECT_EQ(far.with_oriented_boxes(), far.one_by_one()) << away;
+  }
 }
 
-TEST(CompareInSpace, TakesOverWhereBoxesTellLittle) {
-  Compared cone(double_cone(5000));
-  cone.use_hubs();
-  EXPECT_TRUE(cone.boxes_tell_little());
-  EXPECT_EQ(cone.in_space(), Pairs());
-  Compared sphere(testing::sphere(10'000));
-  sphere.use_hubs();
-  EXPECT_FALSE(sphere.boxes_tell_little());
+TEST(BoxesTellLittle, OfLongTrianglesAlone) {
+  EXPECT_TRUE(Compared(double_cone(5000)).boxes_tell_little());
+  EXPECT_TRUE(Compared(straws(5000, 1)).boxes_tell_little());
+  EXPECT_FALSE(Compared(testing::sphere(10'000)).boxes_tell_little());
 }
 
 // The same by looking up each triangle among all others.
-TEST(CompareInSpace, FindsWhatCrossesAConeOfVeryManySides) {
+TEST(SelfIntersections, FindsWhatCrossesAConeOfVeryManySides) {
   TriangleSoup soup = double_cone(3000);
   testing::append(soup, testing::moved(testing::scaled(testing::sphere(200), 0.3), {0.9, 0, 0}));
   std::vector<std::uint32_t> all;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) all.push_back(t);
   SelfIntersectionOptions options;
-  options.most_pairs = 1'000'000;
+  options.most_pairs = kAll;
   const SelfIntersections found = self_intersections(soup, options);
   const SelfIntersections looked_up = self_intersections(soup, all, options);
   EXPECT_GT(found.count, 100u);
@@ -139,21 +140,17 @@ TEST(CompareInSpace, FindsWhatCrossesAConeOfVeryManySides) {
 }
 
 // Each upper triangle is nearly upright, and lies in the boxes of the parts of very many others.
-TEST(CompareInSpace, TellsThinTrianglesApartThatAreAskew) {
+TEST(SelfIntersections, TellsThinTrianglesApartThatAreAskew) {
   TriangleSoup soup = double_cone(4000);
   std::mt19937 random(3);
   for (Vec3d& p : soup.points) {
     if (std::abs(p.z()) < 0.5) p.z() += std::uniform_real_distribution<>(-0.4, 0.4)(random);
   }
-  Compared spikes(soup);
-  spikes.use_hubs();
-  EXPECT_TRUE(spikes.boxes_tell_little());
-  EXPECT_EQ(spikes.in_space(), Pairs());
+  EXPECT_EQ(self_intersections(soup).count, 0u);
 }
 
-// Wedges that come together in the highest place of all, without a common corner, and one triangle
-// across them near that: too much to be compared there, and the last place that is looked at.
-TEST(CompareInSpace, GivesUpBeforeItMissesAnything) {
+// Wedges that come together in one place without a common corner, and one triangle across them.
+TEST(SelfIntersections, FindsWhatCrossesWedgesThatAllComeTogether) {
   TriangleSoup soup;
   const auto add = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     const auto first = static_cast<std::uint32_t>(soup.points.size());
@@ -166,25 +163,12 @@ TEST(CompareInSpace, GivesUpBeforeItMissesAnything) {
     const double x = std::cos(angle), y = std::sin(angle);
     add({0x1p-48 * x, 0x1p-48 * y, 0}, {x, y, -0.02}, {x, y, 0.02});
   }
-  for (int i = 0; i < 20'000; ++i) {
-    const double x = -1 + 0.004 * (i % 200), y = -1 + 0.004 * (i / 200);
-    add({x, y, -0.5}, {x + 0.002, y, -0.5}, {x, y + 0.002, -0.5});
-  }
   const double at = 0.01 * std::cos(1.25 * std::numbers::pi);
   add({at + 0.001, at - 0.001, 0}, {at - 0.001, at + 0.001, 0}, {at, at, 0.0001});
   const auto last = static_cast<std::uint32_t>(soup.triangles.size() - 1);
   const std::size_t crossed = self_intersections(soup, std::array{last}, {}).count;
   EXPECT_GT(crossed, 1000u);
   EXPECT_EQ(self_intersections(soup).count, crossed);
-}
-
-TEST(CompareInSpace, StopsWhenItIsToldTo) {
-  class Stop : public ProgressObserver {
-   public:
-    bool cancelled() override { return true; }
-  };
-  Stop stop;
-  EXPECT_THROW((void)Compared(testing::sphere(20'000)).in_space(&stop), Cancelled);
 }
 
 }  // namespace

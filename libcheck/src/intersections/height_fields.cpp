@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// A region is a height field where, seen along a coordinate axis, its triangles lie side by side.
+// That follows from its outline. Let all triangles turn the same way as seen along the axis, be
+// connected through edges of two, and let the outline, the sides without neighbour, be simple with
+// the outside beyond it. How many triangles cover a point is how often the outline winds around it:
+// once inside, never outside. So no two triangles overlap. They could still touch, but where the
+// side of one is not in the outline, triangles cover all around it, and so they do at a corner not
+// in the outline, and what touches there would overlap one of them; and outline edges meet at
+// shared corners alone.
+//
+// As Volino and Magnenat-Thalmann, Efficient self-collision detection on smoothly discretized
+// surface animations using geometrical shape regularity (1994), who take it for cloth.
+//
+// A region with another outline is cut in two in space, again and again.
+#include "height_fields.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include <base/ids.h>
+#include <base/parallel.h>
+#include <exact/double_predicates.h>
+#include <mesh/edge_table.h>
+
+#include "simple_outline.h"
+
+namespace meshrepair::internal {
+namespace {
+
+// Comparing fewer is as fast.
+constexpr std::size_t kFewest = 8;
+constexpr std::size_t kTrianglesPerTask = 8192;
+
+class HeightFields {
+ public:
+  explicit HeightFields(const TriangleList& list)
+      : corners_(list.corners()), list_(list), region_(list.size(), kNone) {
+    find_facing();
+    find_neighbours();
+  }
+
+  std::vector<std::uint32_t> run() {
+    std::vector<std::uint32_t> order(list_.size());
+    for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
+    const std::vector<std::size_t> first = divide(order, kNone);
+    parallel_for(first.size() - 1, [&](std::size_t r) {
+      settle(std::span(order).subspan(first[r], first[r + 1] - first[r]));
+    });
+    return std::move(region_);
+  }
+
+ private:
+  [[nodiscard]] const IndexTriangle& points_of(std::uint32_t t) const {
+    return corners_.soup().triangles[list_.ids()[t]];
+  }
+  [[nodiscard]] const Vec3d& point(std::uint32_t p) const { return corners_.soup().points[p]; }
+
+  void find_facing() {
+    facing_.resize(list_.size());
+    parallel_tasks(list_.size(), kTrianglesPerTask,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t t = first; t < last; ++t) {
+                       const CornerTriangle c = list_.triangle(static_cast<std::uint32_t>(t));
+                       const int turn = orientation_along(c.axis, c.at[0], c.at[1], c.at[2]);
+                       facing_[t] = static_cast<std::int8_t>(turn * (c.axis + 1));
+                     }
+                   });
+  }
+
+  // Across each side, through edges of two triangles.
+  void find_neighbours() {
+    across_.assign(3 * list_.size(), kNone);
+    std::vector<IndexTriangle> triangles(list_.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) triangles[t][k] = corners_.corner(points_of(t)[k]);
+    }
+    EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+      if (sides.size() != 2) return;
+      const std::uint32_t s = sides[0] / 3, t = sides[1] / 3;
+      if (facing_[s] != facing_[t]) return;
+      if (side_start(triangles, sides[0]) == side_start(triangles, sides[1])) return;
+      across_[sides[0]] = t;
+      across_[sides[1]] = s;
+    });
+  }
+
+  // Sorts triangles, all of them in `region`, by what of it is connected, and says where each part
+  // begins, and where the last one ends. Each part becomes a region of its own.
+  std::vector<std::size_t> divide(std::span<std::uint32_t> triangles, std::uint32_t region) {
+    std::vector<std::size_t> first;
+    std::vector<std::uint32_t> connected;
+    connected.reserve(triangles.size());
+    for (const std::uint32_t seed : triangles) {
+      if (region_[seed] != region) continue;
+      first.push_back(connected.size());
+      connected.push_back(seed);
+      region_[seed] = seed;
+      for (std::size_t next = first.back(); next < connected.size(); ++next) {
+        for (std::uint32_t side = 3 * connected[next]; side < 3 * connected[next] + 3; ++side) {
+          const std::uint32_t other = across_[side];
+          if (other == kNone || region_[other] != region) continue;
+          region_[other] = seed;
+          connected.push_back(other);
+        }
+      }
+    }
+    first.push_back(connected.size());
+    std::copy(connected.begin(), connected.end(), triangles.begin());
+    return first;
+  }
+
+  void settle(std::span<std::uint32_t> triangles) {
+    if (triangles.size() < kFewest) {
+      for (const std::uint32_t t : triangles) region_[t] = kNone;
+    } else if (!has_simple_outline(triangles)) {
+      const std::size_t half = triangles.size() / 2;
+      sort_in_halves(triangles, half);
+      for (const std::span<std::uint32_t> part : {triangles.first(half), triangles.subspan(half)}) {
+        settle_parts(part);
+      }
+    }
+  }
+
+  void settle_parts(std::span<std::uint32_t> triangles) {
+    std::sort(triangles.begin(), triangles.end());
+    // No region: none is named by the last triangle unless it is alone.
+    for (const std::uint32_t t : triangles) region_[t] = triangles.back();
+    const std::vector<std::size_t> first = divide(triangles, triangles.back());
+    for (std::size_t r = 0; r + 1 < first.size(); ++r) {
+      settle(triangles.subspan(first[r], first[r + 1] - first[r]));
+    }
+  }
+
+  [[nodiscard]] bool has_simple_outline(std::span<const std::uint32_t> triangles) const {
+    std::vector<OutlineEdge> outline;
+    for (const std::uint32_t t : triangles) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t other = across_[3 * t + k];
+        if (other != kNone && region_[other] == region_[t]) continue;
+        const std::uint32_t from = points_of(t)[k], to = points_of(t)[k == 2 ? 0 : k + 1];
+        outline.push_back({corners_.corner(from), corners_.corner(to), &point(from), &point(to)});
+      }
+    }
+    const int facing = facing_[triangles.front()];
+    return is_simple_outline(outline, std::abs(facing) - 1, facing > 0 ? 1 : -1);
+  }
+
+  // By the middles of their boxes, along the axis on which these spread most.
+  void sort_in_halves(std::span<std::uint32_t> triangles, std::size_t half) const {
+    const auto middle = [&](std::uint32_t t, std::size_t axis) {
+      const Box& box = list_.boxes()[t];
+      return 0.5 * box.low[axis] + 0.5 * box.high[axis];
+    };
+    Box middles;
+    for (const std::uint32_t t : triangles) {
+      middles.add(Vec3d(middle(t, 0), middle(t, 1), middle(t, 2)));
+    }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
+    }
+    std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(half),
+                     triangles.end(), [&](std::uint32_t s, std::uint32_t t) {
+                       const double a = middle(s, axis), b = middle(t, axis);
+                       return a != b ? a < b : s < t;
+                     });
+  }
+
+  const SoupCorners& corners_;
+  const TriangleList& list_;
+  std::vector<std::int8_t> facing_;    // the axis from 1, with the sign of the turn
+  std::vector<std::uint32_t> across_;  // of each side the neighbour that faces the same way
+  std::vector<std::uint32_t> region_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> find_height_fields(const TriangleList& triangles) {
+  return HeightFields(triangles).run();
+}
+
+}  // namespace meshrepair::internal
