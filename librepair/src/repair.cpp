@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The whole way, and the table of its contents.
 //
-// A soup becomes a solid by the first of four ways that applies. They are tried from the cheapest
+// A soup becomes a solid by the first of five ways that applies. They are tried from the cheapest
 // to the one that always does; where two apply they give the same solid, but for the last bits of
 // new points. Each is a function of one shape: a surface, or nothing and the next way.
 //
 // - As given, when the soup is the boundary of a solid: promises the soup itself, bit for bit.
+// - In few places, when it is large and one but for these: promises all other triangles, bit for
+//   bit, and the places as a repair of them alone makes them.
 // - Mended, when it is one once copies are dropped, holes closed and parts turned: promises its
 //   triangles, with their own coordinates, and patches.
 // - By chambers, when hardly any triangle is in a loose sheet or contradicts the others:
@@ -56,6 +58,7 @@ struct Job {
   StageMeter meter;
   internal::SavedStates states = internal::SavedStates(soup, options);
   std::optional<Invalid> invalid = {};  // what the first way found of the soup
+  internal::NearlySolid nearly = {};    // where triangles meet
   bool prepared = false;
   CleanSoup clean = {};  // once prepared: on the grid, its holes closed
   Orientation orientation = {};
@@ -102,7 +105,8 @@ struct Job {
 
 std::optional<Surface> as_given(Job& job) {
   if (job.prepared) return std::nullopt;
-  return internal::keep_as_given(job.soup, job.options, job.report, job.meter, job.invalid);
+  return internal::keep_as_given(job.soup, job.options, job.report, job.meter, job.invalid,
+                                 job.nearly);
 }
 
 std::optional<Surface> mended(Job& job) {
@@ -119,6 +123,18 @@ std::optional<Surface> by_chambers(Job& job) {
                                        job.report, job.meter);
 }
 
+// Cells of a place would cost more than those of the whole, where these do not need any.
+std::optional<Surface> in_few_places(Job& job) {
+  if (job.prepared || job.nearly.surface.source.empty()) return std::nullopt;
+  const auto repair_places = [](const TriangleSoup& soup, const RepairOptions& options,
+                                RepairReport& report) {
+    Job places{soup, options, report, StageMeter(report.stages, options.progress)};
+    return by_chambers(places);
+  };
+  return internal::repair_in_places(std::exchange(job.nearly, {}), job.options, repair_places,
+                                    job.report, job.meter);
+}
+
 std::optional<Surface> cells_everywhere(Job& job) {
   job.prepare();
   // The sheets of a soup are looked for when it is known what is solid.
@@ -126,7 +142,7 @@ std::optional<Surface> cells_everywhere(Job& job) {
                                     job.orientation, job.options, job.report, job.meter);
 }
 
-constexpr std::array kWays = {as_given, mended, by_chambers, cells_everywhere};
+constexpr std::array kWays = {as_given, in_few_places, mended, by_chambers, cells_everywhere};
 
 // By the first way that applies; the last one always does.
 std::optional<Surface> first_way(Job& job) {

@@ -21,8 +21,8 @@ struct SelfIntersectionOptions {
   // apart than this, as far as doubles tell. They count as coplanar. 0: none.
   double nearness = 0;
   std::size_t most_pairs = 1000;  // that are kept; all are counted
-  // Stop where there are some: then how many, and which, may change from run to run.
-  bool only_whether = false;
+  // Stop where there are more: then how many, and which, may change from run to run.
+  std::size_t enough = ~std::size_t{0};
   ProgressObserver* progress = nullptr;  // not owned; no stage is begun
 };
 

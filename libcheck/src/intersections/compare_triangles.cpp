@@ -98,9 +98,9 @@ SelfIntersections with_left_out(SelfIntersections result, std::size_t degenerate
 void compare_around_hubs(const SortedTriangles& sorted, const std::vector<std::uint32_t>& hubs,
                          Listed is_listed, const SelfIntersectionOptions& options,
                          std::vector<Findings>& findings) {
-  const bool any =
-      std::any_of(findings.begin(), findings.end(), [](const Findings& f) { return f.any(); });
-  if (options.only_whether && any) return;
+  std::size_t count = 0;
+  for (const Findings& f : findings) count += f.count();
+  if (count > options.enough) return;
   CancelOnly quiet(options.progress);
   SelfIntersectionOptions around_hubs = options;
   around_hubs.progress = &quiet;
@@ -116,7 +116,7 @@ SelfIntersections compare(TriangleList list, Listed is_listed,
   // Around hubs, directions tell what meets, not what is near.
   const std::vector<std::uint32_t> hubs =
       options.nearness == 0 ? find_hubs(list) : std::vector<std::uint32_t>();
-  const std::vector<std::uint32_t> fields = find_height_fields(list);
+  const std::vector<std::uint32_t> fields = find_height_fields(list, tree);
   const bool tell_little =
       boxes_tell_little(tree, list.boxes(), [&](std::uint32_t i, std::uint32_t j) {
         return have_one_group(hubs, i, j) || have_one_group(fields, i, j);

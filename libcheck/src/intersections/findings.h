@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include <check/internal/triangle_pair.h>
@@ -26,8 +27,8 @@ class Findings {
     if (pairs_.size() > most_ && pairs_.size() - most_ >= most_ + 64) keep_lowest();
   }
 
-  [[nodiscard]] bool any() const {
-    return std::any_of(counts_.begin(), counts_.end(), [](std::size_t count) { return count > 0; });
+  [[nodiscard]] std::size_t count() const {
+    return std::accumulate(counts_.begin(), counts_.end(), std::size_t{0});
   }
 
   void add_to(SelfIntersections& result) const {

@@ -11,7 +11,8 @@
 // As Volino and Magnenat-Thalmann, Efficient self-collision detection on smoothly discretized
 // surface animations using geometrical shape regularity (1994), who take it for cloth.
 //
-// A region with another outline is cut in two in space, again and again.
+// A region with another outline is cut in pieces that follow each other in the tree of boxes, again
+// and again.
 #include "height_fields.h"
 
 #include <algorithm>
@@ -30,19 +31,19 @@ namespace {
 
 // Comparing fewer is as fast.
 constexpr std::size_t kFewest = 8;
+constexpr std::size_t kMostPieces = 8;
 constexpr std::size_t kTrianglesPerTask = 8192;
 
 class HeightFields {
  public:
   explicit HeightFields(const TriangleList& list)
-      : corners_(list.corners()), list_(list), region_(list.size(), kNone) {
+      : corners_(list.corners()), list_(list), region_(list.size(), kNone), part_(list.size()) {
     find_facing();
     find_neighbours();
   }
 
-  std::vector<std::uint32_t> run() {
-    std::vector<std::uint32_t> order(list_.size());
-    for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
+  std::vector<std::uint32_t> run(const BoxTree& tree) {
+    std::vector<std::uint32_t> order(tree.order().begin(), tree.order().end());
     const std::vector<std::size_t> first = divide(order, kNone);
     parallel_for(first.size() - 1, [&](std::size_t r) {
       settle(std::span(order).subspan(first[r], first[r + 1] - first[r]));
@@ -85,50 +86,58 @@ class HeightFields {
     });
   }
 
-  // Sorts triangles, all of them in `region`, by what of it is connected, and says where each part
-  // begins, and where the last one ends. Each part becomes a region of its own.
+  // Sorts triangles, all those in `region`, by what of them is connected, otherwise in the order in
+  // which they are, and says where each part begins, and where the last one ends. Each part becomes
+  // a region of its own, named by its first triangle.
   std::vector<std::size_t> divide(std::span<std::uint32_t> triangles, std::uint32_t region) {
-    std::vector<std::size_t> first;
-    std::vector<std::uint32_t> connected;
-    connected.reserve(triangles.size());
+    std::vector<std::size_t> first(1, 0);
+    std::vector<std::uint32_t> waiting;
     for (const std::uint32_t seed : triangles) {
       if (region_[seed] != region) continue;
-      first.push_back(connected.size());
-      connected.push_back(seed);
+      part_[seed] = static_cast<std::uint32_t>(first.size() - 1);
+      std::size_t size = 0;
       region_[seed] = seed;
-      for (std::size_t next = first.back(); next < connected.size(); ++next) {
-        for (std::uint32_t side = 3 * connected[next]; side < 3 * connected[next] + 3; ++side) {
+      waiting.push_back(seed);
+      while (!waiting.empty()) {
+        const std::uint32_t t = waiting.back();
+        waiting.pop_back();
+        ++size;
+        for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
           const std::uint32_t other = across_[side];
           if (other == kNone || region_[other] != region) continue;
           region_[other] = seed;
-          connected.push_back(other);
+          waiting.push_back(other);
         }
       }
+      first.push_back(first.back() + size);
     }
-    first.push_back(connected.size());
-    std::copy(connected.begin(), connected.end(), triangles.begin());
+    std::vector<std::size_t> place(first.begin(), first.end() - 1);
+    std::vector<std::uint32_t> sorted(triangles.size());
+    for (const std::uint32_t t : triangles) sorted[place[part_[region_[t]]]++] = t;
+    std::copy(sorted.begin(), sorted.end(), triangles.begin());
     return first;
   }
 
   void settle(std::span<std::uint32_t> triangles) {
     if (triangles.size() < kFewest) {
       for (const std::uint32_t t : triangles) region_[t] = kNone;
-    } else if (!has_simple_outline(triangles)) {
-      const std::size_t half = triangles.size() / 2;
-      sort_in_halves(triangles, half);
-      for (const std::span<std::uint32_t> part : {triangles.first(half), triangles.subspan(half)}) {
-        settle_parts(part);
-      }
+      return;
     }
-  }
-
-  void settle_parts(std::span<std::uint32_t> triangles) {
-    std::sort(triangles.begin(), triangles.end());
-    // No region: none is named by the last triangle unless it is alone.
-    for (const std::uint32_t t : triangles) region_[t] = triangles.back();
-    const std::vector<std::size_t> first = divide(triangles, triangles.back());
-    for (std::size_t r = 0; r + 1 < first.size(); ++r) {
-      settle(triangles.subspan(first[r], first[r + 1] - first[r]));
+    if (has_simple_outline(triangles)) return;
+    const std::size_t pieces = std::clamp(triangles.size() / kFewest, std::size_t{2}, kMostPieces);
+    const auto piece = [&](std::size_t i) {
+      const std::size_t first = i * triangles.size() / pieces;
+      return triangles.subspan(first, (i + 1) * triangles.size() / pieces - first);
+    };
+    // Each piece by its last triangle, which names no region but one of its own alone.
+    for (std::size_t i = 0; i < pieces; ++i) {
+      for (const std::uint32_t t : piece(i)) region_[t] = piece(i).back();
+    }
+    for (std::size_t i = 0; i < pieces; ++i) {
+      const std::vector<std::size_t> first = divide(piece(i), piece(i).back());
+      for (std::size_t r = 0; r + 1 < first.size(); ++r) {
+        settle(piece(i).subspan(first[r], first[r + 1] - first[r]));
+      }
     }
   }
 
@@ -146,38 +155,18 @@ class HeightFields {
     return is_simple_outline(outline, std::abs(facing) - 1, facing > 0 ? 1 : -1);
   }
 
-  // By the middles of their boxes, along the axis on which these spread most.
-  void sort_in_halves(std::span<std::uint32_t> triangles, std::size_t half) const {
-    const auto middle = [&](std::uint32_t t, std::size_t axis) {
-      const Box& box = list_.boxes()[t];
-      return 0.5 * box.low[axis] + 0.5 * box.high[axis];
-    };
-    Box middles;
-    for (const std::uint32_t t : triangles) {
-      middles.add(Vec3d(middle(t, 0), middle(t, 1), middle(t, 2)));
-    }
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
-    }
-    std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(half),
-                     triangles.end(), [&](std::uint32_t s, std::uint32_t t) {
-                       const double a = middle(s, axis), b = middle(t, axis);
-                       return a != b ? a < b : s < t;
-                     });
-  }
-
   const SoupCorners& corners_;
   const TriangleList& list_;
   std::vector<std::int8_t> facing_;    // the axis from 1, with the sign of the turn
   std::vector<std::uint32_t> across_;  // of each side the neighbour that faces the same way
   std::vector<std::uint32_t> region_;
+  std::vector<std::uint32_t> part_;  // scratch
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> find_height_fields(const TriangleList& triangles) {
-  return HeightFields(triangles).run();
+std::vector<std::uint32_t> find_height_fields(const TriangleList& triangles, const BoxTree& tree) {
+  return HeightFields(triangles).run(tree);
 }
 
 }  // namespace meshrepair::internal

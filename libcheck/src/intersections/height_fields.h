@@ -5,13 +5,16 @@
 #include <cstdint>
 #include <vector>
 
+#include <check/box_tree.h>
 #include <check/internal/triangle_list.h>
 
 namespace meshrepair::internal {
 
-// Of each triangle the region that it belongs to, named by its lowest triangle, or kNone. No two
-// triangles of a region have more in common than corners and edges that they share. Exact; the same
-// on any number of threads. n log n, and linear where regions are compact.
-[[nodiscard]] std::vector<std::uint32_t> find_height_fields(const TriangleList& triangles);
+// Of each triangle the region that it belongs to, named by one of its triangles, or kNone. No two
+// triangles of a region have more in common than corners and edges that they share. `tree` is that
+// of their boxes. Exact; the same on any number of threads. Linear where regions are compact, and
+// n log n where they meet themselves everywhere.
+[[nodiscard]] std::vector<std::uint32_t> find_height_fields(const TriangleList& triangles,
+                                                            const BoxTree& tree);
 
 }  // namespace meshrepair::internal

@@ -26,8 +26,8 @@ SelfIntersections self_intersections(const TriangleSoup& soup,
                                      const SelfIntersectionOptions& options) {
   const internal::SoupCorners corners(soup, options.weld);
   SelfIntersections result = internal::compare_all(corners, options);
-  const bool is_enough = options.only_whether && result.count > 0;
-  if (options.weld && !is_enough) internal::add_crossing_sheets(corners, {}, options, result);
+  if (options.weld && result.count <= options.enough)
+    internal::add_crossing_sheets(corners, {}, options, result);
   return result;
 }
 

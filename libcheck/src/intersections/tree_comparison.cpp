@@ -163,10 +163,11 @@ void compare(const SortedTriangles& sorted, const SelfIntersectionOptions& optio
   const std::size_t before = findings.size();
   findings.resize(before + tasks.size(), Findings(options.most_pairs));
   SharedProgress progress(options.progress, tasks.size());
-  std::atomic<bool> enough = false;
+  std::atomic<std::size_t> count = 0;
   parallel_for(tasks.size(), [&](std::size_t i) {
-    if (!enough) TreeComparison(sorted, progress, findings[before + i]).run(tasks[i]);
-    if (options.only_whether && findings[before + i].any()) enough = true;
+    if (count <= options.enough)
+      TreeComparison(sorted, progress, findings[before + i]).run(tasks[i]);
+    count += findings[before + i].count();
     progress.done();
   });
 }

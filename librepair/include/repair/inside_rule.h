@@ -43,6 +43,9 @@ struct InsideOptions {
   // Open sheets between two places alike are left out of that, up to this share of the covered
   // area.
   double trusted_loose_share = 0.25;
+  // Parts are pieces of larger ones, each of which bounds solid with this area at least, in the
+  // input's units, squared: folds are small beside that. Of label_cells() in square grid steps.
+  double least_solid_area = 0;
 };
 
 struct InsideReport {

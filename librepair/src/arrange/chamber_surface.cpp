@@ -92,6 +92,7 @@ class ChamberSurface {
     report_.links = graph.links().size();
     InsideOptions inside = options_.inside;
     inside.solve.progress = options_.progress;
+    inside.least_solid_area /= soup_.grid.unit * soup_.grid.unit;
     CellLabels labels = label_cells(graph, orientation_, inside, report_.inside);
     if (may_bound_more()) return std::nullopt;
     report_.lost_area = lost_area(graph, labels.solid) * soup_.grid.unit * soup_.grid.unit;

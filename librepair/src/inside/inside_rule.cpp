@@ -140,8 +140,10 @@ class InsideDecider {
     const std::vector<double> given = w;
     const InsideReport before = report_;
     w = internal::turn_parts(graph_, orientation_, std::move(w), options_, report_);
-    const internal::OuterPockets pockets = internal::turn_outer_pockets(
-        graph_, orientation_.part_of, internal::solid_areas(graph_, orientation_.part_of, w), w);
+    std::vector<double> areas = internal::solid_areas(graph_, orientation_.part_of, w);
+    for (double& area : areas) area = std::max(area, options_.least_solid_area);
+    const internal::OuterPockets pockets =
+        internal::turn_outer_pockets(graph_, orientation_.part_of, areas, w);
     report_.left_out_folds = pockets.left_out;
     CellLabels labels = by_winding(w);
     if (!report_.exact) {

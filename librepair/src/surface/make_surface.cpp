@@ -178,7 +178,9 @@ std::optional<Surface> surface_by_chambers(const CleanSoup& soup, const Orientat
   // In single precision cells fill slits.
   if (options.certify.precision == Precision::float32) {
     finishing.certify.most_rounds = std::min(finishing.certify.most_rounds, kRoundsBeforeCells);
-    finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
+    if (finishing.certify.most_pairs_at_first == CertifyOptions().most_pairs_at_first) {
+      finishing.certify.most_pairs_at_first = pairs_by_chance(surface->mesh.triangles.size());
+    }
   }
   surface = finish_surface(soup, std::move(*surface), finishing, attempt, meter);
   if (options.certify.wanted && !attempt.certify.passed()) return std::nullopt;

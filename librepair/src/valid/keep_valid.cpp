@@ -16,12 +16,6 @@
 namespace meshrepair {
 namespace {
 
-CertifyOptions written_as(const RepairOptions& options) {
-  CertifyOptions written = options.certify;
-  written.touching = options.extract.touching;
-  return written;
-}
-
 void describe_inside(const RepairOptions& options, const std::string& reason,
                      InsideReport& report) {
   report.asked = options.inside.rule;
@@ -80,13 +74,30 @@ bool is_as_given(const RepairReport& report) {
          report.holes.triangles == 0 && report.orient.turned_triangles == 0;
 }
 
-// Solidity fills also what winding numbers leave empty.
-bool may_be_kept(const RepairOptions& options) {
-  return internal::may_spare_cells(options) && options.inside.rule != InsideRule::solidity;
+}  // namespace
+
+std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
+  if (may_fill(options.inside)) return std::nullopt;
+  CancelOnly quiet(options.progress);
+  return valid_solid(soup, internal::written_as(options), &quiet);
 }
 
-// Whether voids that are to be filled are parts, as keep_parts() takes them: where a surface
-// touches itself, the wall of a void may hang together with what is around it.
+namespace internal {
+
+CertifyOptions written_as(const RepairOptions& options) {
+  CertifyOptions written = options.certify;
+  written.touching = options.extract.touching;
+  return written;
+}
+
+bool may_spare_cells(const RepairOptions& options) {
+  return !options.all_cells && options.predicates == Predicates::exact && !options.check_cells;
+}
+
+bool may_be_kept(const RepairOptions& options) {
+  return may_spare_cells(options) && options.inside.rule != InsideRule::solidity;
+}
+
 bool tells_voids(const Surface& surface, const InsideOptions& options) {
   if (options.cavities == Cavities::keep) return true;
   const std::vector<std::uint32_t> first = first_in_place(surface.mesh.points);
@@ -96,28 +107,14 @@ bool tells_voids(const Surface& surface, const InsideOptions& options) {
   return true;
 }
 
-}  // namespace
-
-std::optional<Surface> keep_valid(const TriangleSoup& soup, const RepairOptions& options) {
-  if (may_fill(options.inside)) return std::nullopt;
-  CancelOnly quiet(options.progress);
-  return valid_solid(soup, written_as(options), &quiet);
-}
-
-namespace internal {
-
-bool may_spare_cells(const RepairOptions& options) {
-  return !options.all_cells && options.predicates == Predicates::exact && !options.check_cells;
-}
-
 std::optional<Surface> keep_as_given(const TriangleSoup& soup, const RepairOptions& options,
                                      RepairReport& report, StageMeter& meter,
-                                     std::optional<Invalid>& invalid) {
+                                     std::optional<Invalid>& invalid, NearlySolid& nearly) {
   if (!may_be_kept(options)) return std::nullopt;
   meter.begin("validate");
   CancelOnly quiet(options.progress);
   Invalid why{};
-  std::optional<Surface> surface = valid_solid(soup, written_as(options), &quiet, &why);
+  std::optional<Surface> surface = solid_as_given(soup, written_as(options), &quiet, why, nearly);
   if (!surface) {
     invalid = why;
     return std::nullopt;

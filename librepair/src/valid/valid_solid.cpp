@@ -18,6 +18,7 @@
 #include <mesh/weld_points.h>
 #include <repair/valid_solid.h>
 
+#include "nearly_solid.h"
 #include "orient/surface_pieces.h"
 
 namespace meshrepair {
@@ -62,33 +63,42 @@ bool is_manifold_as_it_is(const TriangleSoup& mesh, Touching touching) {
   return touching == Touching::separate ? contacts.separate : contacts.joined;
 }
 
-bool is_free_of_faults(const TriangleSoup& mesh, ProgressObserver* progress) {
+// Some of them, if there are any.
+SelfIntersections find_faults(const TriangleSoup& mesh, ProgressObserver* progress) {
   SelfIntersectionOptions options;
-  options.most_pairs = 0;
-  options.only_whether = true;
+  options.enough = 0;
   options.progress = progress;
-  const SelfIntersections found = self_intersections(mesh, options);
-  return found.count + found.degenerate + found.not_finite == 0;
+  return self_intersections(mesh, options);
+}
+
+// Its triangles and points are those of the soup, in their order.
+void name_sources(const TriangleSoup& soup, Surface& surface) {
+  surface.source.resize(surface.mesh.triangles.size());
+  std::iota(surface.source.begin(), surface.source.end(), 0u);
+  for (std::size_t p = 0; p < soup.points.size(); ++p) {
+    surface.input_point.push_back(surface.mesh.points[p] == soup.points[p] ? 1 : 0);
+  }
 }
 
 // The soup as it will be written, if that is all that valid_solid() asks for, but for the way its
 // parts face.
 std::optional<Surface> sound_surface(const TriangleSoup& soup, const CertifyOptions& options,
-                                     ProgressObserver* progress, Invalid& why) {
+                                     ProgressObserver* progress, Invalid& why,
+                                     internal::NearlySolid* nearly = nullptr) {
   why = Invalid::not_manifold;
   if (soup.triangles.empty() || !has_indices_in_range(soup)) return std::nullopt;
   Surface surface;
   surface.mesh = as_written(soup, options.precision);
-  if (!join_points(surface.mesh) &&
-      (options.welded || !is_manifold_as_it_is(surface.mesh, options.touching))) {
+  const bool is_joined = join_points(surface.mesh);
+  if (!is_joined && (options.welded || !is_manifold_as_it_is(surface.mesh, options.touching))) {
     return std::nullopt;
   }
   why = Invalid::meets_itself;
-  if (!is_free_of_faults(surface.mesh, progress)) return std::nullopt;
-  surface.source.resize(surface.mesh.triangles.size());
-  std::iota(surface.source.begin(), surface.source.end(), 0u);
-  for (std::size_t p = 0; p < soup.points.size(); ++p) {
-    surface.input_point.push_back(surface.mesh.points[p] == soup.points[p] ? 1 : 0);
+  const SelfIntersections found = find_faults(surface.mesh, progress);
+  name_sources(soup, surface);
+  if (found.count + found.degenerate + found.not_finite > 0) {
+    if (nearly != nullptr && is_joined) *nearly = {std::move(surface), found};
+    return std::nullopt;
   }
   keep_triangles(surface, std::vector<char>(surface.source.size(), 1));
   return surface;
@@ -172,14 +182,31 @@ bool any_part_is_thin(const TriangleSoup& mesh, const PartOrientation& found, do
 
 }  // namespace
 
+namespace internal {
+
+std::optional<Surface> solid_as_given(const TriangleSoup& soup, const CertifyOptions& options,
+                                      ProgressObserver* progress, Invalid& why,
+                                      NearlySolid& nearly) {
+  std::optional<Surface> surface = sound_surface(soup, options, progress, why, &nearly);
+  if (surface && any(examine_part_orientation(surface->mesh, progress).inside_out)) {
+    surface.reset();
+    why = Invalid::faces_the_wrong_way;
+  }
+  return surface;
+}
+
+bool is_sound(const TriangleSoup& mesh, const CertifyOptions& options) {
+  if (is_closed_manifold(examine_topology(welded(mesh), mesh.points.size()))) return true;
+  return !options.welded && is_manifold_as_it_is(mesh, options.touching);
+}
+
+}  // namespace internal
+
 std::optional<Surface> valid_solid(const TriangleSoup& soup, const CertifyOptions& options,
                                    ProgressObserver* progress, Invalid* why) {
   Invalid found{};
-  std::optional<Surface> surface = sound_surface(soup, options, progress, found);
-  if (surface && any(examine_part_orientation(surface->mesh, progress).inside_out)) {
-    surface.reset();
-    found = Invalid::faces_the_wrong_way;
-  }
+  internal::NearlySolid nearly;
+  std::optional<Surface> surface = internal::solid_as_given(soup, options, progress, found, nearly);
   if (!surface && why != nullptr) *why = found;
   return surface;
 }

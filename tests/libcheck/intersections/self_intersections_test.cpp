@@ -226,7 +226,7 @@ TEST(SelfIntersections, AgreeWithAllPairsOneByOne) {
 
 TEST(SelfIntersections, WhetherThereAreAnyIsToldWithoutCountingAll) {
   SelfIntersectionOptions options;
-  options.only_whether = true;
+  options.enough = 0;
   for_each_seed(1, 60, [&](std::uint64_t seed) {
     const TriangleSoup soup = testing::random_soup(8, 12, seed);
     EXPECT_EQ(self_intersections(soup, options).count > 0, self_intersections(soup).count > 0);

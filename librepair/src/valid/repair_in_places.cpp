@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// Scans and exports of many triangles often bound a solid but for some places where rounding, or a
+// fold, makes triangles meet. Each place is cut out with some rings of whole triangles, closed by a
+// cap, and all these bodies are repaired as one small mesh. What comes of them, without the caps,
+// takes its place in the rims again. What was not cut out was tested with all others, and what is
+// new is tested with all: so the whole is certified without another look at all pairs.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <base/error.h>
+#include <base/ids.h>
+#include <check/part_orientation.h>
+#include <check/self_intersections.h>
+#include <exact/double_predicates.h>
+#include <mesh/internal/triangle_measures.h>
+#include <mesh/mesh_parts.h>
+#include <mesh/topology.h>
+
+#include "again/second_repair.h"
+#include "capped_places.h"
+#include "keep_valid.h"
+#include "nearly_solid.h"
+#include "report/describe_result.h"
+
+namespace meshrepair::internal {
+namespace {
+
+// Smaller ones are repaired as fast as a whole.
+constexpr std::size_t kLarge = 20'000;
+// Of the triangles: pairs that meet, and triangles of all places.
+constexpr std::size_t kMostPairsShare = 64, kMostPlacesShare = 2;
+
+class FewPlaces {
+ public:
+  FewPlaces(Surface closed, std::vector<std::uint32_t> part, const RepairOptions& options,
+            const RepairPlaces& repair_places)
+      : options_(options),
+        repair_places_(repair_places),
+        quiet_(options.progress),
+        surface_(std::move(closed)),
+        part_(std::move(part)) {}
+
+  std::optional<Surface> run() {
+    const std::vector<std::uint32_t> seeds = find_seeds();
+    if (seeds.empty()) return std::nullopt;
+    find_least_area(seeds);
+    auto places = cap_places(surface_.mesh, seeds, surface_.source.size() / kMostPlacesShare,
+                             options_.certify.precision, &quiet_);
+    if (!places) return std::nullopt;
+    places_ = std::move(*places);
+    const std::optional<Surface> repaired = repair();
+    if (!repaired || !put_back(*repaired) || !is_solid()) return std::nullopt;
+    return std::move(surface_);
+  }
+
+  // What repairing the places said; caps count in it.
+  [[nodiscard]] RepairReport take_report() {
+    second_.stages.clear();
+    return std::move(second_);
+  }
+  // Of all triangles. To be called before take_report().
+  [[nodiscard]] TriangleFates fates() const {
+    const std::size_t caps = places_.soup.triangles.size() - places_.triangle.size();
+    TriangleFates fates;
+    fates.untouched = untouched_ + second_.triangles.untouched - caps;
+    fates.cut = rounded_ + second_.triangles.cut;
+    return fates;
+  }
+
+ private:
+  // Those that meet others, and those without area. None where they are many.
+  std::vector<std::uint32_t> find_seeds() {
+    const TriangleSoup& mesh = surface_.mesh;
+    const std::size_t most = mesh.triangles.size() / kMostPairsShare;
+    SelfIntersectionOptions options;
+    options.most_pairs = options.enough = most;
+    options.progress = &quiet_;
+    const SelfIntersections found = self_intersections(mesh, options);
+    if (found.count > most || found.degenerate > most || found.not_finite > 0) return {};
+    std::vector<std::uint32_t> seeds;
+    for (const auto& pair : found.pairs) seeds.insert(seeds.end(), pair.begin(), pair.end());
+    for (std::uint32_t t = 0; found.degenerate > 0 && t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      if (projection_axis(mesh.points[a], mesh.points[b], mesh.points[c]) < 0) seeds.push_back(t);
+    }
+    return seeds;
+  }
+
+  // Of the parts with places.
+  void find_least_area(std::span<const std::uint32_t> seeds) {
+    const TriangleSoup& mesh = surface_.mesh;
+    std::vector<double> area(*std::max_element(part_.begin(), part_.end()) + std::size_t{1}, 0);
+    for (std::size_t t = 0; t < part_.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      area[part_[t]] += triangle_area(mesh.points[a], mesh.points[b], mesh.points[c]);
+    }
+    least_area_ = area[part_[seeds.front()]];
+    for (const std::uint32_t t : seeds) least_area_ = std::min(least_area_, area[part_[t]]);
+  }
+
+  std::optional<Surface> repair() {
+    SecondSoup second;
+    second.soup = places_.soup;
+    second.first_added = places_.triangle.size();
+    second.source = places_.triangle;
+    second.source.resize(second.soup.triangles.size(), Surface::kNoSource);
+    RepairOptions again = options_for_second(second, options_);
+    again.inside = options_.inside;
+    again.inside.least_solid_area = least_area_;
+    again.join_gaps = {};
+    again.states = nullptr;
+    again.progress = &quiet_;
+    // As for the whole: places are where triangles meet.
+    again.certify.most_pairs_at_first = pairs_by_chance(surface_.source.size());
+    try {
+      std::optional<Surface> repaired = repair_places_(second.soup, again, second_);
+      const bool is_sure = second_.inside.used == InsideRule::winding && second_.certify.passed();
+      if (repaired && !is_sure) repaired.reset();
+      return repaired;
+    } catch (const NoSolidError&) {
+      return std::nullopt;
+    }
+  }
+
+  // Takes the place of what was cut out. False where a cap is not as it was.
+  bool put_back(const Surface& repaired) {
+    const auto first_cap = static_cast<std::uint32_t>(places_.triangle.size());
+    std::vector<std::uint32_t> point(repaired.mesh.points.size(), kNone);  // of the surface
+    std::size_t caps = 0;
+    for (std::size_t t = 0; t < repaired.source.size(); ++t) {
+      const std::uint32_t source = repaired.source[t];
+      if (source == Surface::kNoSource || source < first_cap) continue;
+      if (!is_cap(repaired.mesh, t, source, point)) return false;
+      ++caps;
+    }
+    if (caps != places_.soup.triangles.size() - first_cap) return false;
+    drop_places();
+    for (std::size_t p = 0; p < point.size(); ++p) {
+      if (point[p] != kNone) continue;
+      point[p] = static_cast<std::uint32_t>(surface_.mesh.points.size());
+      surface_.mesh.points.push_back(repaired.mesh.points[p]);
+      surface_.input_point.push_back(repaired.input_point[p]);
+    }
+    first_new_ = surface_.source.size();
+    for (std::size_t t = 0; t < repaired.source.size(); ++t) {
+      std::uint32_t source = repaired.source[t];
+      if (source != Surface::kNoSource && source >= first_cap) continue;
+      if (source != Surface::kNoSource) source = source_of_[source];
+      const auto& [a, b, c] = repaired.mesh.triangles[t];
+      surface_.mesh.triangles.push_back({point[a], point[b], point[c]});
+      surface_.source.push_back(source);
+    }
+    return true;
+  }
+
+  // Whether a triangle is a cap's, unchanged; then its corners in the rim are those of the surface.
+  bool is_cap(const TriangleSoup& mesh, std::size_t t, std::uint32_t cap,
+              std::vector<std::uint32_t>& point) const {
+    const IndexTriangle& from = places_.soup.triangles[cap];
+    const IndexTriangle& to = mesh.triangles[t];
+    for (std::size_t first = 0; first < 3; ++first) {
+      bool is_same = true;
+      for (std::size_t k = 0; k < 3 && is_same; ++k) {
+        is_same = mesh.points[to[(first + k) % 3]] == places_.soup.points[from[k]];
+      }
+      if (!is_same) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const bool is_tip = from[k] >= places_.point.size();
+        point[to[(first + k) % 3]] = is_tip ? 0 : places_.point[from[k]];
+      }
+      return true;
+    }
+    return false;
+  }
+
+  void drop_places() {
+    std::vector<char> is_out(surface_.source.size(), 0);
+    source_of_.clear();
+    for (const std::uint32_t t : places_.triangle) {
+      is_out[t] = 1;
+      source_of_.push_back(surface_.source[t]);
+    }
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < is_out.size(); ++t) {
+      if (is_out[t] != 0) continue;
+      const IndexTriangle& corners = surface_.mesh.triangles[t];
+      const bool is_as_given = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t p) {
+        return surface_.input_point[p] != 0;
+      });
+      ++(is_as_given ? untouched_ : rounded_);
+      surface_.mesh.triangles[kept] = surface_.mesh.triangles[t];
+      surface_.source[kept++] = surface_.source[t];
+    }
+    surface_.mesh.triangles.resize(kept);
+    surface_.source.resize(kept);
+  }
+
+  bool is_solid() {
+    std::vector<std::uint32_t> fresh(surface_.source.size() - first_new_);
+    std::iota(fresh.begin(), fresh.end(), static_cast<std::uint32_t>(first_new_));
+    SelfIntersectionOptions options;
+    options.enough = 0;
+    options.progress = &quiet_;
+    const SelfIntersections found = self_intersections(surface_.mesh, fresh, options);
+    if (found.count + found.degenerate + found.not_finite > 0) return false;
+    if (!is_sound(surface_.mesh, written_as(options_))) return false;
+    sort_by_source();
+    keep_triangles(surface_, std::vector<char>(surface_.source.size(), 1));
+    const PartOrientation parts = examine_part_orientation(surface_.mesh, &quiet_);
+    return std::find(parts.inside_out.begin(), parts.inside_out.end(), 1) == parts.inside_out.end();
+  }
+
+  // So that triangles come in the order of the input.
+  void sort_by_source() {
+    std::vector<std::uint32_t> order(surface_.source.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto less = [&](std::uint32_t a, std::uint32_t b) {
+      return surface_.source[a] < surface_.source[b];
+    };
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(first_new_);
+    std::stable_sort(middle, order.end(), less);
+    std::inplace_merge(order.begin(), middle, order.end(), less);
+    Surface sorted;
+    sorted.mesh.triangles.reserve(order.size());
+    sorted.source.reserve(order.size());
+    for (const std::uint32_t t : order) {
+      sorted.mesh.triangles.push_back(surface_.mesh.triangles[t]);
+      sorted.source.push_back(surface_.source[t]);
+    }
+    surface_.mesh.triangles = std::move(sorted.mesh.triangles);
+    surface_.source = std::move(sorted.source);
+  }
+
+  const RepairOptions& options_;
+  const RepairPlaces& repair_places_;
+  CancelOnly quiet_;
+  Surface surface_;
+  std::vector<std::uint32_t> part_;  // of each triangle as given
+  double least_area_ = 0;
+  CappedPlaces places_;
+  std::vector<std::uint32_t> source_of_;  // of each triangle of the places
+  std::size_t first_new_ = 0;
+  std::size_t untouched_ = 0, rounded_ = 0;  // of those that were not cut out
+  RepairReport second_;
+};
+
+// Bodies that cross do so in more than places, mostly.
+bool parts_meet(const SelfIntersections& found, std::span<const std::uint32_t> part) {
+  return std::any_of(found.pairs.begin(), found.pairs.end(),
+                     [&](const auto& pair) { return part[pair[0]] != part[pair[1]]; });
+}
+
+void describe_input(const TriangleSoup& mesh, RepairReport& report) {
+  report.clean.triangles_in = mesh.triangles.size();
+  report.input = examine_topology(mesh.triangles, mesh.points.size());
+  report.input_area = surface_area(mesh);
+  report.input_volume = signed_volume(mesh);
+}
+
+void describe_places(FewPlaces& places, const RepairOptions& options, RepairReport& report) {
+  const TriangleFates fates = places.fates();
+  RepairReport second = places.take_report();
+  report.inside = second.inside;
+  report.inside.asked = options.inside.rule;
+  report.inside.reason = options.inside.rule == InsideRule::automatic
+                             ? "the orientation is consistent everywhere"
+                             : "asked for";
+  report.arrange = second.arrange;
+  report.parts.bounding_triangles = fates.untouched + fates.cut;
+  report.parts.inside_triangles = second.parts.inside_triangles;
+  report.parts.outside_triangles = second.parts.outside_triangles;
+  report.triangles = fates;
+  append_report(std::move(second), report);
+  report.spared_cells = true;
+}
+
+}  // namespace
+
+std::optional<Surface> repair_in_places(NearlySolid nearly, const RepairOptions& options,
+                                        const RepairPlaces& repair_places, RepairReport& report,
+                                        StageMeter& meter) {
+  if (nearly.surface.source.size() < kLarge || !options.certify.wanted) return std::nullopt;
+  meter.begin("places");
+  std::vector<std::uint32_t> part = find_parts(nearly.surface.mesh).of_triangle;
+  if (parts_meet(nearly.found, part)) return std::nullopt;
+  RepairReport input;
+  describe_input(nearly.surface.mesh, input);
+  FewPlaces places(std::move(nearly.surface), std::move(part), options, repair_places);
+  std::optional<Surface> surface = places.run();
+  if (!surface || !tells_voids(*surface, options.inside)) return std::nullopt;
+  meter.begin("check");
+  input.stages = std::move(report.stages);
+  report = std::move(input);
+  describe_places(places, options, report);
+  describe_output(*surface, report);
+  if (options.examine) options.examine(report);
+  return surface;
+}
+
+}  // namespace meshrepair::internal
