@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 4096;
 constexpr std::size_t kNodesPerTask = 256;
+// Of the corners, which tell the axes.
+constexpr std::size_t kMostSamples = 64;
 // Of the size of the whole, which is below 2: beyond what rounding does to axes, differences and
 // sums of a few products.
 constexpr double kMargin = 0x1p-42;
@@ -83,11 +85,14 @@ OrientedBoxes::OrientedBoxes(const BoxTree& tree, std::vector<Vec3d> corners) {
 }
 
 OrientedBoxes::OrientedBox OrientedBoxes::around(std::span<const Vec3d> points) {
+  const std::size_t step = points.size() / kMostSamples + 1;
   Vec3d mean = Vec3d::Zero();
-  for (const Vec3d& p : points) mean += p;
-  mean /= static_cast<double>(points.size());
+  for (std::size_t i = 0; i < points.size(); i += step) mean += points[i];
+  mean /= static_cast<double>((points.size() + step - 1) / step);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vec3d& p : points) spread += (p - mean) * (p - mean).transpose();
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    spread += (points[i] - mean) * (points[i] - mean).transpose();
+  }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> inertia;
   inertia.computeDirect(spread);
   OrientedBox box;
