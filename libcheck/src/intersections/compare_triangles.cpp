@@ -116,17 +116,21 @@ SelfIntersections compare(TriangleList list, Listed is_listed,
   // Around hubs, directions tell what meets, not what is near.
   const std::vector<std::uint32_t> hubs =
       options.nearness == 0 ? find_hubs(list) : std::vector<std::uint32_t>();
-  const std::vector<std::uint32_t> fields = find_height_fields(list, tree);
-  const bool tell_little =
-      boxes_tell_little(tree, list.boxes(), [&](std::uint32_t i, std::uint32_t j) {
-        return have_one_group(hubs, i, j) || have_one_group(fields, i, j);
-      });
+  std::vector<std::uint32_t> fields;
+  const auto tell_little = [&] {
+    return boxes_tell_little(tree, list.boxes(), [&](std::uint32_t i, std::uint32_t j) {
+      return have_one_group(hubs, i, j) || have_one_group(fields, i, j);
+    });
+  };
+  const bool are_long = tell_little();
+  if (are_long || may_have_height_fields(list, tree)) fields = find_height_fields(list, tree);
+  const bool use_oriented = are_long && tell_little();
   SortedTriangles sorted(std::move(list), tree);
   sorted.look_within(options.nearness);
   sorted.leave_out(hubs);
   sorted.leave_out(fields);
   if (!is_listed.empty()) sorted.leave_out_unlisted(is_listed);
-  if (tell_little) sorted.use_oriented_boxes();
+  if (use_oriented) sorted.use_oriented_boxes();
   std::vector<Findings> findings;
   compare(sorted, options, findings);
   if (!hubs.empty()) {

@@ -20,7 +20,7 @@ namespace meshrepair::internal {
 namespace {
 
 // Rings around the triangles at fault, at first and at most.
-constexpr std::size_t kRings = 2, kMostRings = 6;
+constexpr std::size_t kRings = 2, kMostRings = 4;
 // Rounds in which rims that meet themselves in a point are filled up.
 constexpr std::size_t kMostFills = 8;
 // Of the depth of a place and its radius.

@@ -35,6 +35,13 @@ constexpr std::size_t kLarge = 20'000;
 // Of the triangles: pairs that meet, and triangles of all places.
 constexpr std::size_t kMostPairsShare = 64, kMostPlacesShare = 2;
 
+void describe_input(const TriangleSoup& mesh, RepairReport& report) {
+  report.clean.triangles_in = mesh.triangles.size();
+  report.input = examine_topology(mesh.triangles, mesh.points.size());
+  report.input_area = surface_area(mesh);
+  report.input_volume = signed_volume(mesh);
+}
+
 class FewPlaces {
  public:
   FewPlaces(Surface closed, std::vector<std::uint32_t> part, const RepairOptions& options,
@@ -54,22 +61,31 @@ class FewPlaces {
     if (!places) return std::nullopt;
     places_ = std::move(*places);
     const std::optional<Surface> repaired = repair();
-    if (!repaired || !put_back(*repaired) || !is_solid()) return std::nullopt;
+    if (!repaired) return std::nullopt;
+    describe_input(surface_.mesh, report_);
+    if (!put_back(*repaired) || !is_solid()) return std::nullopt;
     return std::move(surface_);
   }
 
-  // What repairing the places said; caps count in it.
+  // Of the whole, but for what is said of the output.
   [[nodiscard]] RepairReport take_report() {
-    second_.stages.clear();
-    return std::move(second_);
-  }
-  // Of all triangles. To be called before take_report().
-  [[nodiscard]] TriangleFates fates() const {
     const std::size_t caps = places_.soup.triangles.size() - places_.triangle.size();
-    TriangleFates fates;
-    fates.untouched = untouched_ + second_.triangles.untouched - caps;
-    fates.cut = rounded_ + second_.triangles.cut;
-    return fates;
+    RepairReport& report = report_;
+    report.inside = second_.inside;
+    report.inside.asked = options_.inside.rule;
+    report.inside.reason = options_.inside.rule == InsideRule::automatic
+                               ? "the orientation is consistent everywhere"
+                               : "asked for";
+    report.arrange = second_.arrange;
+    report.triangles.untouched = untouched_ + second_.triangles.untouched - caps;
+    report.triangles.cut = rounded_ + second_.triangles.cut;
+    report.parts.bounding_triangles = report.triangles.untouched + report.triangles.cut;
+    report.parts.inside_triangles = second_.parts.inside_triangles;
+    report.parts.outside_triangles = second_.parts.outside_triangles;
+    second_.stages.clear();
+    append_report(std::move(second_), report);
+    report.spared_cells = true;
+    return std::move(report);
   }
 
  private:
@@ -246,37 +262,13 @@ class FewPlaces {
   std::vector<std::uint32_t> source_of_;  // of each triangle of the places
   std::size_t first_new_ = 0;
   std::size_t untouched_ = 0, rounded_ = 0;  // of those that were not cut out
-  RepairReport second_;
+  RepairReport report_, second_;             // of the whole, and of the places with their caps
 };
 
 // Bodies that cross do so in more than places, mostly.
 bool parts_meet(const SelfIntersections& found, std::span<const std::uint32_t> part) {
   return std::any_of(found.pairs.begin(), found.pairs.end(),
                      [&](const auto& pair) { return part[pair[0]] != part[pair[1]]; });
-}
-
-void describe_input(const TriangleSoup& mesh, RepairReport& report) {
-  report.clean.triangles_in = mesh.triangles.size();
-  report.input = examine_topology(mesh.triangles, mesh.points.size());
-  report.input_area = surface_area(mesh);
-  report.input_volume = signed_volume(mesh);
-}
-
-void describe_places(FewPlaces& places, const RepairOptions& options, RepairReport& report) {
-  const TriangleFates fates = places.fates();
-  RepairReport second = places.take_report();
-  report.inside = second.inside;
-  report.inside.asked = options.inside.rule;
-  report.inside.reason = options.inside.rule == InsideRule::automatic
-                             ? "the orientation is consistent everywhere"
-                             : "asked for";
-  report.arrange = second.arrange;
-  report.parts.bounding_triangles = fates.untouched + fates.cut;
-  report.parts.inside_triangles = second.parts.inside_triangles;
-  report.parts.outside_triangles = second.parts.outside_triangles;
-  report.triangles = fates;
-  append_report(std::move(second), report);
-  report.spared_cells = true;
 }
 
 }  // namespace
@@ -288,15 +280,13 @@ std::optional<Surface> repair_in_places(NearlySolid nearly, const RepairOptions&
   meter.begin("places");
   std::vector<std::uint32_t> part = find_parts(nearly.surface.mesh).of_triangle;
   if (parts_meet(nearly.found, part)) return std::nullopt;
-  RepairReport input;
-  describe_input(nearly.surface.mesh, input);
   FewPlaces places(std::move(nearly.surface), std::move(part), options, repair_places);
   std::optional<Surface> surface = places.run();
   if (!surface || !tells_voids(*surface, options.inside)) return std::nullopt;
   meter.begin("check");
-  input.stages = std::move(report.stages);
-  report = std::move(input);
-  describe_places(places, options, report);
+  std::vector<StageReport> stages = std::move(report.stages);
+  report = places.take_report();
+  report.stages = std::move(stages);
   describe_output(*surface, report);
   if (options.examine) options.examine(report);
   return surface;
