@@ -20,6 +20,7 @@
 #include <mesh/internal/triangle_measures.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/topology.h>
+#include <mesh/weld_points.h>
 
 #include "again/second_repair.h"
 #include "capped_places.h"
@@ -72,14 +73,10 @@ class FewPlaces {
     const std::size_t caps = places_.soup.triangles.size() - places_.triangle.size();
     RepairReport& report = report_;
     report.inside = second_.inside;
-    report.inside.asked = options_.inside.rule;
-    report.inside.reason = options_.inside.rule == InsideRule::automatic
-                               ? "the orientation is consistent everywhere"
-                               : "asked for";
     report.arrange = second_.arrange;
-    report.triangles.untouched = untouched_ + second_.triangles.untouched - caps;
-    report.triangles.cut = rounded_ + second_.triangles.cut;
-    report.parts.bounding_triangles = report.triangles.untouched + report.triangles.cut;
+    report.parts.bounding_triangles = first_new_ + second_.parts.bounding_triangles - caps;
+    report.triangles.untouched = untouched_;
+    report.triangles.cut = report.parts.bounding_triangles - untouched_;
     report.parts.inside_triangles = second_.parts.inside_triangles;
     report.parts.outside_triangles = second_.parts.outside_triangles;
     second_.stages.clear();
@@ -147,20 +144,28 @@ class FewPlaces {
   bool put_back(const Surface& repaired) {
     const auto first_cap = static_cast<std::uint32_t>(places_.triangle.size());
     std::vector<std::uint32_t> point(repaired.mesh.points.size(), kNone);  // of the surface
-    std::size_t caps = 0;
+    std::vector<char> is_whole(places_.soup.triangles.size(), 0);
     for (std::size_t t = 0; t < repaired.source.size(); ++t) {
       const std::uint32_t source = repaired.source[t];
-      if (source == Surface::kNoSource || source < first_cap) continue;
-      if (!is_cap(repaired.mesh, t, source, point)) return false;
-      ++caps;
+      if (source == Surface::kNoSource) continue;
+      const std::size_t first = first_same_corner(repaired.mesh, t, source);
+      if (first < 3) is_whole[source] = 1;
+      if (first < 3 && source >= first_cap) note_rim(repaired.mesh, t, first, source, point);
     }
-    if (caps != places_.soup.triangles.size() - first_cap) return false;
+    for (std::uint32_t s = 0; s < is_whole.size(); ++s) {
+      if (s >= first_cap && is_whole[s] == 0) return false;
+      if (s < first_cap && is_whole[s] != 0) untouched_ += is_as_given(places_.triangle[s]) ? 1 : 0;
+    }
     drop_places();
+    const std::vector<std::uint32_t> place =
+        first_in_place(places_.soup.points, repaired.mesh.points);
     for (std::size_t p = 0; p < point.size(); ++p) {
       if (point[p] != kNone) continue;
       point[p] = static_cast<std::uint32_t>(surface_.mesh.points.size());
       surface_.mesh.points.push_back(repaired.mesh.points[p]);
-      surface_.input_point.push_back(repaired.input_point[p]);
+      const bool is_given =
+          place[p] < places_.point.size() && surface_.input_point[places_.point[place[p]]] != 0;
+      surface_.input_point.push_back(is_given ? repaired.input_point[p] : char{0});
     }
     first_new_ = surface_.source.size();
     for (std::size_t t = 0; t < repaired.source.size(); ++t) {
@@ -174,24 +179,37 @@ class FewPlaces {
     return true;
   }
 
-  // Whether a triangle is a cap's, unchanged; then its corners in the rim are those of the surface.
-  bool is_cap(const TriangleSoup& mesh, std::size_t t, std::uint32_t cap,
-              std::vector<std::uint32_t>& point) const {
-    const IndexTriangle& from = places_.soup.triangles[cap];
+  // Which corner of a triangle of the result is the first one of its source, if it has the corners
+  // of that in their order; else 3.
+  [[nodiscard]] std::size_t first_same_corner(const TriangleSoup& mesh, std::size_t t,
+                                              std::uint32_t source) const {
+    const IndexTriangle& from = places_.soup.triangles[source];
     const IndexTriangle& to = mesh.triangles[t];
     for (std::size_t first = 0; first < 3; ++first) {
       bool is_same = true;
       for (std::size_t k = 0; k < 3 && is_same; ++k) {
         is_same = mesh.points[to[(first + k) % 3]] == places_.soup.points[from[k]];
       }
-      if (!is_same) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const bool is_tip = from[k] >= places_.point.size();
-        point[to[(first + k) % 3]] = is_tip ? 0 : places_.point[from[k]];
-      }
-      return true;
+      if (is_same) return first;
     }
-    return false;
+    return 3;
+  }
+
+  // The corners of an unchanged cap are those of the surface, but for the tip.
+  void note_rim(const TriangleSoup& mesh, std::size_t t, std::size_t first, std::uint32_t cap,
+                std::vector<std::uint32_t>& point) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = places_.soup.triangles[cap][k];
+      const bool is_tip = from >= places_.point.size();
+      point[mesh.triangles[t][(first + k) % 3]] = is_tip ? 0 : places_.point[from];
+    }
+  }
+
+  // Of the closed surface: not rounded.
+  [[nodiscard]] bool is_as_given(std::size_t t) const {
+    const IndexTriangle& corners = surface_.mesh.triangles[t];
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](std::uint32_t p) { return surface_.input_point[p] != 0; });
   }
 
   void drop_places() {
@@ -204,11 +222,7 @@ class FewPlaces {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < is_out.size(); ++t) {
       if (is_out[t] != 0) continue;
-      const IndexTriangle& corners = surface_.mesh.triangles[t];
-      const bool is_as_given = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t p) {
-        return surface_.input_point[p] != 0;
-      });
-      ++(is_as_given ? untouched_ : rounded_);
+      untouched_ += is_as_given(t) ? 1 : 0;
       surface_.mesh.triangles[kept] = surface_.mesh.triangles[t];
       surface_.source[kept++] = surface_.source[t];
     }
@@ -228,7 +242,11 @@ class FewPlaces {
     sort_by_source();
     keep_triangles(surface_, std::vector<char>(surface_.source.size(), 1));
     const PartOrientation parts = examine_part_orientation(surface_.mesh, &quiet_);
-    return std::find(parts.inside_out.begin(), parts.inside_out.end(), 1) == parts.inside_out.end();
+    for (std::size_t part = 0; part < parts.depth.size(); ++part) {
+      // What is meant by parts in parts, the whole tells.
+      if (parts.inside_out[part] != 0 || parts.depth[part] > 0) return false;
+    }
+    return true;
   }
 
   // So that triangles come in the order of the input.
@@ -261,8 +279,8 @@ class FewPlaces {
   CappedPlaces places_;
   std::vector<std::uint32_t> source_of_;  // of each triangle of the places
   std::size_t first_new_ = 0;
-  std::size_t untouched_ = 0, rounded_ = 0;  // of those that were not cut out
-  RepairReport report_, second_;             // of the whole, and of the places with their caps
+  std::size_t untouched_ = 0;     // of those that were not cut out
+  RepairReport report_, second_;  // of the whole, and of the places with their caps
 };
 
 // Bodies that cross do so in more than places, mostly.

@@ -148,6 +148,34 @@ TEST(RepairOfPlaces, DependNotOnThreadsOrScale) {
   EXPECT_EQ(larger.surface.mesh.points, scaled(result.surface.mesh, 64).points);
 }
 
+// Of corners in double precision that the file rounds, the same triangles are cut.
+TEST(RepairOfPlaces, TellWhatWasRoundedFromWhatWasCut) {
+  for_each_seed(1, 4, [&](std::uint64_t seed) {
+    Planted planted = with_folds(seed);
+    const RepairResult given_rounded = repair(planted.soup, for_binary_stl());
+    for (Vec3d& p : planted.soup.points) p *= 1 + 0x1p-40;
+    const RepairResult rounded = repair(planted.soup, for_binary_stl());
+    if (given_rounded.report.kept_valid) return;
+    ASSERT_TRUE(is_of_places(rounded.report));
+    const TriangleFates& fates = rounded.report.triangles;
+    EXPECT_EQ(fates.cut - fates.rounded, given_rounded.report.triangles.cut);
+    EXPECT_EQ(fates.untouched + fates.rounded, given_rounded.report.triangles.untouched);
+  });
+}
+
+TEST(RepairOfPlaces, AreNotWherePartsLieInParts) {
+  TriangleSoup soup = sphere(24'000, 3);
+  soup.points[5000] *= 0.8;
+  soup.points[5001] *= 1.2;
+  TriangleSoup hollow = sphere(2000);
+  for (auto& t : hollow.triangles) std::swap(t[1], t[2]);
+  append(soup, hollow);
+  const RepairResult result = repair(soup);
+  EXPECT_TRUE(result.report.certify.passed());
+  EXPECT_FALSE(result.report.kept_valid);
+  EXPECT_FALSE(is_of_places(result.report));
+}
+
 TEST(RepairOfPlaces, AreNotWhereBodiesCross) {
   const RepairResult result = repair(two_overlapping_spheres(40'000));
   EXPECT_TRUE(result.report.certify.passed());
