@@ -89,8 +89,8 @@ TEST(HeightFields, HaveNoTrianglesThatMeetInSheetsThatFold) {
     std::uniform_int_distribution<int> step(-9, 9), one_in(0, 40);
     TriangleSoup soup;
     for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-      soup.points.emplace_back(10 * (i % kSide) + step(random), 10 * (i / kSide) + step(random),
-                               0.1 * step(random));
+      const double x = 10 * (i % kSide), y = 10 * (i / kSide);
+      soup.points.emplace_back(x + step(random), y + step(random), 0.1 * step(random));
     }
     for (std::uint32_t i = 0; i + kSide < kSide * kSide; ++i) {
       if (i % kSide == kSide - 1 || one_in(random) == 0) continue;
