@@ -32,16 +32,16 @@ namespace {
 // Comparing fewer is as fast.
 constexpr std::size_t kFewest = 8;
 constexpr std::size_t kMostPieces = 8;
-constexpr std::size_t kTrianglesPerTask = 8192;
+constexpr std::size_t kFacingsPerTask = 8192;
 
 // Of so many triangles, at most so many whose boxes meet theirs are looked at; in large regions so
 // many of ten face the same way.
 constexpr std::size_t kSamples = 128, kMostNeighbours = 32, kAlike = 8;
 
 // The axis along which a triangle is seen, from 1, with the sign of its turn.
-std::int8_t facing_of(const CornerTriangle& t) {
+std::int16_t facing_of(const CornerTriangle& t) {
   const int turn = orientation_along(t.axis, t.at[0], t.at[1], t.at[2]);
-  return static_cast<std::int8_t>(turn * (t.axis + 1));
+  return static_cast<std::int16_t>(turn * (t.axis + 1));
 }
 
 class HeightFields {
@@ -69,7 +69,7 @@ class HeightFields {
 
   void find_facing() {
     facing_.resize(list_.size());
-    parallel_tasks(list_.size(), kTrianglesPerTask,
+    parallel_tasks(list_.size(), kFacingsPerTask,
                    [&](std::size_t, std::size_t first, std::size_t last) {
                      for (std::size_t t = first; t < last; ++t) {
                        facing_[t] = facing_of(list_.triangle(static_cast<std::uint32_t>(t)));
@@ -165,7 +165,7 @@ class HeightFields {
 
   const SoupCorners& corners_;
   const TriangleList& list_;
-  std::vector<std::int8_t> facing_;    // see facing_of()
+  std::vector<std::int16_t> facing_;   // see facing_of()
   std::vector<std::uint32_t> across_;  // of each side the neighbour that faces the same way
   std::vector<std::uint32_t> region_;
   std::vector<std::uint32_t> part_;  // scratch
@@ -179,7 +179,7 @@ bool may_have_height_fields(const TriangleList& triangles, const BoxTree& tree) 
   std::size_t neighbours = 0, alike = 0;
   for (std::size_t k = 0; k < kSamples; ++k) {
     const auto sample = static_cast<std::uint32_t>(k * triangles.size() / kSamples);
-    const std::int8_t facing = facing_of(triangles.triangle(sample));
+    const std::int16_t facing = facing_of(triangles.triangle(sample));
     std::size_t seen = 0;
     tree.visit([&](const Box& box) { return seen < kMostNeighbours && box.meets(boxes[sample]); },
                [&](std::uint32_t other) {

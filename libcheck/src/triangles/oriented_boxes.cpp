@@ -20,7 +20,7 @@ constexpr std::size_t kNodesPerTask = 256;
 constexpr std::size_t kMostSamples = 64;
 // Of the size of the whole, which is below 2: beyond what rounding does to axes, differences and
 // sums of a few products.
-constexpr double kMargin = 0x1p-42;
+constexpr double kBoxMargin = 0x1p-42;
 // For the same reason: to the share of one axis in another, and to a length along what is square to
 // two, which nearly vanishes where these are nearly parallel.
 constexpr double kAxisMargin = 0x1p-46;
@@ -88,7 +88,8 @@ OrientedBoxes::OrientedBox OrientedBoxes::around(std::span<const Vec3d> points) 
   const std::size_t step = points.size() / kMostSamples + 1;
   Vec3d mean = Vec3d::Zero();
   for (std::size_t i = 0; i < points.size(); i += step) mean += points[i];
-  mean /= static_cast<double>((points.size() + step - 1) / step);
+  const std::size_t samples = (points.size() + step - 1) / step;
+  mean /= static_cast<double>(samples);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < points.size(); i += step) {
     spread += (points[i] - mean) * (points[i] - mean).transpose();
@@ -104,7 +105,7 @@ OrientedBoxes::OrientedBox OrientedBoxes::around(std::span<const Vec3d> points) 
     high = high.cwiseMax(at);
   }
   box.centre = mean + box.axes * (0.5 * (low + high));
-  box.half = (0.5 * (high - low)).array() + kMargin;
+  box.half = (0.5 * (high - low)).array() + kBoxMargin;
   return box;
 }
 

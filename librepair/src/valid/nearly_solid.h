@@ -28,6 +28,6 @@ struct NearlySolid {
 
 // Whether each edge of a mesh has two such triangles, and each point one fan, as valid_solid()
 // asks.
-[[nodiscard]] bool is_sound(const TriangleSoup& mesh, const CertifyOptions& options);
+[[nodiscard]] bool is_manifold_as_asked(const TriangleSoup& mesh, const CertifyOptions& options);
 
 }  // namespace meshrepair::internal

@@ -238,7 +238,7 @@ class FewPlaces {
     options.progress = &quiet_;
     const SelfIntersections found = self_intersections(surface_.mesh, fresh, options);
     if (found.count + found.degenerate + found.not_finite > 0) return false;
-    if (!is_sound(surface_.mesh, written_as(options_))) return false;
+    if (!is_manifold_as_asked(surface_.mesh, written_as(options_))) return false;
     sort_by_source();
     keep_triangles(surface_, std::vector<char>(surface_.source.size(), 1));
     const PartOrientation parts = examine_part_orientation(surface_.mesh, &quiet_);

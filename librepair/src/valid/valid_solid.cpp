@@ -195,7 +195,7 @@ std::optional<Surface> solid_as_given(const TriangleSoup& soup, const CertifyOpt
   return surface;
 }
 
-bool is_sound(const TriangleSoup& mesh, const CertifyOptions& options) {
+bool is_manifold_as_asked(const TriangleSoup& mesh, const CertifyOptions& options) {
   if (is_closed_manifold(examine_topology(welded(mesh), mesh.points.size()))) return true;
   return !options.welded && is_manifold_as_it_is(mesh, options.touching);
 }
