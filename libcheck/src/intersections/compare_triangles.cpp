@@ -4,18 +4,14 @@
 #include "compare_triangles.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include <base/parallel.h>
-#include <base/shared_progress.h>
 #include <check/box_tree.h>
 #include <check/internal/triangle_pair.h>
 
 #include "crossing_sheets.h"
 #include "findings.h"
 #include "height_fields.h"
-#include "left_out.h"
 #include "tree_comparison.h"
 #include "triangle_hubs.h"
 

@@ -2,8 +2,8 @@
 // Comparisons of the triangles of a soup: all with all, or some with all.
 //
 // The triangles' boxes are put into a tree, and the tree is compared with itself. With a list of
-// triangles the tree holds these alone, and all the others are looked up in it. Pairs in one height
-// field are left out, and where boxes along the axes tell little, oriented ones are asked, too.
+// triangles, pairs without one of these are left out. So are pairs in one height field, and where
+// boxes along the axes tell little, oriented ones are asked, too.
 #pragma once
 
 #include <cstdint>

@@ -76,12 +76,6 @@ SortedTriangles::SortedTriangles(std::span<const CornerTriangle> given,
   }
 }
 
-SortedTriangles::SortedTriangles(const TriangleList& list, const BoxTree& box_tree)
-    : tree(box_tree) {
-  sort_boxes(list);
-  sort_triangles(list);
-}
-
 SortedTriangles::SortedTriangles(TriangleList&& list, const BoxTree& box_tree) : tree(box_tree) {
   sort_boxes(list);
   list.drop_boxes();

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <base/ids.h>
 #include <base/raw_vector.h>
 #include <base/shared_progress.h>
 #include <check/box_tree.h>
@@ -19,9 +20,14 @@
 #include <check/self_intersections.h>
 
 #include "findings.h"
-#include "left_out.h"
 
 namespace meshrepair::internal {
+
+// Are items i and j in one of the groups? Empty: there are none.
+[[nodiscard]] inline bool have_one_group(std::span<const std::uint32_t> groups, std::uint32_t i,
+                                         std::uint32_t j) {
+  return !groups.empty() && groups[i] != kNone && groups[i] == groups[j];
+}
 
 // Boxes of what is looked for within a distance reach so much farther, so that rounding does not
 // decide.
@@ -31,7 +37,6 @@ inline constexpr double kRoom = 1.01;
 struct SortedTriangles {
   SortedTriangles(std::span<const CornerTriangle> given, std::span<const Box> given_boxes,
                   std::span<const std::uint32_t> given_ids, const BoxTree& box_tree);
-  SortedTriangles(const TriangleList& list, const BoxTree& box_tree);
   // Drops the list's boxes, so that they are never there twice with the triangles.
   SortedTriangles(TriangleList&& list, const BoxTree& box_tree);
 

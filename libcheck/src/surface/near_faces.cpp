@@ -240,7 +240,7 @@ class NearFacesFinder {
         const std::uint32_t k = tree.order()[q];
         Box around = boxes_[i];
         around.widen(std::min(largest_between(i), largest_between(k)));
-        if (around.meets(boxes_[k])) compare(i, k, found);
+        if (around.meets(boxes_[k])) compare(std::min(i, k), std::max(i, k), found);
       }
     }
   }
@@ -272,7 +272,8 @@ class NearFacesFinder {
     const bool is_larger = facing_[i].longest >= facing_[k].longest;
     const std::uint32_t base = is_larger ? i : k, other = is_larger ? k : i;
     const double largest = std::min(largest_between(i), largest_between(k));
-    if (is_apart(base, other, largest)) return;
+    const double rounding = kRounding * std::max(size_of(i), size_of(k));
+    if (is_apart(base, other, largest + rounding)) return;
     const std::vector<OverlapCorner> overlap = overlap_of(base, other);
     if (overlap.size() < 3) return;
     double least = std::abs(overlap[0].height), most = 0, low = 0, high = 0, extent = 0;
@@ -291,7 +292,7 @@ class NearFacesFinder {
     const bool is_behind = cosine < 0 && std::abs(low) > high;
     const bool is_wall = is_behind && have_solid_between(facing_[i].body, facing_[k].body);
     double apart = is_wall ? least : most;
-    if (apart <= kRounding * std::max(size_of(i), size_of(k))) apart = 0;
+    if (apart <= rounding) apart = 0;
     if (apart > largest || 0.5 * area.norm() <= apart * extent) return;
     (is_wall ? found.walls : found.gaps)
         .push_back({std::min(sound_[i], sound_[k]), std::max(sound_[i], sound_[k]), apart});

@@ -25,6 +25,8 @@ constexpr std::size_t kRings = 2, kMostRings = 4;
 constexpr std::size_t kMostFills = 8;
 // Of the depth of a place and its radius.
 constexpr std::array<double, 4> kDepths = {1, 0.25, 4, 0.05};
+// Of all caps together.
+constexpr std::size_t kMostTries = 8;
 
 // A closed line of corners of the soup, with the place on its left.
 struct Rim {
@@ -145,7 +147,7 @@ class PlaceCapper {
   // Whether all rims have a cap that meets nothing.
   bool cap() {
     const std::size_t triangles = capped_.triangle.size(), points = capped_.point.size();
-    for (;;) {
+    for (std::size_t round = 0; round < kMostTries; ++round) {
       capped_.soup.triangles.resize(triangles);
       capped_.soup.points.resize(points);
       std::vector<std::uint32_t> caps, rim_of;
@@ -170,8 +172,12 @@ class PlaceCapper {
           if (t >= triangles) fails[rim_of[t - triangles]] = 1;
         }
       }
-      for (std::size_t r = 0; r < rims_.size(); ++r) rims_[r].depth += fails[r] != 0 ? 1 : 0;
+      const bool is_last = round + 1 == kMostTries;
+      for (std::size_t r = 0; r < rims_.size(); ++r) {
+        if (fails[r] != 0) rims_[r].depth = is_last ? kDepths.size() : rims_[r].depth + 1;
+      }
     }
+    return false;
   }
 
   void add_cone(const Rim& rim) {

@@ -36,19 +36,14 @@ constexpr std::size_t kLarge = 20'000;
 // Of the triangles: pairs that meet, and triangles of all places.
 constexpr std::size_t kMostPairsShare = 64, kMostPlacesShare = 2;
 
-void describe_input(const TriangleSoup& mesh, RepairReport& report) {
-  report.clean.triangles_in = mesh.triangles.size();
-  report.input = examine_topology(mesh.triangles, mesh.points.size());
-  report.input_area = surface_area(mesh);
-  report.input_volume = signed_volume(mesh);
-}
-
 class FewPlaces {
  public:
   FewPlaces(Surface closed, std::vector<std::uint32_t> part, const RepairOptions& options,
-            const RepairPlaces& repair_places)
+            const RepairPlaces& repair_places, std::vector<StageReport>& stages, StageMeter& meter)
       : options_(options),
         repair_places_(repair_places),
+        stages_(stages),
+        meter_(meter),
         quiet_(options.progress),
         surface_(std::move(closed)),
         part_(std::move(part)) {}
@@ -63,26 +58,27 @@ class FewPlaces {
     places_ = std::move(*places);
     const std::optional<Surface> repaired = repair();
     if (!repaired) return std::nullopt;
-    describe_input(surface_.mesh, report_);
+    input_ = examine_topology(surface_.mesh.triangles, surface_.mesh.points.size());
+    input_area_ = surface_area(surface_.mesh);
+    input_volume_ = signed_volume(surface_.mesh);
     if (!put_back(*repaired) || !is_solid()) return std::nullopt;
     return std::move(surface_);
   }
 
-  // Of the whole, but for what is said of the output.
+  // What the repair of the places found and did, without their caps, as that of the whole; but for
+  // what is said of the output.
   [[nodiscard]] RepairReport take_report() {
     const std::size_t caps = places_.soup.triangles.size() - places_.triangle.size();
-    RepairReport& report = report_;
-    report.inside = second_.inside;
-    report.arrange = second_.arrange;
-    report.parts.bounding_triangles = first_new_ + second_.parts.bounding_triangles - caps;
-    report.triangles.untouched = untouched_;
-    report.triangles.cut = report.parts.bounding_triangles - untouched_;
-    report.parts.inside_triangles = second_.parts.inside_triangles;
-    report.parts.outside_triangles = second_.parts.outside_triangles;
-    second_.stages.clear();
-    append_report(std::move(second_), report);
-    report.spared_cells = true;
-    return std::move(report);
+    report_.clean.triangles_in = part_.size();
+    report_.input = input_;
+    report_.input_area = input_area_;
+    report_.input_volume = input_volume_;
+    report_.orient.parts = input_.parts;
+    report_.parts.places.clear();
+    report_.parts.bounding_triangles += first_new_ - caps;
+    report_.triangles.untouched = untouched_;
+    report_.triangles.cut = report_.parts.bounding_triangles - untouched_;
+    return std::move(report_);
   }
 
  private:
@@ -130,14 +126,18 @@ class FewPlaces {
     again.progress = &quiet_;
     // As for the whole: places are where triangles meet.
     again.certify.most_pairs_at_first = pairs_by_chance(surface_.source.size());
+    meter_.end();
+    std::optional<Surface> repaired;
     try {
-      std::optional<Surface> repaired = repair_places_(second.soup, again, second_);
-      const bool is_sure = second_.inside.used == InsideRule::winding && second_.certify.passed();
-      if (repaired && !is_sure) repaired.reset();
-      return repaired;
+      repaired = repair_places_(second.soup, again, report_);
     } catch (const NoSolidError&) {
-      return std::nullopt;
+      repaired.reset();
     }
+    stages_.insert(stages_.end(), report_.stages.begin(), report_.stages.end());
+    meter_.begin("places");
+    const bool is_sure = report_.inside.used == InsideRule::winding && report_.certify.passed();
+    if (!is_sure) repaired.reset();
+    return repaired;
   }
 
   // Takes the place of what was cut out. False where a cap is not as it was.
@@ -272,6 +272,8 @@ class FewPlaces {
 
   const RepairOptions& options_;
   const RepairPlaces& repair_places_;
+  std::vector<StageReport>& stages_;
+  StageMeter& meter_;
   CancelOnly quiet_;
   Surface surface_;
   std::vector<std::uint32_t> part_;  // of each triangle as given
@@ -279,8 +281,10 @@ class FewPlaces {
   CappedPlaces places_;
   std::vector<std::uint32_t> source_of_;  // of each triangle of the places
   std::size_t first_new_ = 0;
-  std::size_t untouched_ = 0;     // of those that were not cut out
-  RepairReport report_, second_;  // of the whole, and of the places with their caps
+  std::size_t untouched_ = 0;
+  RepairReport report_;  // of the places with their caps
+  Topology input_;       // of the whole
+  double input_area_ = 0, input_volume_ = 0;
 };
 
 // Bodies that cross do so in more than places, mostly.
@@ -298,7 +302,8 @@ std::optional<Surface> repair_in_places(NearlySolid nearly, const RepairOptions&
   meter.begin("places");
   std::vector<std::uint32_t> part = find_parts(nearly.surface.mesh).of_triangle;
   if (parts_meet(nearly.found, part)) return std::nullopt;
-  FewPlaces places(std::move(nearly.surface), std::move(part), options, repair_places);
+  FewPlaces places(std::move(nearly.surface), std::move(part), options, repair_places,
+                   report.stages, meter);
   std::optional<Surface> surface = places.run();
   if (!surface || !tells_voids(*surface, options.inside)) return std::nullopt;
   meter.begin("check");

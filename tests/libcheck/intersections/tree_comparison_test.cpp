@@ -29,7 +29,7 @@ class Compared {
   Compared& operator=(const Compared&) = delete;
 
   [[nodiscard]] std::vector<Pair> with_oriented_boxes() const {
-    SortedTriangles sorted(list_, tree_);
+    SortedTriangles sorted(TriangleList(corners_), tree_);
     sorted.use_oriented_boxes();
     SelfIntersectionOptions options;
     options.most_pairs = kAll;

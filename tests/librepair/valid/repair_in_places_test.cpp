@@ -55,14 +55,10 @@ RepairOptions for_binary_stl() {
   return options;
 }
 
-bool has_stage(const RepairReport& report, const std::string& name) {
-  return std::any_of(report.stages.begin(), report.stages.end(),
-                     [&](const StageReport& stage) { return stage.name == name; });
-}
-
-// Whether places were repaired, and not the whole.
+// Whether places were repaired, and put back after that, and not the whole.
 bool is_of_places(const RepairReport& report) {
-  return has_stage(report, "places") && !has_stage(report, "clean");
+  const std::size_t count = report.stages.size();
+  return count > 1 && report.stages[count - 2].name == "places";
 }
 
 void expect_whole_elsewhere(const Planted& planted, const RepairResult& result) {
