@@ -23,15 +23,20 @@ struct SolveReport {
   bool converged = true;
 };
 
+// Both begin with `start`, a value for each cell, or with 0 if there is none or it is no better:
+// near the optimum they are done sooner.
+//
 // s of each cell in [-1, 1], -1 outside: the minimum of
 //   sum over all links of (1 - o) A (s_i - s_j)^2 + o A (s_i + s_j)^2, o the opacity.
 // Does not look at the triangles' orientation.
 [[nodiscard]] std::vector<double> solve_solidity(const CellGraph& graph,
-                                                 const SolveOptions& options, SolveReport& report);
+                                                 const SolveOptions& options, SolveReport& report,
+                                                 const std::vector<double>& start = {});
 
 // w of each cell, 0 outside: the minimum of the sum over links of A (w_below - w_above -
 // winding)^2.
 [[nodiscard]] std::vector<double> solve_winding(const CellGraph& graph, const SolveOptions& options,
-                                                SolveReport& report);
+                                                SolveReport& report,
+                                                const std::vector<double>& start = {});
 
 }  // namespace meshrepair

@@ -82,10 +82,9 @@ class InsideDecider {
     const Walk walk = walk_parity(graph_, options_.solve.progress);
     report_.exact = walk.consistent();
     report_.contradictions = walk.contradictions;
-    if (!walk.consistent()) return solve_solidity(graph_, options_.solve, report_.solve);
     std::vector<double> s(graph_.cells());
     for (std::size_t i = 0; i < s.size(); ++i) s[i] = 2.0 * walk.value[i] - 1.0;
-    return s;
+    return walk.consistent() ? s : solve_solidity(graph_, options_.solve, report_.solve, s);
   }
 
   CellLabels by_parity() {

@@ -16,15 +16,20 @@ namespace {
 // The rows of a task: some tens of microseconds of work. Changing it changes the rounding of sums.
 constexpr std::size_t kRowsPerBlock = 4096;
 
+// A start pays, and does no harm to the last digits, if its residual is less than this share of
+// that of 0.
+constexpr double kMuchNearer = 0.1;
+
 // Memory is what the solver waits for, so each turn passes over the vectors three times only: the
 // product with the matrix and how far to go, then that step and the new residual, then the next
 // direction.
 class Solver {
  public:
-  Solver(const SparseRows& matrix, const std::vector<double>& right, const SolveOptions& options)
+  Solver(const SparseRows& matrix, const std::vector<double>& right, std::vector<double> start,
+         const SolveOptions& options)
       : matrix_(matrix),
         options_(options),
-        x_(right.size(), 0),
+        x_(std::move(start)),
         residual_(right),
         direction_(right.size()),
         product_(right.size()),
@@ -32,12 +37,16 @@ class Solver {
         sums_(tasks_of(right.size(), kRowsPerBlock)) {}
 
   std::vector<double> run(SolveReport& report) {
-    const Sums start = begin();
-    if (start.norm == 0) return std::move(x_);
-    const double goal = std::max(options_.tolerance * options_.tolerance * start.norm,
+    const Sums of_zero = begin();
+    if (of_zero.norm == 0) {
+      x_.assign(residual_.size(), 0);
+      return std::move(x_);
+    }
+    const Sums first = begin_with_start(of_zero);
+    const double goal = std::max(options_.tolerance * options_.tolerance * of_zero.norm,
                                  std::numeric_limits<double>::min());
-    double norm = start.norm;
-    double slope = start.slope;
+    double norm = first.norm;
+    double slope = first.slope;
     const auto most = static_cast<std::size_t>(options_.max_iterations);
     std::size_t i = 0;
     for (; norm >= goal && i < most; ++i) {
@@ -49,7 +58,7 @@ class Solver {
       slope = next.slope;
     }
     report.iterations = i;
-    report.residual = std::sqrt(norm / start.norm);
+    report.residual = std::sqrt(norm / of_zero.norm);
     report.converged = report.residual <= options_.tolerance;
     return std::move(x_);
   }
@@ -63,7 +72,7 @@ class Solver {
   // The sum of what sum_of(first, last) gives for each block of rows.
   template <class SumOf>
   Sums add_up(const SumOf& sum_of) {
-    parallel_tasks(x_.size(), kRowsPerBlock,
+    parallel_tasks(residual_.size(), kRowsPerBlock,
                    [&](std::size_t task, std::size_t first, std::size_t last) {
                      sums_[task] = sum_of(first, last);
                    });
@@ -89,6 +98,34 @@ class Solver {
       }
       return part;
     });
+  }
+
+  // After begin(): the residual of the start, and where to go from there, if that is much nearer
+  // than 0.
+  Sums begin_with_start(const Sums& of_zero) {
+    if (!x_.empty()) {
+      direction_.swap(x_);
+      multiply();
+      direction_.swap(x_);
+      const Sums of_start = add_up([&](std::size_t first, std::size_t last) {
+        Sums part;
+        for (std::size_t i = first; i < last; ++i) {
+          const double square = std::pow(residual_[i] - product_[i], 2);
+          part.norm += square;
+          part.slope += scale_[i] * square;
+        }
+        return part;
+      });
+      if (of_start.norm < kMuchNearer * kMuchNearer * of_zero.norm) {
+        for (std::size_t i = 0; i < x_.size(); ++i) {
+          residual_[i] -= product_[i];
+          direction_[i] = scale_[i] * residual_[i];
+        }
+        return of_start;
+      }
+    }
+    x_.assign(residual_.size(), 0);
+    return of_zero;
   }
 
   // The matrix times the direction; returns what that is along the direction.
@@ -145,8 +182,9 @@ class Solver {
 
 std::vector<double> solve_by_conjugate_gradients(const SparseRows& matrix,
                                                  const std::vector<double>& right,
+                                                 std::vector<double> start,
                                                  const SolveOptions& options, SolveReport& report) {
-  return Solver(matrix, right, options).run(report);
+  return Solver(matrix, right, std::move(start), options).run(report);
 }
 
 namespace {
@@ -233,13 +271,18 @@ System assemble(const CellGraph& graph, LinkTerm (*term)(const Link&), double ou
 }  // namespace
 
 std::vector<double> minimise(const CellGraph& graph, LinkTerm (*term)(const Link&), double outside,
-                             const SolveOptions& options, SolveReport& report) {
+                             const std::vector<double>& start, const SolveOptions& options,
+                             SolveReport& report) {
   report = {};
   std::vector<double> x(graph.cells(), outside);
   const System system = assemble(graph, term, outside, options.progress);
   report.unknowns = system.cell_of_row.size();
-  const std::vector<double> solution =
-      solve_by_conjugate_gradients(system.matrix, system.right, options, report);
+  std::vector<double> start_of_rows;
+  if (!start.empty()) {
+    for (const CellId c : system.cell_of_row) start_of_rows.push_back(start[c.index()]);
+  }
+  const std::vector<double> solution = solve_by_conjugate_gradients(
+      system.matrix, system.right, std::move(start_of_rows), options, report);
   for (std::size_t row = 0; row < solution.size(); ++row) {
     x[system.cell_of_row[row].index()] = solution[row];
   }

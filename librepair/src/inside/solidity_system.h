@@ -23,12 +23,13 @@ struct SparseRows {
   [[nodiscard]] std::size_t size() const { return first.size(); }
 };
 
-// The x with matrix * x = right, from 0 on, until the residual has become `options.tolerance` of
-// what it was. The matrix is symmetric and positive definite, and has its diagonal among its
-// entries. Sums are made of the sums of blocks of rows, in their order: the result does not depend
-// on the number of threads.
+// The x with matrix * x = right, from `start` on, or from 0 if that is hardly worse, until the
+// residual has become `options.tolerance` of that of 0. The matrix is symmetric and positive
+// definite, and has its diagonal among its entries. Sums are made of the sums of blocks of rows, in
+// their order: the result does not depend on the number of threads.
 [[nodiscard]] std::vector<double> solve_by_conjugate_gradients(const SparseRows& matrix,
                                                                const std::vector<double>& right,
+                                                               std::vector<double> start,
                                                                const SolveOptions& options,
                                                                SolveReport& report);
 
@@ -40,11 +41,12 @@ struct LinkTerm {
   double jump = 0;
 };
 
-// Minimises the sum of term(link) with x = `outside` in the unbounded cells. The matrix is
+// Minimises the sum of term(link) with x = `outside` in the unbounded cells, from `start` on, which
+// has a value for each cell or is empty. The matrix is
 // symmetric and positive definite because every cell is linked, through others, to an unbounded
 // one.
 [[nodiscard]] std::vector<double> minimise(const CellGraph& graph, LinkTerm (*term)(const Link&),
-                                           double outside, const SolveOptions& options,
-                                           SolveReport& report);
+                                           double outside, const std::vector<double>& start,
+                                           const SolveOptions& options, SolveReport& report);
 
 }  // namespace meshrepair::internal

@@ -11,8 +11,8 @@ std::vector<double> winding_field(const CellGraph& graph, const SolveOptions& op
   const Walk walk = walk_winding(graph, options.progress);
   report.exact = walk.consistent();
   report.contradictions = walk.contradictions;
-  if (!walk.consistent()) return solve_winding(graph, options, report.solve);
-  return {walk.value.begin(), walk.value.end()};
+  std::vector<double> walked(walk.value.begin(), walk.value.end());
+  return walk.consistent() ? walked : solve_winding(graph, options, report.solve, walked);
 }
 
 }  // namespace meshrepair::internal

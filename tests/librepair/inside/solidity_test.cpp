@@ -175,6 +175,24 @@ TEST(Solidity, OrientationDoesNotMatter) {
   EXPECT_EQ(solve_solidity(g.graph, {}, report), solve_solidity(turned.graph, {}, report));
 }
 
+TEST(Solidity, AStartNearTheOptimumIsDoneSooner) {
+  const Graph g = graph_of(without_some(two_overlapping_spheres(400), 0.02, 1));
+  SolveReport from_zero, from_near, from_far;
+  const auto s = solve_solidity(g.graph, precise(), from_zero);
+  std::vector<double> near = s;
+  std::vector<double> far = s;
+  for (std::size_t c = 0; c < s.size(); ++c) {
+    near[c] += c % 2 == 0 ? 1e-3 : -1e-3;
+    far[c] = -10 * s[c];
+  }
+  const auto from_near_on = solve_solidity(g.graph, precise(), from_near, near);
+  EXPECT_LT(from_near.iterations, from_zero.iterations);
+  EXPECT_TRUE(from_near.converged);
+  for (std::size_t c = 0; c < s.size(); ++c) EXPECT_NEAR(from_near_on[c], s[c], 1e-8);
+  EXPECT_EQ(solve_solidity(g.graph, precise(), from_far, far), s);
+  EXPECT_EQ(from_far.iterations, from_zero.iterations);
+}
+
 // More unknowns than one task has.
 TEST(Solidity, TheNumberOfThreadsDoesNotMatter) {
   const Graph g = graph_of(without_some(noisy_sphere(8000, 0.1, 1), 0.1, 2));
