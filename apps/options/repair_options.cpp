@@ -99,6 +99,23 @@ std::string why_not_kept(const std::string& word) {
                        : word + " is none of all, outer, largest, and a number from 1 on";
 }
 
+// What --triangles says; nothing where it is neither a number nor a share.
+std::optional<FewerTrianglesOptions> fewer_by(const std::string& word) {
+  FewerTrianglesOptions fewer;
+  if (word.ends_with('%')) {
+    fewer.share = parse_number(word.substr(0, word.size() - 1)).value_or(0) / 100;
+    return fewer.share > 0 && fewer.share <= 1 ? std::optional(fewer) : std::nullopt;
+  }
+  fewer.most = parse_count(word).value_or(0);
+  return fewer.most >= 4 ? std::optional(fewer) : std::nullopt;
+}
+
+// For check(): an empty text where the word is one.
+std::string why_not_fewer(const std::string& word) {
+  return fewer_by(word) ? std::string()
+                        : word + " is neither a number from 4 on nor a share such as 10%";
+}
+
 // For check(): an empty text where the word is a way to sew, or to join gaps.
 std::string why_no_sewing(const std::string& word) {
   const bool is_one = word == "auto" || word == "none" || distance_in(word);
@@ -288,6 +305,17 @@ void add_keep_options(CommandLine& app, KeepPartsOptions& keep) {
       ->check(why_no_part_of_one)
       ->type_name("SHARE")
       ->capture_default_str()
+      ->group("Repair");
+}
+
+void add_triangles_option(CommandLine& app, FewerTrianglesOptions& fewer) {
+  app.add_option_function(
+         "--triangles", [&fewer](const std::string& word) { fewer = *fewer_by(word); },
+         "Reduce the result to this many triangles, or to this share of them, such as 10%.\n"
+         "No collapse makes triangles intersect, opens the surface or changes its genus;\n"
+         "more triangles stay where that takes them")
+      ->check(why_not_fewer)
+      ->type_name("N|N%")
       ->group("Repair");
 }
 

@@ -41,6 +41,8 @@ void add_touching_option(CommandLine& app, Touching& touching);
 // --negative: what becomes of negative volumes of slicers' projects.
 void add_negative_option(CommandLine& app, NegativeVolumes& negative);
 
+// --triangles: how many of the result stay.
+void add_triangles_option(CommandLine& app, FewerTrianglesOptions& fewer);
 // --simplify: how far the surface may move to have fewer triangles.
 void add_simplify_option(CommandLine& app, double& simplify);
 

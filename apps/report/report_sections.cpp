@@ -296,6 +296,17 @@ Json section_of(const RemovedPart& part) {
           {"triangles", part.triangles}};
 }
 
+Json section_of(const FewerTrianglesReport& fewer) {
+  return {{"done", fewer.done},
+          {"asked", fewer.asked},
+          {"before", fewer.before},
+          {"collapses", fewer.collapses.collapses},
+          {"largest_error", fewer.collapses.largest_error},
+          {"would_change_topology", fewer.collapses.would_change_topology},
+          {"would_fold", fewer.collapses.would_fold},
+          {"would_intersect", fewer.collapses.would_meet}};
+}
+
 Json section_of(const KeepPartsReport& keep) {
   constexpr std::size_t kMostListed = 100;
   std::array<std::size_t, 2> count = {0, 0};
@@ -446,6 +457,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("simplify", section_of(repair.simplify));
   }
   if (repair.keep.asked) report.set_section("keep", section_of(repair.keep));
+  if (repair.fewer.asked > 0) report.set_section("fewer", section_of(repair.fewer));
   // meshcheck has a stage of this name, too, but no result.
   if (has("extract") && was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));

@@ -33,6 +33,7 @@ class NegativeVolumeSubtractor {
     options_.certify = {};
     options_.join_gaps = {};  // of all objects together
     options_.keep = {};       // of what is left in the end
+    options_.fewer = {};
     options_.states = nullptr;
     options_.explain = false;
     options_.examine = nullptr;

@@ -54,6 +54,7 @@ class SceneRepair {
       : input_(input),
         given_(given),
         reach_(std::exchange(repair_options.reach, {})),
+        labels_(std::exchange(repair_options.fewer.labels, {})),
         repair_options_(std::move(repair_options)),
         format_(format),
         options_(options),
@@ -142,9 +143,13 @@ class SceneRepair {
 
   [[nodiscard]] RepairOptions options_of(const TriangleSoup& soup) const {
     RepairOptions options = repair_options_;
-    if (reach_.empty()) return options;
-    const auto first = reach_.begin() + static_cast<std::ptrdiff_t>(first_);
-    options.reach.assign(first, first + static_cast<std::ptrdiff_t>(soup.triangles.size()));
+    const auto take_own = [&](const auto& of_all, auto& own) {
+      if (of_all.empty()) return;
+      const auto first = of_all.begin() + static_cast<std::ptrdiff_t>(first_);
+      own.assign(first, first + static_cast<std::ptrdiff_t>(soup.triangles.size()));
+    };
+    take_own(reach_, options.reach);
+    take_own(labels_, options.fewer.labels);
     return options;
   }
 
@@ -273,8 +278,9 @@ class SceneRepair {
 
   const AnySoup& input_;
   const Attributes& given_;
-  std::vector<double> reach_;     // of all meshes
-  RepairOptions repair_options_;  // without it
+  std::vector<double> reach_;          // of all meshes
+  std::vector<std::uint32_t> labels_;  // the same
+  RepairOptions repair_options_;       // without these
   const WriteOptions& format_;
   const StepOptions& options_;
   Run& run_;

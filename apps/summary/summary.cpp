@@ -420,6 +420,12 @@ std::vector<std::string> simplified(const SimplifyReport& report) {
                       number_of(report.removed_triangles, "triangle"), report.distance)};
 }
 
+std::vector<std::string> reduced(const RepairReport& repair) {
+  if (!repair.fewer.done) return {};
+  return {fmt::format("{} to {} of {} asked for", number_of(repair.fewer.before, "triangle"),
+                      grouped(repair.output.triangles), grouped(repair.fewer.asked))};
+}
+
 void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   const RepairReport& repair = findings.repair;
   const Topology& output = repair.output;
@@ -434,6 +440,7 @@ void describe_mesh(const Findings& findings, double seconds, Lines& lines) {
   lines.add("removed", removed);
   lines.add("left out", left_out_parts(repair.keep));
   lines.add("simpler", simplified(repair.simplify));
+  lines.add("reduced", reduced(repair));
   lines.add("explained", explanation_lines(findings));
   lines.add("checked",
             joined({output.closed() ? "closed" : "NOT CLOSED",

@@ -114,6 +114,22 @@ void warn_of_unknown_parts(const Findings& findings) {
         "all parts stay, as a surface that is not closed does not tell solids apart"});
 }
 
+void warn_of_triangles_left(const Findings& findings) {
+  const RepairReport& repair = findings.repair;
+  const FewerTrianglesReport& fewer = repair.fewer;
+  if (fewer.asked == 0 || repair.output.triangles <= fewer.asked + 1) return;
+  const DecimationReport& why = fewer.collapses;
+  warn(findings.output_name(),
+       {WarningCode::triangles_left,
+        fewer.done
+            ? fmt::format("{} stay, not {}: collapsing more edges would make triangles intersect "
+                          "({}), fold them over ({}), or change the topology ({})",
+                          number_of(repair.output.triangles, "triangle"), fewer.asked,
+                          why.would_meet, why.would_fold, why.would_change_topology)
+            : std::string("no triangles are taken away, as the result is not certified"),
+        {{"asked", fewer.asked}, {"triangles", repair.output.triangles}}});
+}
+
 // Where that is much: in single precision other numbers would have kept it.
 void warn_of_coarse_numbers(const Findings& findings) {
   const RepairReport& repair = findings.repair;
@@ -158,6 +174,7 @@ void warn_of_findings(Findings& findings) {
   warn_of_filled_difference(findings);
   warn_of_poking_walls(findings);
   warn_of_unknown_parts(findings);
+  warn_of_triangles_left(findings);
   warn_of_coarse_numbers(findings);
 }
 

@@ -18,7 +18,8 @@
 // The last one makes cells (cells/). The last two say what is solid (arrange/, solid/), by the
 // rules of inside/. In surface/ the boundary is extracted, simplified and certified: attempt by
 // attempt (make_surface.cpp), each with rounds of repairing it again on coarser grids
-// (certify_surface.cpp). Last of all, solids that are not wanted go.
+// (certify_surface.cpp). Last of all, solids that are not wanted go, and triangles where fewer are
+// wanted (fewer/).
 //
 // Voids are filled in two ways: where it is asked what is solid, they are; where it is not, they
 // are parts of the surface, whose walls go last of all, and what stays is as it was given.
@@ -38,6 +39,7 @@
 
 #include "arrange/chamber_surface.h"
 #include "cells/covered_cells.h"
+#include "fewer/fewer_triangles.h"
 #include "prepare/prepare.h"
 #include "report/describe_result.h"
 #include "resume/saved_states.h"
@@ -261,6 +263,7 @@ Surface repair_whole(const TriangleSoup& soup, const RepairOptions& options, Rep
   }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
   keep_wanted_parts(soup, options, surface, report);
+  if (options.fewer.wanted()) internal::take_triangles_away(surface, options, report);
   internal::compare_with_input(soup, surface, report);
   return surface;
 }
@@ -291,6 +294,9 @@ Surface repair_joined(const TriangleSoup& soup, const JoinedSoup& joined,
                       const RepairOptions& options, RepairReport& report) {
   RepairOptions of_pieces = options;
   of_pieces.explain = false;
+  if (!options.fewer.labels.empty()) {
+    of_pieces.fewer.labels = of_sources(options.fewer.labels, joined.source);
+  }
   if (!options.opacity.empty()) of_pieces.opacity = of_sources(options.opacity, joined.source);
   if (!options.reach.empty()) of_pieces.reach = of_sources(options.reach, joined.source);
   Surface surface = repair_whole(joined.soup, of_pieces, report);

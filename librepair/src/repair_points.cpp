@@ -21,6 +21,8 @@
 #include <repair/repair_on_base.h>
 #include <repair/repair_points.h>
 
+#include "fewer/fewer_triangles.h"
+
 namespace meshrepair {
 namespace {
 
@@ -223,6 +225,7 @@ class PointRepair {
 
   PointSolid repaired(const PointSoup& soup, Closing closing, bool first) {
     RepairOptions options = options_.repair;
+    options.fewer = {};  // of the solid that is chosen
     options.thicken.automatic &= closing == Closing::walls;
     PointSolid solid;
     if (closing == Closing::base) {
@@ -296,8 +299,10 @@ std::optional<PointCloud> without_joined_columns(const PointCloud& cloud, int ax
 
 }  // namespace
 
-PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& options,
-                         RepairPointsReport& report, RepairReport& repair) {
+namespace {
+
+PointSolid repair_cloud(const PointCloud& cloud, const RepairPointsOptions& options,
+                        RepairPointsReport& report, RepairReport& repair) {
   report = {};
   if (options.base && options.repair.certify.precision == Precision::float32) {
     const auto apart = without_joined_columns(cloud, options.scan_base.axis);
@@ -307,6 +312,17 @@ PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& opt
     }
   }
   return PointRepair(cloud, options, report, repair).run();
+}
+
+}  // namespace
+
+PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& options,
+                         RepairPointsReport& report, RepairReport& repair) {
+  PointSolid solid = repair_cloud(cloud, options, report, repair);
+  if (options.repair.fewer.wanted()) {
+    internal::take_triangles_away(solid.surface, options.repair, repair);
+  }
+  return solid;
 }
 
 }  // namespace meshrepair

@@ -64,6 +64,7 @@ export interface RepairOptions extends FileOptions {
   holes?: 'patch' | 'curved' | 'flat' | 'extend' | 'none';
   keep?: 'all' | 'outer' | 'largest' | number;
   simplify?: number;
+  triangles?: number | string;
   always?: boolean;
   precision?: 'float32' | 'float64';
   /** Make the page that --html writes, too. Of files. */

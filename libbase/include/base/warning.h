@@ -52,6 +52,7 @@ enum class WarningCode {
   parts_all_kept,
   one_block,
   states_not_saved,
+  triangles_left,
   report_not_written,
 };
 

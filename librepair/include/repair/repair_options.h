@@ -12,6 +12,7 @@
 #include <extract/float_engine.h>
 #include <extract/predicate_engine.h>
 #include <repair/certify.h>
+#include <repair/fewer_triangles.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
 #include <repair/join_gaps.h>
@@ -47,6 +48,8 @@ struct RepairOptions {
   InsideOptions inside;
   ExtractOptions extract;
   KeepPartsOptions keep;  // which solids of the result stay
+  // Last of all: how many triangles the result may have.
+  FewerTrianglesOptions fewer;
   // How far the surface may move to have fewer triangles where it was cut, as a share of the
   // diagonal of its bounding box: see simplify_cuts(). 0: not at all.
   double simplify = kDefaultSimplify;

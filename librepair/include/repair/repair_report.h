@@ -18,6 +18,7 @@
 #include <mesh/topology.h>
 #include <repair/certify.h>
 #include <repair/explain_repair.h>
+#include <repair/fewer_triangles.h>
 #include <repair/hole_patches.h>
 #include <repair/inside_rule.h>
 #include <repair/join_gaps.h>
@@ -72,6 +73,7 @@ struct RepairReport {
   SimplifyReport simplify;  // of the whole surface, not of what certification repairs again
   CertifyReport certify;
   KeepPartsReport keep;
+  FewerTrianglesReport fewer;
   TriangleFates triangles;
   // The result has the triangles of the soup, facing as they did there, and no others; maybe with
   // corners rounded to single precision.

@@ -77,8 +77,8 @@ auto fields_of(T& report) {
   auto& [kept_valid, spared_cells, clean, input, input_area, input_volume, join_gaps, sew, holes,
          seal, thicken, tree, predicates, epsilon, arrange, cells, facets, clip, cover, orient,
          links, inside, open_regions, parts, lost_area, extract, thin_cells, precision, slits_area,
-         fins_area, crumbs, simplify, certify, keep, triangles, same_triangles, explanation, output,
-         output_volume, output_area, closing_area, stages] = report;
+         fins_area, crumbs, simplify, certify, keep, fewer, triangles, same_triangles, explanation,
+         output, output_volume, output_area, closing_area, stages] = report;
   return std::tie(kept_valid, spared_cells, clean, input, input_area, input_volume, sew, holes,
                   seal, thicken, tree, predicates, epsilon, arrange, cells, facets, clip, cover,
                   orient, links, inside, open_regions, parts, lost_area, extract, thin_cells,

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "fewer_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <base/error.h>
+#include <base/ids.h>
+#include <repair/explain_repair.h>
+#include <repair/valid_solid.h>
+
+#include "report/describe_result.h"
+#include "valid/keep_valid.h"
+
+namespace meshrepair::internal {
+namespace {
+
+std::size_t asked_of(const FewerTrianglesOptions& fewer, std::size_t triangles) {
+  if (fewer.most > 0) return fewer.most;
+  return static_cast<std::size_t>(std::llround(fewer.share * static_cast<double>(triangles)));
+}
+
+// A point that something was collapsed into, and moved, is none of the input.
+Surface collapsed(const Surface& before, DecimatedMesh fewer) {
+  Surface surface;
+  surface.mesh = std::move(fewer.mesh);
+  for (const std::uint32_t t : fewer.source) surface.source.push_back(before.source[t]);
+  surface.input_point.assign(surface.mesh.points.size(), 0);
+  for (std::size_t p = 0; p < fewer.point.size(); ++p) {
+    const std::uint32_t now = fewer.point[p];
+    if (before.input_point[p] != 0 && before.mesh.points[p] == surface.mesh.points[now]) {
+      surface.input_point[now] = 1;
+    }
+  }
+  return surface;
+}
+
+// What closes holes and gaps belongs together.
+std::vector<std::uint32_t> labels_of(const Surface& surface, const FewerTrianglesOptions& fewer) {
+  std::vector<std::uint32_t> labels;
+  if (fewer.labels.empty()) return labels;
+  for (const std::uint32_t t : surface.source) {
+    labels.push_back(t < fewer.labels.size() ? fewer.labels[t] : kNone);
+  }
+  return labels;
+}
+
+void keep_origins(const std::vector<std::uint32_t>& source, RepairExplanation& explanation) {
+  if (explanation.origins.empty()) return;
+  std::vector<TriangleOrigin> origins;
+  origins.reserve(source.size());
+  for (const std::uint32_t t : source) origins.push_back(explanation.origins[t]);
+  explanation.origins = std::move(origins);
+}
+
+}  // namespace
+
+void take_triangles_away(Surface& surface, const RepairOptions& options, RepairReport& report) {
+  FewerTrianglesReport& told = report.fewer;
+  told.before = surface.mesh.triangles.size();
+  told.asked = asked_of(options.fewer, told.before);
+  if (!report.certify.passed()) return;
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("fewer");
+  DecimationOptions decimation;
+  decimation.triangles = told.asked;
+  decimation.precision = options.certify.precision;
+  const std::vector<std::uint32_t> labels = labels_of(surface, options.fewer);
+  decimation.labels = labels;
+  decimation.progress = options.progress;
+  DecimatedMesh fewer = decimate(surface.mesh, decimation, told.collapses);
+  told.done = true;
+  if (told.collapses.collapses == 0) return;
+  CancelOnly quiet(options.progress);
+  if (!valid_solid(fewer.mesh, written_as(options), &quiet)) {
+    throw InternalError("with fewer triangles the surface is no boundary of a solid any more");
+  }
+  keep_origins(fewer.source, report.explanation);
+  surface = collapsed(surface, std::move(fewer));
+  report.spared_cells |= std::exchange(report.kept_valid, false);
+  describe_output(surface, report);
+  TriangleFates& fates = report.triangles;
+  fates = {};
+  for (const auto& t : surface.mesh.triangles) {
+    const bool is_given = std::all_of(t.begin(), t.end(),
+                                      [&](std::uint32_t p) { return surface.input_point[p] != 0; });
+    ++(is_given ? fates.untouched : fates.cut);
+  }
+}
+
+}  // namespace meshrepair::internal

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Fewer triangles for the boundary of a solid, which stays one.
+//
+//   DecimationOptions options;
+//   options.triangles = 10'000;
+//   DecimationReport report;
+//   const DecimatedMesh fewer = decimate(mesh, options, report);
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <base/progress.h>
+#include <mesh/precision.h>
+#include <mesh/soup.h>
+
+namespace meshrepair {
+
+struct DecimationOptions {
+  // As many are wanted; there may be one more.
+  std::size_t triangles = 0;
+  // Of new points.
+  Precision precision = Precision::float64;
+  // Of each triangle, what it belongs to: borders between triangles of different labels stay where
+  // they are as well as the surface does, and no two become one. Not owned. Empty: all are alike.
+  std::span<const std::uint32_t> labels = {};
+  ProgressObserver* progress = nullptr;  // not owned; no stage is begun
+};
+
+struct DecimationReport {
+  std::size_t collapses = 0;
+  // The root of the mean square of distances to the planes that a point stands for, the largest of
+  // all collapses that were made: as far as quadrics tell. In the mesh's units.
+  double largest_error = 0;
+  // Edges that are left because their collapse would ...
+  std::size_t would_change_topology = 0;  // join surfaces or holes, or leave no solid
+  std::size_t would_fold = 0;             // turn a triangle over, or make a needle of it
+  std::size_t would_meet = 0;             // make triangles meet, or a part swallow another one
+};
+
+struct DecimatedMesh {
+  TriangleSoup mesh;
+  // Of each triangle, that of the input which it was.
+  std::vector<std::uint32_t> source;
+  // Of each point of the input, the one of the mesh that it was collapsed into; or stayed.
+  std::vector<std::uint32_t> point;
+};
+
+// Collapses edges, the one that changes the surface least first, as measured by quadrics (M.
+// Garland and P. Heckbert: Surface simplification using quadric error metrics, 1997).
+//
+// Pre: the mesh is the boundary of a solid, as valid_solid() has it: closed, a 2-manifold by its
+// indices, and triangles meet in corners and edges alone. So is the result: every collapse is
+// tested exactly, with all triangles that are near. Parts and their genus stay; points that share
+// their place with others stay where they are. The same for any number of threads. Throws
+// Cancelled. n log n.
+[[nodiscard]] DecimatedMesh decimate(const TriangleSoup& mesh, const DecimationOptions& options,
+                                     DecimationReport& report);
+
+}  // namespace meshrepair

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+// A queue has each edge, by what its collapse costs: the least value that the quadrics of its two
+// points take together. The cheapest is collapsed to that place, or to one of its ends, if the
+// guard lets it. Edges of a point whose quadric has changed come into the queue again; what is in
+// it of earlier states of a point is passed over. What was refused is tried again when nothing else
+// is left, as its surroundings may have changed.
+//
+// All of this is done with the mesh scaled by a power of two to about unit size, which is exact.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <base/error.h>
+#include <base/ids.h>
+#include <mesh/edge_table.h>
+#include <mesh/internal/collapsible_mesh.h>
+#include <mesh/mesh_parts.h>
+#include <mesh/weld_points.h>
+#include <simplify/decimate.h>
+
+#include "collapse_guard.h"
+#include "quadric.h"
+
+namespace meshrepair {
+namespace {
+
+using internal::Collapse;
+using internal::CollapseGuard;
+using internal::CollapsibleMesh;
+using internal::PointStar;
+using internal::Quadric;
+using internal::Refusal;
+
+// Where the surface is flat, what collapses cost is rounding, and short edges go first: so much of
+// the squared length is added.
+constexpr double kShare = 1e-10;
+
+// Seams hold more than the surface.
+constexpr double kSeamWeight = 10;
+
+// From the middle of an edge, in its lengths: what is farther away is beyond rounding.
+constexpr double kFarthest = 2;
+
+// What a point may do.
+enum class Freedom : std::uint8_t { free, on_seam, fixed };
+
+class Decimator {
+ public:
+  Decimator(const TriangleSoup& mesh, const DecimationOptions& options, DecimationReport& report)
+      : options_(options),
+        report_(report),
+        check_(options.progress),
+        scale_(mesh.points),
+        points_(mesh.points),
+        mesh_(mesh.triangles, mesh.points.size()),
+        guard_(mesh_, points_, find_parts(mesh)),
+        quadrics_(mesh.points.size()),
+        freedom_(mesh.points.size(), Freedom::free),
+        version_(mesh.points.size(), 0),
+        became_(mesh.points.size(), kNone),
+        left_(mesh.triangles.size()) {
+    find_seams(mesh.triangles);
+    fix_points();
+    add_quadrics();
+  }
+
+  void run() {
+    const std::size_t first = left_;
+    std::size_t before = left_ + 1;
+    while (left_ > options_.triangles && left_ < before) {
+      before = left_;
+      report_.would_change_topology = report_.would_fold = report_.would_meet = 0;
+      fill_queue();
+      while (left_ > options_.triangles && !queue_.empty()) {
+        const Edge edge = queue_.top();
+        queue_.pop();
+        check_.tick();
+        if (edge.version != version_[edge.from] + version_[edge.to]) continue;
+        if (became_[edge.from] != kNone || became_[edge.to] != kNone) continue;
+        try_to_collapse(edge);
+        tell_progress(first);
+      }
+    }
+  }
+
+  [[nodiscard]] DecimatedMesh result() const {
+    DecimatedMesh result;
+    std::vector<std::uint32_t> number(points_.size(), kNone);
+    const auto& triangles = mesh_.triangles();
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (!mesh_.is_left(t)) continue;
+      std::array<std::uint32_t, 3> corners = triangles[t];
+      for (std::uint32_t& p : corners) {
+        if (number[p] == kNone) {
+          number[p] = static_cast<std::uint32_t>(result.mesh.points.size());
+          result.mesh.points.push_back(points_[p]);
+        }
+        p = number[p];
+      }
+      result.mesh.triangles.push_back(corners);
+      result.source.push_back(t);
+    }
+    result.point.resize(points_.size(), kNone);
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      std::uint32_t end = p;
+      while (became_[end] != kNone) end = became_[end];
+      result.point[p] = number[end];
+    }
+    return result;
+  }
+
+ private:
+  struct Edge {
+    double cost;
+    std::uint32_t from, to;
+    std::uint32_t version;  // of both ends, added
+
+    // Of a queue whose top is the largest.
+    bool operator<(const Edge& other) const {
+      if (cost != other.cost) return cost > other.cost;
+      return std::pair(from, to) > std::pair(other.from, other.to);
+    }
+  };
+
+  struct Best {
+    Vec3d place;  // scaled
+    double error = 0;
+  };
+
+  [[nodiscard]] Vec3d scaled(std::uint32_t p) const { return scale_(points_[p]); }
+
+  void find_seams(std::span<const IndexTriangle> triangles) {
+    const auto& labels = options_.labels;
+    if (std::adjacent_find(labels.begin(), labels.end(), std::not_equal_to<>()) == labels.end()) {
+      return;
+    }
+    seams_.assign(triangles.size(), 0);
+    EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+      const auto is_other = [&](std::uint32_t s) { return labels[s / 3] != labels[sides[0] / 3]; };
+      if (std::none_of(sides.begin(), sides.end(), is_other)) return;
+      for (const std::uint32_t side : sides) {
+        seams_[side / 3] = static_cast<std::uint8_t>(seams_[side / 3] | 1u << side % 3);
+      }
+    });
+  }
+
+  void fix_points() {
+    const PointPlaces places = find_places(points_);
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      if (places.is_copy[p] != 0) freedom_[p] = Freedom::fixed;
+    }
+    if (seams_.empty()) return;
+    std::vector<std::uint8_t> seams_at(points_.size(), 0);  // each from both sides
+    const auto& triangles = mesh_.triangles();
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (!is_seam(t, k)) continue;
+        for (const std::uint32_t p : {triangles[t][k], triangles[t][(k + 1) % 3]}) {
+          seams_at[p] = static_cast<std::uint8_t>(std::min(seams_at[p] + 1, 255));
+        }
+      }
+    }
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      if (seams_at[p] == 0 || freedom_[p] == Freedom::fixed) continue;
+      freedom_[p] = seams_at[p] == 4 ? Freedom::on_seam : Freedom::fixed;
+    }
+  }
+
+  [[nodiscard]] bool is_seam(std::size_t triangle, std::uint32_t side) const {
+    return !seams_.empty() && (seams_[triangle] >> side & 1) != 0;
+  }
+
+  void add_quadrics() {
+    const auto& triangles = mesh_.triangles();
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto& corners = triangles[t];
+      const std::array<Vec3d, 3> at = {scaled(corners[0]), scaled(corners[1]), scaled(corners[2])};
+      const Vec3d across = (at[1] - at[0]).cross(at[2] - at[0]);
+      const double doubled_area = across.norm();
+      if (!(doubled_area > 0)) continue;
+      const Vec3d normal = across / doubled_area;
+      for (const std::uint32_t p : corners) {
+        quadrics_[p].add_plane(normal, at[0], doubled_area / 6);
+      }
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (!is_seam(t, k)) continue;
+        const Vec3d along = at[(k + 1) % 3] - at[k];
+        const Vec3d wall = along.cross(normal).normalized();
+        for (const std::uint32_t p : {corners[k], corners[(k + 1) % 3]}) {
+          quadrics_[p].add_plane(wall, at[k], kSeamWeight * along.squaredNorm() / 4);
+        }
+      }
+    }
+  }
+
+  void fill_queue() {
+    std::vector<Edge> edges;
+    const auto& triangles = mesh_.triangles();
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (!mesh_.is_left(t)) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+        if (a < b) edges.push_back(edge_between(a, b));
+      }
+    }
+    queue_ = std::priority_queue<Edge>({}, std::move(edges));
+  }
+
+  // From the one that is to move, as far as it matters.
+  [[nodiscard]] Edge edge_between(std::uint32_t a, std::uint32_t b) const {
+    if (freedom_[a] > freedom_[b] || (freedom_[a] == freedom_[b] && a < b)) std::swap(a, b);
+    Edge edge{0, a, b, version_[a] + version_[b]};
+    Quadric both = quadrics_[a];
+    both.add(quadrics_[b]);
+    edge.cost = both.at(best_place(both, a, b)) +
+                kShare * both.weight() * (scaled(a) - scaled(b)).squaredNorm();
+    return edge;
+  }
+
+  // Scaled.
+  [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to) const {
+    if (freedom_[to] == Freedom::fixed || freedom_[from] != freedom_[to]) return scaled(to);
+    const Vec3d a = scaled(from), b = scaled(to);
+    const Vec3d middle = 0.5 * (a + b);
+    const Vec3d place = both.least_near(middle);
+    if ((place - middle).squaredNorm() <= kFarthest * kFarthest * (b - a).squaredNorm()) {
+      return place;
+    }
+    const double at_a = both.at(a), at_b = both.at(b), at_middle = both.at(middle);
+    if (at_middle <= at_a && at_middle <= at_b) return middle;
+    return at_a < at_b ? a : b;
+  }
+
+  void try_to_collapse(const Edge& edge) {
+    if (freedom_[edge.from] == Freedom::fixed || !find_collapse(edge)) {
+      ++report_.would_change_topology;
+      return;
+    }
+    Quadric both = quadrics_[edge.from];
+    both.add(quadrics_[edge.to]);
+    const Vec3d best = best_place(both, edge.from, edge.to);
+    const bool may_move = freedom_[edge.from] == freedom_[edge.to];
+    Refusal why = Refusal::topology;
+    for (const Vec3d& place : {best, scaled(edge.to), scaled(edge.from)}) {
+      const double error = std::sqrt(both.at(place) / both.weight());
+      collapse_.place = internal::rounded_to(scale_.back(place), options_.precision);
+      why = guard_.refusal(collapse_);
+      if (why == Refusal::none) return make(edge, both, error);
+      if (!may_move) break;
+    }
+    ++(why == Refusal::fold ? report_.would_fold : report_.would_meet);
+  }
+
+  // False where it may not be.
+  bool find_collapse(const Edge& edge) {
+    if (!mesh_.find_star(edge.to, star_of_to_) || !mesh_.find_star(edge.from, star_)) return false;
+    const auto found = std::find(star_.link.begin(), star_.link.end(), edge.to);
+    if (found == star_.link.end()) return false;
+    const auto to = static_cast<std::size_t>(found - star_.link.begin());
+    if (!mesh_.may_collapse(star_, to)) return false;
+    if (!seams_.empty() && !keeps_seams(edge, to)) return false;
+    at_ = to;
+    collapse_.from = edge.from;
+    collapse_.to = edge.to;
+    collapse_.gone = {star_.triangles[to], star_.triangles[star_.before(to)]};
+    collapse_.fan.clear();
+    for (const PointStar* star : {&star_, &star_of_to_}) {
+      for (std::size_t i = 0; i < star->link.size(); ++i) {
+        const std::uint32_t t = star->triangles[i];
+        if (t == collapse_.gone[0] || t == collapse_.gone[1]) continue;
+        collapse_.fan.push_back(
+            {t, star->link[i], star->link[star->after(i)], star == &star_of_to_});
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_seam_between(std::uint32_t triangle, std::uint32_t a,
+                                     std::uint32_t b) const {
+    const auto& corners = mesh_.triangles()[triangle];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t p = corners[k], q = corners[(k + 1) % 3];
+      if ((p == a && q == b) || (p == b && q == a)) return is_seam(triangle, k);
+    }
+    return false;
+  }
+
+  // A point of a seam moves along it, and no two seams become one.
+  [[nodiscard]] bool keeps_seams(const Edge& edge, std::size_t to) const {
+    if (freedom_[edge.from] == Freedom::on_seam &&
+        !is_seam_between(star_.triangles[to], edge.from, edge.to)) {
+      return false;
+    }
+    for (const std::size_t side : {to, star_.before(to)}) {
+      const std::uint32_t t = star_.triangles[side];
+      const std::uint32_t third = star_.link[side == to ? star_.after(to) : side];
+      if (is_seam_between(t, edge.from, third) && is_seam_between(t, edge.to, third)) return false;
+    }
+    return true;
+  }
+
+  // Two edges of a triangle that goes become one: if one is a seam, so is that.
+  void join_seams(const Edge& edge) {
+    for (const std::size_t side : {at_, star_.before(at_)}) {
+      const std::uint32_t t = star_.triangles[side];
+      const std::uint32_t third = star_.link[side == at_ ? star_.after(at_) : side];
+      if (!is_seam_between(t, edge.from, third) && !is_seam_between(t, edge.to, third)) continue;
+      for (const auto& f : collapse_.fan) {
+        const auto& corners = mesh_.triangles()[f.triangle];
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          const std::uint32_t p = corners[k], q = corners[(k + 1) % 3];
+          const bool is_ours = p == third || q == third;
+          const bool is_of_edge = p == edge.from || q == edge.from || p == edge.to || q == edge.to;
+          if (is_ours && is_of_edge) {
+            seams_[f.triangle] = static_cast<std::uint8_t>(seams_[f.triangle] | 1u << k);
+          }
+        }
+      }
+    }
+  }
+
+  void make(const Edge& edge, const Quadric& both, double error) {
+    if (!seams_.empty()) join_seams(edge);
+    mesh_.collapse(star_, at_);
+    points_[edge.to] = collapse_.place;
+    guard_.note_made(collapse_);
+    quadrics_[edge.to] = both;
+    became_[edge.from] = edge.to;
+    ++version_[edge.to];
+    left_ -= 2;
+    ++report_.collapses;
+    report_.largest_error = std::max(report_.largest_error, scale_.back(error));
+    mesh_.visit_corners(edge.to, [&](std::uint32_t, std::uint32_t next, std::uint32_t) {
+      queue_.push(edge_between(edge.to, next));
+    });
+  }
+
+  void tell_progress(std::size_t first) {
+    constexpr std::size_t kSeldom = 1024;
+    if (options_.progress == nullptr || report_.collapses % kSeldom != 0) return;
+    const auto done = static_cast<double>(first - left_);
+    options_.progress->advance(
+        std::min(1.0, done / static_cast<double>(first - options_.triangles)));
+  }
+
+  const DecimationOptions& options_;
+  DecimationReport& report_;
+  CancelCheck check_;
+  const UnitScale scale_;
+  std::vector<Vec3d> points_;
+  CollapsibleMesh mesh_;
+  CollapseGuard guard_;
+  std::vector<Quadric> quadrics_;
+  std::vector<Freedom> freedom_;
+  std::vector<std::uint8_t> seams_;     // of each triangle, a bit for each side; empty: none
+  std::vector<std::uint32_t> version_;  // of each point: how often its quadric has changed
+  std::vector<std::uint32_t> became_;   // of each point that went, the one that it is now
+  std::size_t left_;
+  std::priority_queue<Edge> queue_;
+  PointStar star_, star_of_to_;
+  std::size_t at_ = 0;  // in the link of star_, the other end of the edge
+  Collapse collapse_;
+};
+
+}  // namespace
+
+DecimatedMesh decimate(const TriangleSoup& mesh, const DecimationOptions& options,
+                       DecimationReport& report) {
+  report = {};
+  Decimator decimator(mesh, options, report);
+  decimator.run();
+  return decimator.result();
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <check/check_surface.h>
+#include <check/mesh_distance.h>
+#include <mesh/precision.h>
+#include <mesh/topology.h>
+#include <simplify/decimate.h>
+
+#include "each_seed.h"
+#include "point_clouds.h"
+#include "random_geometry.h"
+#include "random_solids.h"
+#include "shapes.h"
+
+namespace meshrepair {
+namespace {
+
+using namespace testing;
+
+DecimatedMesh reduced(const TriangleSoup& mesh, std::size_t triangles,
+                      Precision precision = Precision::float64, DecimationReport* told = nullptr) {
+  DecimationOptions options;
+  options.triangles = triangles;
+  options.precision = precision;
+  DecimationReport report;
+  DecimatedMesh result = decimate(mesh, options, report);
+  if (told != nullptr) *told = report;
+  return result;
+}
+
+std::int64_t genus(const TriangleSoup& mesh) {
+  return genus_of(examine_topology(mesh.triangles, mesh.points.size()), mesh.points.size());
+}
+
+void expect_same_kind(const TriangleSoup& before, const TriangleSoup& after) {
+  const SurfaceCheck a = check_surface(before), b = check_surface(after);
+  EXPECT_TRUE(b.valid_solid());
+  EXPECT_EQ(a.parts.size(), b.parts.size());
+  EXPECT_EQ(a.cavities, b.cavities);
+  EXPECT_EQ(b[Defect::unused_point].count, 0u);
+  EXPECT_EQ(genus(before), genus(after));
+}
+
+TEST(Decimate, ReachesTheCountWhereNothingForbidsIt) {
+  const TriangleSoup mesh = sphere(2000);
+  ASSERT_GT(mesh.triangles.size(), 1900u);
+  for (const std::size_t count : {1899u, 1000u, 201u, 20u, 4u, 0u}) {
+    const DecimatedMesh few = reduced(mesh, count);
+    SCOPED_TRACE(count);
+    // In pairs; and to the last one, something is in the way.
+    EXPECT_LE(few.mesh.triangles.size(), std::max<std::size_t>(count, 8));
+    EXPECT_GT(few.mesh.triangles.size() + 2, count);
+    expect_same_kind(mesh, few.mesh);
+  }
+}
+
+TEST(Decimate, LeavesAloneWhatIsSmallEnough) {
+  const TriangleSoup mesh = torus(12, 8);
+  const DecimatedMesh same = reduced(mesh, mesh.triangles.size());
+  EXPECT_EQ(same.mesh.triangles.size(), mesh.triangles.size());
+  for (std::uint32_t t = 0; t < same.source.size(); ++t) EXPECT_EQ(same.source[t], t);
+}
+
+TEST(Decimate, FlatFacesCostNothing) {
+  const TriangleSoup mesh = cubes_boundary({9, 7, 5}, [](int, int, int) { return true; });
+  const DecimatedMesh few = reduced(mesh, 12);
+  EXPECT_EQ(few.mesh.triangles.size(), 12u);
+  expect_same_kind(mesh, few.mesh);
+  EXPECT_NEAR(check_surface(few.mesh).volume, 9 * 7 * 5, 1e-9);
+}
+
+TEST(Decimate, HandlesStay) {
+  const TriangleSoup mesh = genus_five_body();
+  DecimationReport report;
+  const DecimatedMesh few = reduced(mesh, 0, Precision::float64, &report);
+  EXPECT_EQ(genus(few.mesh), 5);
+  expect_same_kind(mesh, few.mesh);
+  EXPECT_GT(report.would_change_topology + report.would_fold + report.would_meet, 0u);
+}
+
+// Nested shells that are nearly in touch, as far as it goes.
+TEST(Decimate, NothingMeetsWhereShellsAreNear) {
+  for (const double gap : {1e-2, 1e-4, 1e-8}) {
+    SCOPED_TRACE(gap);
+    TriangleSoup mesh = sphere(800);
+    mesh = together(mesh, flipped(scaled(sphere(800), 1 - gap)));
+    mesh = together(mesh, scaled(sphere(800), 1 - 3 * gap));
+    const DecimatedMesh few = reduced(mesh, 0);
+    EXPECT_LT(few.mesh.triangles.size(), mesh.triangles.size());
+    expect_same_kind(mesh, few.mesh);
+  }
+}
+
+TEST(Decimate, NoPartSwallowsASmallOne) {
+  TriangleSoup mesh = sphere(3000);
+  Random random(1);
+  for (int i = 0; i < 40; ++i) {
+    const Vec3d way(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1));
+    mesh = together(mesh, moved(scaled(sphere(20), 1e-3), 1.005 * way.normalized()));
+  }
+  for (const std::size_t count : {1200u, 500u, 0u}) {
+    const DecimatedMesh few = reduced(mesh, count);
+    SCOPED_TRACE(count);
+    expect_same_kind(mesh, few.mesh);
+  }
+}
+
+TEST(Decimate, RandomSolidsStaySolids) {
+  for_each_seed(300, [](std::uint64_t seed) {
+    Random random(seed);
+    const TriangleSoup mesh = random_solid(random);
+    if (!check_surface(mesh).valid_solid()) return;
+    const auto precision = seed % 2 == 0 ? Precision::float64 : Precision::float32;
+    TriangleSoup given = mesh;
+    for (Vec3d& p : given.points) p = internal::rounded_to(p, precision);
+    const std::size_t count = given.triangles.size();
+    for (const std::size_t target : {count / 2, count / 10, std::size_t{0}}) {
+      const DecimatedMesh few = reduced(given, target, precision);
+      expect_same_kind(given, few.mesh);
+      for (const Vec3d& p : few.mesh.points) {
+        EXPECT_EQ(internal::rounded_to(p, precision), p);
+      }
+    }
+  });
+}
+
+// Points of the input say what they became, triangles what they were.
+TEST(Decimate, TellsWhatBecameOfWhat) {
+  const TriangleSoup mesh = torus(40, 20);
+  const DecimatedMesh few = reduced(mesh, 300);
+  ASSERT_EQ(few.point.size(), mesh.points.size());
+  ASSERT_EQ(few.source.size(), few.mesh.triangles.size());
+  for (std::size_t t = 0; t < few.source.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(few.point[mesh.triangles[few.source[t]][k]], few.mesh.triangles[t][k]);
+    }
+  }
+}
+
+TEST(Decimate, ScalingByPowersOfTwoChangesNothing) {
+  const TriangleSoup mesh = noisy_sphere(600, 0.01, 3);
+  ASSERT_TRUE(check_surface(mesh).valid_solid());
+  const DecimatedMesh few = reduced(mesh, 100);
+  for (const double scale : {0x1p-60, 0x1p40}) {
+    const DecimatedMesh other = reduced(scaled(mesh, scale), 100);
+    EXPECT_EQ(other.mesh.triangles, few.mesh.triangles);
+    EXPECT_EQ(other.mesh.points, scaled(few.mesh, scale).points);
+  }
+}
+
+TEST(Decimate, IsNearerThanItsTriangles) {
+  const TriangleSoup mesh = sphere(8000);
+  const MeshDistance distance = mesh_distance(mesh, reduced(mesh, 800).mesh);
+  EXPECT_LT(distance.forth.mean, 2.5e-3);
+  EXPECT_LT(distance.largest(), 1e-2);
+}
+
+// The equator is the border of two labels.
+TEST(Decimate, BordersOfLabelsStay) {
+  const TriangleSoup mesh = torus(60, 30);
+  std::vector<std::uint32_t> labels;
+  const auto middle = [&](const TriangleSoup& soup, std::size_t t) {
+    const auto& c = soup.triangles[t];
+    return Vec3d((soup.points[c[0]] + soup.points[c[1]] + soup.points[c[2]]) / 3);
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    labels.push_back(middle(mesh, t).z() > 0 ? 1 : 0);
+  }
+  DecimationOptions options;
+  options.triangles = 300;
+  options.labels = labels;
+  DecimationReport report;
+  const DecimatedMesh few = decimate(mesh, options, report);
+  expect_same_kind(mesh, few.mesh);
+  EXPECT_LE(few.mesh.triangles.size(), 301u);
+  for (std::size_t t = 0; t < few.source.size(); ++t) {
+    EXPECT_EQ(labels[few.source[t]] == 1, middle(few.mesh, t).z() > 0);
+  }
+}
+
+}  // namespace
+}  // namespace meshrepair
