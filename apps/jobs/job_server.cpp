@@ -176,6 +176,7 @@ void JobServer::finish(const Json& id, const JobProcess::Ended& ended) {
 // A pipe that is ready takes so much without waiting.
 void JobServer::write_answers() {
   const std::string_view rest = std::string_view(answers_).substr(written_);
+  if (rest.empty()) throw OutputError("standard output: nobody reads it");
   const ssize_t count =
       ::write(STDOUT_FILENO, rest.data(), std::min<std::size_t>(rest.size(), PIPE_BUF));
   if (count < 0 && errno != EINTR && errno != EAGAIN) {
