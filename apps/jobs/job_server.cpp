@@ -24,8 +24,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 constexpr std::size_t kReadAtOnce = std::size_t{1} << 16;
-// Of lines whose jobs wait, and of answers that nobody has read.
-constexpr std::size_t kMostAhead = std::size_t{1} << 22;
+constexpr std::size_t kMostLinesAhead = std::size_t{1} << 18;  // bytes of those that wait
+constexpr std::size_t kMostAnswersAhead = std::size_t{1} << 22;
 constexpr std::chrono::seconds kGrace(3);     // that a signal leaves to jobs
 constexpr std::chrono::seconds kPatience(3);  // with a reader of the last answers
 constexpr int kMillisecondsBetween = 100;     // looks at that time
@@ -53,7 +53,7 @@ ExitCode JobServer::run() {
 
 void JobServer::begin_jobs() {
   for (Place& place : places_) {
-    if (waiting_.empty() || answers_.size() - written_ > kMostAhead) return;
+    if (waiting_.empty() || answers_.size() - written_ > kMostAnswersAhead) return;
     if (place.process.is_running()) continue;
     const auto [job, size] = std::move(waiting_.front());
     waiting_.pop_front();
@@ -92,9 +92,7 @@ void JobServer::attend(int milliseconds) {
 }
 
 // Cancellations come by the same way, so it is read on although no job can be begun.
-bool JobServer::wants_input() const {
-  return waiting_bytes_ + unread_.size() < kMostAhead && answers_.size() - written_ < kMostAhead;
-}
+bool JobServer::wants_input() const { return waiting_bytes_ + refused_bytes_ < kMostLinesAhead; }
 
 void JobServer::read_input() {
   std::array<char, kReadAtOnce> some{};
@@ -154,7 +152,9 @@ void JobServer::refuse(const Json& id, ExitCode code, const std::string& error) 
       {"id", id},         {"exit_code", static_cast<int>(code)}, {"signal", nullptr},
       {"error", error},   {"peak_memory_bytes", nullptr},        {"stderr", ""},
       {"report", nullptr}};
-  answers_ += answer.dump() + '\n';
+  const std::string line = answer.dump() + '\n';
+  refused_bytes_ += line.size();
+  answers_ += line;
 }
 
 // The answer of the process has the error and the report.
@@ -184,7 +184,8 @@ void JobServer::write_answers() {
                       std::generic_category().message(errno));
   }
   written_ += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
-  if (written_ < answers_.size() && written_ < kMostAhead) return;
+  if (written_ == answers_.size()) refused_bytes_ = 0;
+  if (written_ < answers_.size() && written_ < kMostAnswersAhead) return;
   answers_.erase(0, written_);
   written_ = 0;
 }

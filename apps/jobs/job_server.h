@@ -11,8 +11,9 @@
 //   stderr             what it printed, the end of it
 //   report             as --report has it; null where there is none
 //
-// Nothing is lost and nothing grows: where answers are not read no job is begun, and where jobs
-// wait no line is read.
+// Nothing is lost and nothing grows: where answers are not read no job is begun, and where many
+// jobs wait no line is read. Who reads answers only after writing a line is never stuck, as long as
+// it waits for those of its jobs before it writes more of them than work at a time.
 #pragma once
 
 #include <cstddef>
@@ -67,7 +68,8 @@ class JobServer {
   bool is_skipping_ = false;                         // what remains of a line that is too long
   std::deque<std::pair<Job, std::size_t>> waiting_;  // with the sizes of their lines
   std::size_t waiting_bytes_ = 0;
-  std::string answers_;  // from `written_` on they are to be written
+  std::size_t refused_bytes_ = 0;  // of lines whose answers have not all been written
+  std::string answers_;            // from `written_` on they are to be written
   std::size_t written_ = 0;
 };
 
