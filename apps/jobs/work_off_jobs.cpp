@@ -29,8 +29,26 @@ namespace meshrepair {
 namespace {
 
 constexpr std::string_view kFlag = "--jobs-from";
-constexpr std::size_t kMostJobs = 1024;
+constexpr std::size_t kMostJobs = 9999;
 constexpr double kShareOfMemory = 80;  // percent, of all jobs together
+
+constexpr const char* kFooter =
+    R"(Further options are those of all jobs: see meshrepair --help. Without them a job has one thread, and
+its share of 80 % of the memory.
+
+A job is a line of JSON. "options" may be left out. A text that is not UTF-8 is {"base64": "..."}.
+  {"id": 7, "in": "broken.stl", "out": "repaired.stl", "options": ["--for", "print"]}
+Each gets one answer on standard output, in the order in which they end:
+  {"id": 7, "exit_code": 0, "signal": null, "peak_memory_bytes": 10600000, "stderr": "",
+   "error": null, "report": {...}}
+To end a job, after so many seconds by force:
+  {"cancel": 7, "grace": 3}
+
+The exit code is 0 if all lines were answered, whatever became of the jobs.
+
+Examples:
+  meshrepair --jobs-from jobs.jsonl > answers.jsonl
+  meshrepair --jobs-from - --jobs 4 --quiet --time-limit 60)";
 
 struct JobsOptions {
   std::string file;
@@ -48,24 +66,7 @@ void add_options(CommandLine& app, JobsOptions& options) {
       ->check(count_between(0, kMostJobs))
       ->type_name("N");
   app.set_help_flag("--help,-h", "Print this help and exit");
-  app.set_footer(
-      "Further options are those of all jobs: meshrepair --help lists them. Without them a job "
-      "has\n"
-      "one thread, and its share of 80 % of the memory.\n\n"
-      "A job is a line of JSON. \"options\" may be left out. A text that is not UTF-8 is\n"
-      "{\"base64\": \"...\"}.\n"
-      "  {\"id\": 7, \"in\": \"broken.stl\", \"out\": \"repaired.stl\", \"options\": [\"--for\", "
-      "\"print\"]}\n"
-      "Each gets one answer on standard output, in the order in which they end:\n"
-      "  {\"id\": 7, \"exit_code\": 0, \"signal\": null, \"error\": null, \"peak_memory_bytes\": "
-      "10000000,\n"
-      "   \"stderr\": \"\", \"report\": {...}}\n"
-      "To end a job, after so many seconds by force:\n"
-      "  {\"cancel\": 7, \"grace\": 3}\n\n"
-      "The exit code is 0 if all lines were answered, whatever became of the jobs.\n\n"
-      "Examples:\n"
-      "  meshrepair --jobs-from jobs.jsonl > answers.jsonl\n"
-      "  meshrepair --jobs-from - --jobs 4 --quiet --time-limit 60");
+  app.set_footer(kFooter);
 }
 
 // Those of this command come first: the others belong to the jobs. Nothing: help was asked for, and
@@ -137,6 +138,21 @@ std::vector<std::string> words_of(const std::string& name, const JobsOptions& op
   return words;
 }
 
+int run_words(const std::vector<std::string>& words,
+              const std::function<int(int, const char* const*)>& run) {
+  std::vector<const char*> pointers(words.size());
+  std::transform(words.begin(), words.end(), pointers.begin(),
+                 [](const std::string& word) { return word.c_str(); });
+  return run(static_cast<int>(pointers.size()), pointers.data());
+}
+
+// The part of it that the job knows.
+std::string answer_of(const Json& report) {
+  const Json* const error = report.find("error");
+  return "\"error\":" + (error == nullptr ? "null" : error->dump()) +
+         ",\"report\":" + report.dump();
+}
+
 }  // namespace
 
 bool asks_for_jobs(int argc, const char* const* argv) {
@@ -159,15 +175,8 @@ int work_off_jobs(int argc, const char* const* argv, Program& program,
     bind_all_functions(argv);
     program.add_common_options(defaults_of_jobs(options.most_at_once));
     const auto work = [&](const Job& job, const JobProcess::Answer& answer) {
-      program.hand_report_to([&](const Json& report) {
-        const Json* const error = report.find("error");
-        answer("\"error\":" + (error == nullptr ? "null" : error->dump()) +
-               ",\"report\":" + report.dump());
-      });
-      const std::vector<std::string> words = words_of(argv[0], options, job);
-      std::vector<const char*> pointers;
-      for (const std::string& word : words) pointers.push_back(word.c_str());
-      return run(static_cast<int>(pointers.size()), pointers.data());
+      program.hand_report_to([&](const Json& report) { answer(answer_of(report)); });
+      return run_words(words_of(argv[0], options, job), run);
     };
     JobServer server(opened(options.file), options.most_at_once, work);
     return server.run();
