@@ -12,7 +12,6 @@
 #include <fcntl.h>
 #include <mutex>
 #include <string>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -86,8 +85,7 @@ std::string temporary_name(const fs::path& target) {
   constexpr std::size_t kLongest = 200;
   // Not by std::random_device, which asks the processor what it can: a virtual one takes long.
   std::uint64_t random = 0;
-  if (::getrandom(&random, sizeof random, 0) != sizeof random)
-    fail(target, "no random name", errno);
+  if (::getentropy(&random, sizeof random) != 0) fail(target, "no random name", errno);
   std::array<char, 24> suffix;
   std::snprintf(suffix.data(), suffix.size(), ".%016llx.tmp",
                 static_cast<unsigned long long>(random));
