@@ -4,8 +4,8 @@
 
 What holds at every moment, also when this script, its workers or the machine are killed:
 
-- A mesh in OUT_DIR is complete. A worker writes into a folder of its own below OUT_DIR/.repair_folder/work,
-  and what it wrote is renamed to its place only after it has ended well and its report says so.
+- A mesh in OUT_DIR is complete. A worker, which is a process of its own for each file, writes into a folder of its
+  own below OUT_DIR/.repair_folder/work, and what it wrote is renamed to its place only after it has ended well and its report says so.
 - OUT_DIR/.repair_folder/journal.jsonl holds a line for each file that is finished, a moment later. The line is
   written, and on the disk, after the output is. What is in no line is done again, which gives the same bytes.
 - One run at a time works on an OUT_DIR, or several of different shards: each holds a lock, and so do its
@@ -206,8 +206,6 @@ def run():
     options = parse_arguments(sys.argv[1:])
     check_folders(options)
     program = Program(options.meshrepair, options.passed)
-    if options.html and not program.makes_pages:
-        raise Stop(USAGE, f"{program.path} makes no pages, so there is none for --html")
     try:
         return FolderRun(options, program, OutFolder(options.out_dir, options.shard)).run()
     except OSError as error:

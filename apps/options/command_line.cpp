@@ -45,8 +45,10 @@ class HelpFormatter : public CLI::Formatter {
 };
 
 // CLI11 looks for what is missing first: whoever mistypes the only option would be told of IN.
-std::string message_of(const CLI::App& app, const CLI::RequiredError& error) {
-  const std::vector<std::string> unknown = app.remaining();
+// Among what it did not expect it has the mark before names, too.
+std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
+  std::vector<std::string> unknown = app.remaining();
+  std::erase(unknown, "--");
   return unknown.empty() ? error.what() : CLI::ExtrasError(unknown).what();
 }
 
@@ -296,6 +298,8 @@ CommandLine::Parsed CommandLine::parsed(const Parse& parse) {
   } catch (const CLI::CallForVersion&) {
     return Parsed::version;
   } catch (const CLI::RequiredError& error) {
+    throw UsageError(message_of(*app_, error));
+  } catch (const CLI::ExtrasError& error) {
     throw UsageError(message_of(*app_, error));
   } catch (const CLI::ArgumentMismatch& error) {
     throw UsageError(message_of(*app_, error));

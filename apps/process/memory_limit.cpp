@@ -29,7 +29,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kStackBytes = std::uint64_t{4} << 20;  // of a thread
-constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;       // beyond what the program has taken
+// What a group without a limit has as one, in pages of the largest number with a sign.
+constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 62;
+constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;  // beyond what the program has taken
 
 // Nothing: it is none.
 std::optional<double> factor_of(std::string_view unit) {
@@ -74,31 +76,48 @@ std::uint64_t share_of_free(double percent) {
   return static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(*free) * percent / 100));
 }
 
-// The number after "KEY" of a file of the system, one "KEY number" a line; empty if there is none.
-std::optional<std::uint64_t> number_of_key(const fs::path& file, std::string_view key) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
+// All of a file of the system, which makes it anew each time that it is asked; empty if there is
+// none.
+std::string text_of(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return {};
+  std::string text;
+  std::array<char, 4096> some{};
+  for (ssize_t count = 0; (count = ::read(descriptor, some.data(), some.size())) > 0;) {
+    text.append(some.data(), static_cast<std::size_t>(count));
+  }
+  ::close(descriptor);
+  return text;
+}
+
+// The number after "KEY" of such a text, one "KEY number" a line; empty if there is none.
+std::optional<std::uint64_t> number_of_key(std::string_view text, std::string_view key) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
     if (!line.starts_with(key)) continue;
     const std::size_t at = line.find_first_of("0123456789", key.size());
-    if (at == std::string::npos) return std::nullopt;
-    return std::strtoull(line.c_str() + at, nullptr, 10);
+    if (at == std::string_view::npos) return std::nullopt;
+    return std::strtoull(std::string(line.substr(at)).c_str(), nullptr, 10);
   }
   return std::nullopt;
 }
 
-std::optional<std::uint64_t> kilobytes_of_key(const fs::path& file, std::string_view key) {
-  const auto number = number_of_key(file, key);
+std::optional<std::uint64_t> kilobytes_of_key(std::string_view text, std::string_view key) {
+  const auto number = number_of_key(text, key);
   return number ? std::optional(*number * 1024) : std::nullopt;
 }
 
 // What a control group leaves: its limit less what it uses, but for the files that it could forget.
 std::optional<std::uint64_t> free_in_group(const fs::path& group, std::string_view limit_file,
                                            std::string_view usage_file) {
-  const auto limit = number_of_key(group / limit_file, "");
-  const auto used = number_of_key(group / usage_file, "");
-  if (!limit || !used) return std::nullopt;
-  const std::uint64_t files = number_of_key(group / "memory.stat", "inactive_file ").value_or(0) +
-                              number_of_key(group / "memory.stat", "active_file ").value_or(0);
+  const auto limit = number_of_key(text_of(group / limit_file), "");
+  if (!limit || *limit > kNoLimit) return std::nullopt;
+  const auto used = number_of_key(text_of(group / usage_file), "");
+  if (!used) return std::nullopt;
+  const std::string all = text_of(group / "memory.stat");
+  const std::uint64_t files = number_of_key(all, "inactive_file ").value_or(0) +
+                              number_of_key(all, "active_file ").value_or(0);
   const std::uint64_t taken = *used - std::min(*used, files);
   return *limit - std::min(*limit, taken);
 }
@@ -125,10 +144,6 @@ std::uint64_t free_in_groups() {
     }
   }
   return least;
-}
-
-std::uint64_t of_self(std::string_view key) {
-  return kilobytes_of_key("/proc/self/status", key).value_or(0);
 }
 
 struct Pages {
@@ -177,7 +192,7 @@ std::uint64_t parse_size(const std::string& text, const std::string& option) {
 }
 
 std::optional<std::uint64_t> free_memory() {
-  const auto machine = kilobytes_of_key("/proc/meminfo", "MemAvailable:");
+  const auto machine = kilobytes_of_key(text_of("/proc/meminfo"), "MemAvailable:");
   if (!machine) return std::nullopt;
   return std::min(*machine, free_in_groups());
 }
@@ -194,6 +209,10 @@ std::uint64_t reserved_memory() { return pages_now().data * page_bytes(); }
 void limit_memory(const MemoryLimit& limit_wanted, std::size_t threads) {
   const std::uint64_t bytes = limit_wanted.bytes;
   if (bytes == 0) return;
+  const std::string status = text_of("/proc/self/status");
+  const auto of_self = [&](std::string_view key) {
+    return kilobytes_of_key(status, key).value_or(0);
+  };
   const std::uint64_t used = of_self("RssAnon:");
   const std::uint64_t resident = of_self("VmRSS:");
   const std::uint64_t code = resident - std::min(resident, used);

@@ -11,7 +11,8 @@
 namespace meshrepair {
 
 struct CommonOptions {
-  std::string report;  // file for the JSON report, "-" is stdout, empty is none
+  std::string report;         // file for the JSON report, "-" is stdout, empty is none
+  bool hands_report = false;  // to whoever runs the program
   bool quiet = false;
   bool verbose = false;
   unsigned threads = 0;            // 0: all that the machine has
@@ -22,6 +23,8 @@ struct CommonOptions {
   int progress_to = -1;            // a descriptor; -1: none
 
   [[nodiscard]] Verbosity verbosity() const;
+  // Whether anybody sees the report, so that what is only for it is worth its time.
+  [[nodiscard]] bool wants_report() const { return hands_report || !report.empty(); }
 };
 
 // Adds the options above, --version, --help, and --describe, which help does not show: a manual

@@ -48,6 +48,17 @@ void Program::report_to_standard_output() {
   options_.report = "-";
 }
 
+void Program::add_common_options(const CommonOptions& defaults) {
+  options_ = defaults;
+  add_common_options();
+}
+
+void Program::add_common_options() {
+  if (has_common_options_) return;
+  meshrepair::add_common_options(command_line_, options_);
+  has_common_options_ = true;
+}
+
 int Program::run(int argc, const char* const* argv, const Body& body) {
   return run_guarded(command_line_.name(), [&] {
     install_signal_handlers();
@@ -65,7 +76,7 @@ ExitCode Program::run_and_report(int argc, const char* const* argv, const Body& 
   std::exception_ptr error;
   const WarningLog warnings;
   try {
-    add_common_options(command_line_, options_);
+    add_common_options();
     if (!parse(argc, argv)) return ExitCode::done;
     set_up_logging(command_line_.name(), options_.verbosity());
     const MemoryLimit memory = parse_memory_limit(options_.max_memory);
@@ -110,12 +121,15 @@ bool Program::parse(int argc, const char* const* argv) {
 // An error of the run outweighs one of its report.
 void Program::write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
                            ProgressBar& progress) const {
-  if (options_.report.empty() || report.withheld()) return;
+  const bool is_written = !options_.report.empty() && !report.withheld();
+  if (!is_written && !take_report_) return;
   std::optional<Failure> failure;
   if (error) failure = describe_failure(error);
-  const std::string text = report.text(failure ? failure->code : code, failure, progress);
+  const Json json = report.json(failure ? failure->code : code, failure, progress);
+  if (take_report_) take_report_(json);
+  if (!is_written) return;
   try {
-    write_file_atomically(options_.report, text, error ? nullptr : &progress);
+    write_file_atomically(options_.report, JsonReport::text_of(json), error ? nullptr : &progress);
   } catch (const OutputError& e) {
     if (!error) throw;
     warn("", {WarningCode::report_not_written, fmt::format("no report: {}", e.what())});

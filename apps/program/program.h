@@ -11,6 +11,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "options/command_line.h"
 #include "process/exit_code.h"
@@ -41,12 +42,18 @@ class Program {
   // For a body whose program has another option for --report -. Throws UsageError if a file was
   // named by --report.
   void report_to_standard_output();
+  // For whoever calls run() and wants the report, too: `take` gets it at the end, also of a wrong
+  // command line, whatever --report says.
+  void hand_report_to(std::function<void(const Json&)> take) { take_report_ = std::move(take); }
+  // Adds the common options, with other defaults: what run() does before it reads the command line.
+  void add_common_options(const CommonOptions& defaults);
 
   // Parses, runs `body`, writes the report whatever happened, and returns the exit code. The report
   // that cannot be written turns success into ExitCode::output.
   [[nodiscard]] int run(int argc, const char* const* argv, const Body& body);
 
  private:
+  void add_common_options();
   ExitCode run_and_report(int argc, const char* const* argv, const Body& body);
   bool parse(int argc, const char* const* argv);
   void write_report(const JsonReport& report, ExitCode code, const std::exception_ptr& error,
@@ -54,6 +61,8 @@ class Program {
 
   CommandLine command_line_;
   CommonOptions options_;
+  bool has_common_options_ = false;
+  std::function<void(const Json&)> take_report_;
 };
 
 }  // namespace meshrepair

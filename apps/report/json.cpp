@@ -10,6 +10,30 @@
 
 namespace meshrepair {
 
+namespace {
+
+constexpr std::size_t kDeepest = 1000;
+
+// Of arrays and objects in each other.
+bool is_too_deep(std::string_view text) {
+  std::size_t depth = 0;
+  bool is_inside_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') is_inside_string = !is_inside_string;
+    if (is_inside_string) {
+      if (c == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest) return true;
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 using Array = std::vector<Json>;
 using Object = std::vector<std::pair<std::string, Json>>;
 
@@ -192,6 +216,7 @@ std::string Json::dump(int indent, bool ascii) const {
 }
 
 std::optional<Json> Json::parse(std::string_view text) {
+  if (is_too_deep(text)) return std::nullopt;
   const auto parsed = JsonText::Text::parse(text, nullptr, false);
   if (parsed.is_discarded()) return std::nullopt;
   return JsonText::from_text(parsed);

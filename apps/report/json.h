@@ -85,7 +85,8 @@ class Json {
   // In one line, or each value in a line of its own, indented by so many spaces. Bytes that are no
   // UTF-8 become replacement characters. `ascii`: all other characters are escaped.
   [[nodiscard]] std::string dump(int indent = -1, bool ascii = false) const;
-  // Nothing where the text is no JSON.
+  // Nothing where the text is no JSON, or is nested deeper than anything that is meant: each level
+  // takes some of the stack.
   [[nodiscard]] static std::optional<Json> parse(std::string_view text);
 
  private:

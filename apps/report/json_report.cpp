@@ -82,8 +82,8 @@ void JsonReport::set_section(const std::string& key, Json section) {
 
 Json JsonReport::take_sections() { return std::exchange(sections_, Json::object()); }
 
-std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failure,
-                             const ProgressBar& progress) const {
+Json JsonReport::json(ExitCode code, const std::optional<Failure>& failure,
+                      const ProgressBar& progress) const {
   Json report = head_;
   report.update(sections_);
   report["warnings"] = warnings_;
@@ -92,7 +92,7 @@ std::string JsonReport::text(ExitCode code, const std::optional<Failure>& failur
   report["peak_memory_bytes"] = peak_memory_bytes(report["stages"]);
   report["exit_code"] = static_cast<int>(code);
   report["error"] = failure ? Json(failure->message) : error_ ? Json(*error_) : Json();
-  return report.dump(2) + '\n';
+  return report;
 }
 
 }  // namespace meshrepair

@@ -67,9 +67,15 @@ class JsonReport {
   void withhold() { withheld_ = true; }
   [[nodiscard]] bool withheld() const { return withheld_; }
 
-  // The finished text. `failure` is what ended the run early, if anything did.
+  // The finished report. `failure` is what ended the run early, if anything did.
+  [[nodiscard]] Json json(ExitCode code, const std::optional<Failure>& failure,
+                          const ProgressBar& progress) const;
+  // Its text, as it is written to a file.
   [[nodiscard]] std::string text(ExitCode code, const std::optional<Failure>& failure,
-                                 const ProgressBar& progress) const;
+                                 const ProgressBar& progress) const {
+    return text_of(json(code, failure, progress));
+  }
+  [[nodiscard]] static std::string text_of(const Json& report) { return report.dump(2) + '\n'; }
 
  private:
   Json head_;      // program to output

@@ -18,12 +18,13 @@ constexpr std::string_view kOutput = "OUT";
 
 // How the program runs, and what it tells and draws. All others, also such as are not known yet,
 // change results.
-constexpr std::array<std::string_view, 25> kOthers = {
+constexpr std::array<std::string_view, 26> kOthers = {
     "IN",         "--resume",        "--threads",      "--time-limit",     "--max-memory",
     "--temp",     "--max-triangles", "--progress-fd",  "--report",         "--explain",
     "--quiet",    "--verbose",       "--version",      "--json",           "--help",
     "--help-all", "--picture",       "--picture-size", "--picture-view",   "--picture-colours",
-    "--show",     "--show-as",       "--html",         "--html-triangles", "--serve"};
+    "--show",     "--show-as",       "--html",         "--html-triangles", "--serve",
+    "--jobs-from"};
 
 template <class Names>
 bool names(const Names& all, const std::string& name) {

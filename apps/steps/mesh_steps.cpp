@@ -97,7 +97,7 @@ void warn_of_lost(const TriangleSoup& soup, const Attributes& all, const Attribu
 
 void measure_distance_stage(const TriangleSoup& input, const Surface& surface, Precision precision,
                             Run& run, Findings& findings) {
-  if (run.options.report.empty() && !findings.wants_fidelity) return;
+  if (!run.options.wants_report() && !findings.wants_fidelity) return;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("distance");
   findings.fidelity = measure_fidelity(input, surface, {precision, &run.progress});

@@ -7,10 +7,10 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
 #include <mutex>
-#include <random>
 #include <string>
 #include <sys/stat.h>
 #include <system_error>
@@ -83,9 +83,12 @@ void write_directly(const fs::path& path, std::string_view bytes, ProgressObserv
 // "FOLDER/.NAME.RANDOM.tmp", the name shortened to what file systems take.
 std::string temporary_name(const fs::path& target) {
   constexpr std::size_t kLongest = 200;
-  std::random_device random;
+  // Not by std::random_device, which asks the processor what it can: a virtual one takes long.
+  std::uint64_t random = 0;
+  if (::getentropy(&random, sizeof random) != 0) fail(target, "no random name", errno);
   std::array<char, 24> suffix;
-  std::snprintf(suffix.data(), suffix.size(), ".%08x%08x.tmp", random(), random());
+  std::snprintf(suffix.data(), suffix.size(), ".%016llx.tmp",
+                static_cast<unsigned long long>(random));
   const std::string name = target.filename().string().substr(0, kLongest);
   return (target.parent_path() / ("." + name + suffix.data())).string();
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One thread works without oneTBB. That would try to start a second one all the same when the
-// limit ends, and would end the process where the system gives none.
+// One thread works without oneTBB, and so does its limit. oneTBB would try to start a second one
+// all the same when the limit ends, and would end the process where the system gives none; and what
+// it asks the system when it starts takes longer than the repair of a small mesh.
+#include <atomic>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -109,10 +112,26 @@ void run_both(const std::function<void()>& one, const std::function<void()>& oth
 
 }  // namespace internal
 
+namespace {
+
+std::atomic<std::size_t> limits_to_one = 0;
+
+}  // namespace
+
 struct ThreadLimit::Control {
-  explicit Control(std::size_t threads)
-      : limit(tbb::global_control::max_allowed_parallelism, threads) {}
-  tbb::global_control limit;
+  explicit Control(std::size_t threads) {
+    if (threads == 1) {
+      ++limits_to_one;
+    } else {
+      limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
+  }
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
+  ~Control() {
+    if (!limit) --limits_to_one;
+  }
+  std::optional<tbb::global_control> limit;
 };
 
 ThreadLimit::ThreadLimit(std::size_t threads)
@@ -120,6 +139,7 @@ ThreadLimit::ThreadLimit(std::size_t threads)
 ThreadLimit::~ThreadLimit() = default;
 
 std::size_t most_threads() {
+  if (limits_to_one > 0) return 1;
   return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 }
 

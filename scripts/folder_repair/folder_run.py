@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A run: everything between the first look at IN_DIR and the summary.
 
-One thread does it all: it starts workers, and sleeps until one says something or ends, a signal comes, or a
-limit is due.
+One thread does it all: it begins files, and sleeps until one ends, a signal comes, or a limit is due.
 """
 
 import collections
@@ -21,6 +20,7 @@ from .basics import (DONE, FINAL, INPUT, INTERNAL, KILLED, LIMIT, NAME, NO_SOLID
 from .gallery import (FOLDER as GALLERY, INDEX, as_html, facts_of, is_gallery, options_for, place_of,
                       row_of)
 from .inputs import Job, find_meshes, listed_meshes, name_outputs, names_listed
+from .job_server import JobServer
 from .journal import Journal
 from .own_names import SUMMARY, SUMMARY_TABLE, own_name_of
 from .pictures import HOLD_PICTURES, NAME_PICTURES, pictures_of
@@ -31,7 +31,6 @@ TICK_SECONDS = 0.25  # how often limits are looked at
 FLUSH_SECONDS = 0.25  # how long what is finished may be in no line of the journal
 LONGEST_NAME = 200  # that is said of a file that a mesh names
 SECONDS_TO_END = 0.3  # from a signal to this script until its workers are killed
-MEMORY_SLACK = 1.25  # a worker that keeps to its limit itself is killed only beyond this
 
 
 class FolderRun:
@@ -42,26 +41,21 @@ class FolderRun:
         self.stop_signal = None
         self.selector = selectors.DefaultSelector()
         self.catch_signals()
-        self.command = self.worker_command(program)
-        self.memory_allowed = options.max_memory
-        if options.max_memory and program.limits_memory:
-            self.memory_allowed = int(MEMORY_SLACK * options.max_memory)
+        self.program = program.path
+        self.options_of_all = self.options_of_workers()
+        self.server = None
         self.settings = [program.version, program.digest, options.format or "", *(["--html"] if options.html else []),
                          *(os.fsencode(a).decode("utf-8", "surrogateescape") for a in options.passed)]
         self.workers, self.rows, self.serial = {}, {}, 0
         self.inputs = None  # of an archive
 
-    def worker_command(self, program):
-        """Without what differs from file to file."""
+    def options_of_workers(self):
+        """What does not differ from file to file."""
         options = self.options
         threads = max(1, len(os.sched_getaffinity(0)) // options.jobs)
-        command = [program.path, "--quiet", "--threads", str(threads),
-                   "--time-limit", f"{options.timeout:.10g}", *options.passed]
-        if options.html:
-            command += options_for(options.passed)
-        if program.limits_memory:
-            command += ["--max-memory", f"{max(1, options.max_memory >> 20)}M" if options.max_memory else "0"]
-        return command
+        memory = f"{max(1, options.max_memory >> 20)}M" if options.max_memory else "0"
+        return ["--quiet", "--threads", str(threads), "--time-limit", f"{options.timeout:.10g}", "--max-memory", memory, *options.passed,
+                *(options_for(options.passed) if options.html else [])]
 
     def catch_signals(self):
         """Signals are noted, and wake up what waits."""
@@ -182,12 +176,13 @@ class FolderRun:
         """To the workers, for so long if nothing happens."""
         self.wait(seconds)
         for serial, worker in list(self.workers.items()):
-            if worker.has_ended():
-                self.forget(serial)
+            if worker.has_ended(self.program, self.out.locks):
+                del self.workers[serial]
                 self.finish(worker)
-            elif not worker.enforce(self.options, self.memory_allowed):
-                self.forget(serial)
+            elif not worker.enforce(self.options):
+                del self.workers[serial]
                 self.settle(worker.job, worker.job.row(LIMIT, "cannot be killed"), final=False)
+                self.end_server()  # its place there would stay taken
         self.progress.draw()
 
     def start(self, job):
@@ -203,14 +198,30 @@ class FolderRun:
         if not self.unpack(job, folder + b".in"):
             return None
         try:
-            worker = Worker(job, [*self.command, "--root", job.root], folder, self.out.locks, self.options.html)
+            self.start_server()
         except (OSError, subprocess.SubprocessError) as error:
             job.clear()
             row = job.row(INTERNAL, f"meshrepair cannot be started: {error}")
             return self.settle(job, row, final=False)
-        self.workers[self.serial] = worker
-        self.selector.register(worker.stderr, selectors.EVENT_READ, worker)
+        self.workers[self.serial] = Worker(job, self.server, self.serial, folder, self.options.html)
         return None
+
+    def start_server(self):
+        """If there is none."""
+        if not self.server:
+            self.server = JobServer(self.program, self.options_of_all, self.options.jobs, self.out.locks)
+            self.selector.register(self.server.answers, selectors.EVENT_READ, self.server)
+
+    def end_server(self):
+        """What has no answer is told that it was killed."""
+        if not self.server:
+            return
+        server, self.server = self.server, None
+        self.selector.unregister(server.answers)
+        answer = server.last_answer()
+        for worker in self.workers.values():
+            if worker.server is server and worker.answer is None:
+                worker.take(answer)
 
     def unpack(self, job, folder):
         """Whether it is ready, and is to be begun. Meanwhile the other workers are attended to."""
@@ -230,13 +241,17 @@ class FolderRun:
         for key, _ in self.selector.select(seconds):
             if key.data is None:
                 os.read(key.fd, 4096)
-            elif not key.data.listen():
-                self.selector.unregister(key.fd)
+            else:
+                self.take_answers(key.data.listen())
 
-    def forget(self, serial):
-        worker = self.workers.pop(serial)
-        if worker.stderr in self.selector.get_map():
-            self.selector.unregister(worker.stderr)
+    def take_answers(self, answers):
+        if answers is None:
+            return self.end_server()
+        for answer in answers:
+            worker = self.workers.get(answer["id"])
+            if worker:
+                worker.take(answer)
+        return None
 
     def finish(self, worker):
         job = worker.job
@@ -356,15 +371,15 @@ class FolderRun:
 
     def end_workers(self):
         """Those that are left when the run ends early."""
-        for number in (signal.SIGTERM, signal.SIGKILL):
-            for worker in self.workers.values():
-                worker.signal(number)
-            deadline = time.monotonic() + SECONDS_TO_END
-            while self.workers and time.monotonic() < deadline:
-                for serial, worker in list(self.workers.items()):
-                    if worker.has_ended():
-                        del self.workers[serial]
-                time.sleep(0.01)
+        for worker in self.workers.values():
+            if worker.looker:
+                worker.cancel(0)
+        if self.server and self.workers:
+            self.server.signal(signal.SIGTERM)
+            self.server.wait(SECONDS_TO_END)
+        if self.server:
+            self.end_server()
+        self.workers.clear()
         self.out.clear_work()
 
     def sum_up(self, jobs, left_out):

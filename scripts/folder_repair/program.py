@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The meshrepair to use, and what it can do."""
+"""The meshrepair to use, and whether it takes the options."""
 
 import hashlib
 import os
@@ -10,13 +10,13 @@ import subprocess
 from .basics import USAGE, Stop
 
 BUILT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "../../build/release/bin/meshrepair")
-PROBE_SECONDS = 60  # for --help and --version
+PROBE_SECONDS = 60  # for --version
 NO_MESH = "/nonexistent/mesh.ply"
 
 
-def last_line(data):
+def last_line(said):
     """What meshrepair says of a failure, without its name."""
-    lines = [line for line in data.decode("utf-8", "replace").splitlines() if line.strip()]
+    lines = [line for line in said.splitlines() if line.strip()]
     return re.sub(r"^meshrepair: (error: )?", "", lines[-1].strip()[:2000]) if lines else ""
 
 
@@ -28,9 +28,6 @@ class Program:
         self.version = self.ask("--version").strip()
         if not re.fullmatch(r"meshrepair \S+", self.version):
             raise Stop(USAGE, f"{self.path} is not meshrepair")
-        options = self.ask("--help")
-        self.limits_memory = "--max-memory" in options
-        self.makes_pages = "--html" in options and "--picture" in options
         with open(self.path, "rb") as file:
             self.digest = hashlib.file_digest(file, "sha256").hexdigest()[:16]
         self.check(passed)
@@ -60,4 +57,4 @@ class Program:
         """Wrong options are told once, not for each file."""
         result = self.run("--quiet", *passed, NO_MESH, NO_MESH)
         if result.returncode == USAGE:
-            raise Stop(USAGE, "meshrepair refuses the options: " + last_line(result.stderr))
+            raise Stop(USAGE, "meshrepair refuses the options: " + last_line(result.stderr.decode("utf-8", "replace")))

@@ -50,7 +50,7 @@ def bind_to_parent(parent):
         pass
 
 
-def started_process(command, stderr, locks):
+def started_process(command, locks, **streams):
     """OSError or SubprocessError if it cannot be."""
     program, parent, way = command[0], os.getpid(), way_by_setpriv()
     others = {}
@@ -60,5 +60,4 @@ def started_process(command, stderr, locks):
         command = [*way, str(parent), *command]
     else:
         others["preexec_fn"] = lambda: bind_to_parent(parent)
-    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=stderr, start_new_session=True,
-                            pass_fds=locks, **others)
+    return subprocess.Popen(command, start_new_session=True, pass_fds=locks, **streams, **others)

@@ -173,11 +173,7 @@ class Gallery(FolderTest):
         for option in ("--html=x.html", "--picture=x.png"):
             self.assertIn("sets this itself", self.run_script("--", option, program=self.meshrepair, code=2).stderr)
 
-    def test_a_program_without_pages(self):
-        self.assertIn("makes no pages", self.run_script("--html", code=2).stderr)
-
     def test_what_is_done_is_shown_after_an_interruption(self):
-        self.environment["FAKE_HELP"] = "--html --picture"
         write_files(self.source, {"good1.stl": b"", "slow1.stl": b""})
         process = self.start("--html", "--jobs", "1")
         self.wait_for_calls(2, process)

@@ -53,20 +53,37 @@ class FailingPrograms(FolderTest):
         self.assertEqual(names_in(self.out), set())
         self.assertEqual(os.listdir(self.out / ".repair_folder" / "work"), [])
 
-    def test_a_program_that_takes_too_much_memory_is_killed(self):
-        write_files(self.source, {"greedy.stl": b"x", "good.stl": b"x"})
-        self.run_script("--max-memory", "100M", code=1)
-        self.assertEqual(self.codes(), {"greedy.stl": 4, "good.stl": 0})
+    def test_all_workers_are_killed(self):
+        write_files(self.source, {"hang.stl": b"x", "slow.stl": b"x", "then/good.stl": b"x"})
+        process = self.start("--jobs", "2", "--quiet", "--timeout", "1", "--grace", "0.5")
+        self.wait_for_calls(2, process)
+        self.kill_server(process)
+        self.let_slow_ones_end()
+        process.communicate(timeout=SECONDS)
+        self.assertEqual(process.returncode, 1)
+        self.assertEqual(self.codes(), {"hang.stl": 4, "slow.stl": 0, "then/good.stl": 0})
 
     def test_a_program_that_is_gone_fails_each_file(self):
         write_files(self.source, {"slow.stl": b"x", "then/good.stl": b"x"})
         process = self.start("--jobs", "1", "--quiet")
         self.wait_for_calls(1, process)
-        self.false.unlink()
+        self.false.write_text("#!/bin/sh\nexit 9\n")
+        self.kill_server(process)
         self.let_slow_ones_end()
         process.communicate(timeout=SECONDS)
         self.assertEqual(process.returncode, 1)
-        self.assertEqual(self.codes(), {"slow.stl": 0, "then/good.stl": 70})
+        self.assertEqual(self.codes(), {"slow.stl": 70, "then/good.stl": 70})
+        self.assertEqual(self.rows()["slow.stl"]["error"], "meshrepair --jobs-from ended with exit code 9")
+
+    @staticmethod
+    def kill_server(process):
+        """Of the processes that the script has started, that which others belong to."""
+        for entry in pathlib.Path("/proc").iterdir():
+            try:
+                if entry.name.isdigit() and (entry / "stat").read_text().rsplit(")", 1)[1].split()[1] == str(process.pid):
+                    os.kill(int(entry.name), signal.SIGKILL)
+            except OSError:
+                pass
 
     def test_a_full_disk_is_one_line(self):
         write_files(self.source, {f"good{i}.stl": b"x" for i in range(30)})
