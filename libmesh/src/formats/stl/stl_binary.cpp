@@ -31,7 +31,7 @@ static_assert(std::endian::native == std::endian::little, "floats are copied as 
 
 constexpr std::size_t kNormalSize = 12;
 constexpr std::size_t kCornersSize = 36;
-constexpr std::size_t kTrianglesPerTask = 16384;
+constexpr std::size_t kWrittenPerTask = 16384;
 
 std::uint32_t declared_count(std::string_view bytes) {
   std::uint32_t count = 0;
@@ -128,7 +128,7 @@ std::string format_stl_binary(const TriangleSoup& soup, const Attributes* attrib
     }
   };
   try {
-    parallel_tasks(soup.triangles.size(), kTrianglesPerTask, put_some);
+    parallel_tasks(soup.triangles.size(), kWrittenPerTask, put_some);
   } catch (const OutputError&) {
     put_some(0, 0, soup.triangles.size());  // fails for the first one, whatever the threads
   }
