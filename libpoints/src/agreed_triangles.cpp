@@ -18,6 +18,11 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
+// Sectors are found on several threads, but each triangle is taken or not once those before it are:
+// for so many at a time, which take 3 megabytes.
+constexpr std::size_t kAtATime = 65536;
+constexpr std::size_t kSectorsPerTask = 1024;
+
 // Directions from a point, counter-clockwise from `from`; less than half a turn wide.
 struct Sector {
   double from = 0;
@@ -39,11 +44,19 @@ class Agreement {
   Agreement(const std::vector<Vec3d>& points, const std::vector<TangentPlane>& planes)
       : points_(points), planes_(planes), last_at_(points.size(), kNone) {}
 
-  // Whether the triangle was taken.
-  bool take(const std::array<std::uint32_t, 3>& corners) {
+  // At each corner. May be asked by several threads.
+  [[nodiscard]] std::array<Sector, 3> sectors_of(
+      const std::array<std::uint32_t, 3>& corners) const {
     std::array<Sector, 3> sectors;
     for (std::size_t k = 0; k < 3; ++k) {
       sectors[k] = sector_of(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+    }
+    return sectors;
+  }
+
+  // Whether the triangle was taken.
+  bool take(const std::array<std::uint32_t, 3>& corners, const std::array<Sector, 3>& sectors) {
+    for (std::size_t k = 0; k < 3; ++k) {
       if (!is_free(corners[k], sectors[k])) return false;
     }
     for (std::size_t k = 0; k < 3; ++k) occupy(corners[k], sectors[k]);
@@ -56,16 +69,16 @@ class Agreement {
     std::uint32_t next = kNone;  // at the same point
   };
 
-  [[nodiscard]] double direction(std::uint32_t point, std::uint32_t other) const {
+  [[nodiscard]] Sector sector_of(std::uint32_t point, std::uint32_t a, std::uint32_t b) const {
     const Vec3d& normal = planes_[point].normal;
     const Vec3d axis = normal.unitOrthogonal();
-    const Vec3d offset = points_[other] - points_[point];
-    return std::atan2(offset.dot(normal.cross(axis)), offset.dot(axis));
-  }
-
-  [[nodiscard]] Sector sector_of(std::uint32_t point, std::uint32_t a, std::uint32_t b) const {
-    const double to_a = direction(point, a);
-    const double to_b = direction(point, b);
+    const Vec3d across = normal.cross(axis);
+    const auto direction = [&](std::uint32_t other) {
+      const Vec3d offset = points_[other] - points_[point];
+      return std::atan2(offset.dot(across), offset.dot(axis));
+    };
+    const double to_a = direction(a);
+    const double to_b = direction(b);
     const double width = turned_by(to_a, to_b);
     if (width <= std::numbers::pi) return {to_a, width};
     return {to_b, turned_by(to_b, to_a)};
@@ -104,9 +117,19 @@ std::vector<VotedTriangle> agreed_triangles(const std::vector<Vec3d>& points,
   Agreement agreement(points, planes);
   CancelCheck cancel(progress);
   std::vector<char> taken(wanted.size(), 0);
-  for (const std::uint32_t t : order) {
-    cancel.tick();
-    taken[t] = agreement.take(wanted[t].corners) ? 1 : 0;
+  std::vector<std::array<Sector, 3>> sectors(std::min(kAtATime, order.size()));
+  for (std::size_t begin = 0; begin < order.size(); begin += kAtATime) {
+    const std::size_t count = std::min(kAtATime, order.size() - begin);
+    parallel_tasks(count, kSectorsPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        sectors[i] = agreement.sectors_of(wanted[order[begin + i]].corners);
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      cancel.tick();
+      const std::uint32_t t = order[begin + i];
+      taken[t] = agreement.take(wanted[t].corners, sectors[i]) ? 1 : 0;
+    }
   }
   std::vector<VotedTriangle> result;
   for (std::size_t t = 0; t < wanted.size(); ++t) {

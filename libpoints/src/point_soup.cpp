@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <base/error.h>
 #include <base/parallel.h>
+#include <base/release.h>
 #include <points/point_soup.h>
 
 #include "agreed_triangles.h"
@@ -73,10 +75,12 @@ std::vector<VotedTriangle> count_votes(std::vector<StarTriangle> wanted, const S
     ++report.by_votes[votes - 1];
     if (votes < static_cast<std::size_t>(options.votes)) continue;
     auto corners = wanted[first].corners;
-    const double size = longest_side(cloud.points, corners);
     if (turn < 0) std::swap(corners[1], corners[2]);
-    voted.push_back({corners, static_cast<std::uint8_t>(votes), static_cast<float>(size)});
+    voted.push_back({corners, static_cast<std::uint8_t>(votes), 0});
   }
+  parallel_for(voted.size(), [&](std::size_t t) {
+    voted[t].size = static_cast<float>(longest_side(cloud.points, voted[t].corners));
+  });
   return voted;
 }
 
@@ -109,10 +113,13 @@ void require_triangles(const PointSoupOptions& options, const PointSoupReport& r
 PointSoup assemble(const PointCloud& cloud, const SiftedCloud& sifted,
                    const std::vector<VotedTriangle>& triangles, bool moved) {
   PointSoup result;
+  result.soup.points.reserve(sifted.points.size());
   for (std::size_t p = 0; p < sifted.points.size(); ++p) {
     result.soup.points.push_back(moved ? sifted.centre + sifted.scale * sifted.points[p]
                                        : cloud.points[sifted.original[p]]);
   }
+  result.soup.triangles.reserve(triangles.size());
+  result.votes.reserve(triangles.size());
   for (const VotedTriangle& triangle : triangles) {
     result.soup.triangles.push_back(triangle.corners);
     result.votes.push_back(triangle.votes);
@@ -148,8 +155,10 @@ PointSoup make_point_soup(const PointCloud& cloud, const PointSoupOptions& optio
     look_around(sifted, options);
   }
   const std::vector<TangentPlane> planes = find_tangent_planes(sifted, options);
-  std::vector<VotedTriangle> voted =
-      count_votes(build_stars(sifted, planes, options), sifted, options, report);
+  std::vector<StarTriangle> wanted = build_stars(sifted, planes, options);
+  sifted.index.reset();
+  release(sifted.around.points);
+  std::vector<VotedTriangle> voted = count_votes(std::move(wanted), sifted, options, report);
   tidy(voted, sifted, planes, options, report);
   report.triangles = voted.size();
   require_triangles(options, report);

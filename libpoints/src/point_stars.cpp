@@ -89,8 +89,8 @@ double chance_of(std::uint32_t point) {
 class StarBuilder {
  public:
   StarBuilder(const SiftedCloud& cloud, const std::vector<TangentPlane>& planes,
-              const PointIndex& index, const PointSoupOptions& options)
-      : cloud_(cloud), planes_(planes), index_(index), options_(options) {}
+              const PointSoupOptions& options)
+      : cloud_(cloud), planes_(planes), options_(options) {}
 
   void build(std::uint32_t point, std::vector<StarTriangle>& out) {
     const Vec3d& at = cloud_.points[point];
@@ -104,7 +104,7 @@ class StarBuilder {
     std::size_t known = cloud_.around.per_point + 1;
     for (std::size_t count = 2 * known; known < kMostNeighbours; count *= 2) {
       more_.resize(std::min(count, kMostNeighbours));
-      const std::size_t found = index_.nearest(at, more_);
+      const std::size_t found = cloud_.index->nearest(at, more_);
       for (std::size_t i = known - 1; i < found; ++i) {
         if (is_closed(more_[i].distance)) return emit(point, out);
         if (more_[i].point != point) add(point, more_[i].point);
@@ -171,7 +171,6 @@ class StarBuilder {
 
   const SiftedCloud& cloud_;
   const std::vector<TangentPlane>& planes_;
-  const PointIndex& index_;
   const PointSoupOptions& options_;
   double limit_ = 0;
   TangentStar star_;
@@ -179,9 +178,9 @@ class StarBuilder {
 };
 
 // The plane of a point that lies on a line of others: farther ones tell more.
-TangentPlane fit_farther(const SiftedCloud& cloud, const PointIndex& index, std::size_t point,
-                         std::vector<Neighbour>& found, std::vector<std::uint32_t>& others) {
-  const std::size_t count = index.nearest(cloud.points[point], found);
+TangentPlane fit_farther(const SiftedCloud& cloud, std::size_t point, std::vector<Neighbour>& found,
+                         std::vector<std::uint32_t>& others) {
+  const std::size_t count = cloud.index->nearest(cloud.points[point], found);
   others.clear();
   for (std::size_t i = 0; i < count; ++i) {
     if (found[i].point != point) others.push_back(found[i].point);
@@ -194,7 +193,6 @@ TangentPlane fit_farther(const SiftedCloud& cloud, const PointIndex& index, std:
 std::vector<TangentPlane> find_tangent_planes(const SiftedCloud& cloud,
                                               const PointSoupOptions& options) {
   std::vector<TangentPlane> planes(cloud.points.size());
-  const PointIndex index(cloud.points);
   CancelOnly cancel(options.progress);
   for_blocks(planes.size(), &cancel, [&](std::size_t, std::size_t first, std::size_t last) {
     std::vector<Neighbour> found(kLineFactor * options.neighbours + 1);
@@ -207,7 +205,7 @@ std::vector<TangentPlane> find_tangent_planes(const SiftedCloud& cloud,
       const auto around = cloud.around.of(p);
       planes[p] = fit_tangent_plane(cloud.points, p,
                                     around.first(std::min(options.neighbours, around.size())));
-      if (planes[p].line) planes[p] = fit_farther(cloud, index, p, found, others);
+      if (planes[p].line) planes[p] = fit_farther(cloud, p, found, others);
     }
   });
   return planes;
@@ -216,14 +214,13 @@ std::vector<TangentPlane> find_tangent_planes(const SiftedCloud& cloud,
 std::vector<StarTriangle> build_stars(const SiftedCloud& cloud,
                                       const std::vector<TangentPlane>& planes,
                                       const PointSoupOptions& options) {
-  const PointIndex index(cloud.points);
   std::vector<std::vector<StarTriangle>> blocks(blocks_of(cloud.points.size()));
   for_blocks(cloud.points.size(), options.progress,
              [&](std::size_t block, std::size_t first, std::size_t last) {
-               StarBuilder builder(cloud, planes, index, options);
+               StarBuilder builder(cloud, planes, options);
                blocks[block].reserve(7 * (last - first));  // six on average
                for (std::size_t i = first; i < last; ++i) {
-                 builder.build(index.order()[i], blocks[block]);
+                 builder.build(cloud.index->order()[i], blocks[block]);
                }
              });
   std::vector<StarTriangle> all;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -203,10 +204,11 @@ void report_spacing(const SiftedCloud& sifted, PointSoupReport& report) {
 }  // namespace
 
 void look_around(SiftedCloud& sifted, const PointSoupOptions& options) {
-  const PointIndex index(sifted.points);
+  sifted.index.reset();
+  sifted.index = std::make_unique<const PointIndex>(sifted.points);
   const std::size_t count = std::max(options.neighbours, kDensityNeighbours);
   CancelOnly cancel(options.progress);
-  sifted.around = find_neighbourhoods(index, sifted.points, count, &cancel);
+  sifted.around = find_neighbourhoods(*sifted.index, sifted.points, count, &cancel);
   measure_spacing(sifted);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -39,8 +40,9 @@ struct SiftedCloud {
   std::vector<Vec3d> normals;           // of length 1, or 0 where none is known; may be empty
   std::vector<std::uint32_t> original;  // the number that each has in the cloud, ascending
   Vec3d centre = Vec3d::Zero();
-  double scale = 1;             // a length of 1 here, in the units of the cloud
-  std::vector<double> spacing;  // of each point
+  double scale = 1;                         // a length of 1 here, in the units of the cloud
+  std::vector<double> spacing;              // of each point
+  std::unique_ptr<const PointIndex> index;  // of the points, from look_around()
   Neighbourhoods around;
 };
 
@@ -48,7 +50,8 @@ struct SiftedCloud {
 [[nodiscard]] SiftedCloud sift_points(const PointCloud& cloud, const PointSoupOptions& options,
                                       PointSoupReport& report);
 
-// Finds the neighbours and the spacing of points that were moved. Throws Cancelled.
+// Makes the index and finds the neighbours and the spacing of points that were moved. Throws
+// Cancelled.
 void look_around(SiftedCloud& cloud, const PointSoupOptions& options);
 
 }  // namespace meshrepair

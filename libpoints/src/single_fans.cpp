@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "point_blocks.h"
+
 namespace meshrepair {
 namespace {
 
@@ -92,16 +94,24 @@ class Fans {
 
 std::size_t drop_smaller_fans(std::vector<VotedTriangle>& triangles, std::size_t points) {
   const Incidence incidence(triangles, points);
-  std::vector<char> dropped(triangles.size(), 0);
-  Fans fans;
-  for (std::uint32_t p = 0; p < points; ++p) {
-    const auto around = incidence.at(p);
-    fans.find(p, triangles, around);
-    const std::size_t kept = fans.largest();
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      if (fans.fan()[i] != kept) dropped[around[i]] = 1;
+  const auto beside_largest = [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> found;
+    Fans fans;
+    for (std::size_t p = first; p < last; ++p) {
+      const auto around = incidence.at(p);
+      fans.find(static_cast<std::uint32_t>(p), triangles, around);
+      const std::size_t kept = fans.largest();
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        if (fans.fan()[i] != kept) found.push_back(around[i]);
+      }
     }
-  }
+    return found;
+  };
+  std::vector<char> dropped(triangles.size(), 0);
+  parallel_reduce(points, kPointsInBlock, beside_largest,
+                  [&](std::vector<std::uint32_t>&, const std::vector<std::uint32_t>& found) {
+                    for (const std::uint32_t t : found) dropped[t] = 1;
+                  });
   std::size_t left = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (dropped[t] == 0) triangles[left++] = triangles[t];

@@ -57,6 +57,27 @@ TEST(AgreedTriangles, AtMostTwoTrianglesMeetInAnEdge) {
             2U);
 }
 
+// More than are looked at at a time: those that come first are in the way of all.
+TEST(AgreedTriangles, DiagonalsWithMoreVotesStayAllOverALargeGrid) {
+  constexpr std::uint32_t kSide = 220;
+  std::vector<Vec3d> points;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) points.emplace_back(i % kSide, i / kSide, 0);
+  std::vector<VotedTriangle> wanted;
+  Corners expected;
+  for (std::uint32_t i = 0; i < kSide * (kSide - 1); ++i) {
+    if (i % kSide == kSide - 1) continue;
+    const std::uint32_t a = i, b = i + 1, c = i + kSide + 1, d = i + kSide;
+    wanted.push_back(triangle(a, b, d, 1));
+    wanted.push_back(triangle(b, c, d, 1));
+    for (const Corners::value_type& t : {Corners::value_type{a, b, c}, {a, c, d}}) {
+      wanted.push_back(triangle(t[0], t[1], t[2], 2));
+      expected.push_back(t);
+    }
+  }
+  const std::vector<TangentPlane> planes = flat(points.size());
+  EXPECT_EQ(corners_of(agreed_triangles(points, planes, wanted, nullptr)), expected);
+}
+
 // Two fans of different sizes around point 0, as in a bow tie.
 TEST(SingleFans, TheSmallerFanGoes) {
   std::vector<VotedTriangle> bow = {triangle(0, 1, 2), triangle(0, 2, 3), triangle(0, 4, 5)};

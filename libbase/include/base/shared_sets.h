@@ -6,16 +6,19 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
-#include <vector>
+
+#include <base/parallel.h>
+#include <base/raw_vector.h>
 
 namespace meshrepair {
 
 class SharedSets {
  public:
   explicit SharedSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+    parallel_tasks(count, kMembersPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+    });
   }
 
   // While others join, what is returned may have come under a lower one.
@@ -43,18 +46,24 @@ class SharedSets {
 
   // Once all have joined.
   [[nodiscard]] std::size_t count() const {
-    std::size_t roots = 0;
-    for (std::size_t i = 0; i < parent_.size(); ++i) roots += parent_[i] == i;
-    return roots;
+    const auto roots = [&](std::size_t first, std::size_t last) {
+      std::size_t found = 0;
+      for (std::size_t i = first; i < last; ++i) found += parent_[i] == i;
+      return found;
+    };
+    return parallel_reduce(parent_.size(), kMembersPerTask, roots,
+                           [](std::size_t& all, std::size_t some) { all += some; });
   }
 
  private:
+  static constexpr std::size_t kMembersPerTask = 65536;
+
   std::atomic_ref<std::uint32_t> at(std::uint32_t member) {
     return std::atomic_ref<std::uint32_t>(parent_[member]);
   }
   std::uint32_t load(std::uint32_t member) { return at(member).load(std::memory_order_relaxed); }
 
-  std::vector<std::uint32_t> parent_;
+  RawVector<std::uint32_t> parent_;
 };
 
 }  // namespace meshrepair

@@ -16,6 +16,8 @@ namespace {
 // More say no more about where the faults are.
 constexpr std::size_t kMostPairs = 200'000;
 
+constexpr std::size_t kSearchesPerTask = 512;
+
 }  // namespace
 
 NearbyIntersections::NearbyIntersections(const TriangleSoup& mesh,
@@ -70,13 +72,22 @@ std::vector<NearbyIntersections::Pair> NearbyIntersections::find(
   for (const std::uint32_t t : among) add(t);
   std::vector<std::uint32_t> asked(part_triangles_.size());
   std::iota(asked.begin(), asked.end(), 0u);
-  for (const std::uint32_t t : among) {
-    const Box box = box_around(t, 0);
-    tree_.visit([&](const Box& other) { return other.meets(box); },
-                [&](std::uint32_t i) {
-                  if (boxes_[i].meets(box)) add(around_[i]);
-                });
-  }
+  const auto find_near = [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> near;
+    for (const std::uint32_t t : among.subspan(first, last - first)) {
+      const Box box = box_around(t, 0);
+      tree_.visit([&](const Box& other) { return other.meets(box); },
+                  [&](std::uint32_t i) {
+                    const bool is_known = is_in_part_[around_[i]] != 0;
+                    if (!is_known && boxes_[i].meets(box)) near.push_back(around_[i]);
+                  });
+    }
+    return near;
+  };
+  parallel_reduce(among.size(), kSearchesPerTask, find_near,
+                  [&](std::vector<std::uint32_t>&, const std::vector<std::uint32_t>& near) {
+                    for (const std::uint32_t t : near) add(t);
+                  });
   SelfIntersectionOptions options;
   options.most_pairs = kMostPairs;
   options.progress = progress;

@@ -132,9 +132,8 @@ void SortedTriangles::leave_out(std::span<const std::uint32_t> groups) {
   if (groups.empty()) return;
   Groups& sorted = left_out_groups.emplace_back();
   sorted.of_triangle.resize(tree.order().size());
-  for (std::size_t i = 0; i < tree.order().size(); ++i) {
-    sorted.of_triangle[i] = groups[tree.order()[i]];
-  }
+  parallel_for(tree.order().size(),
+               [&](std::size_t i) { sorted.of_triangle[i] = groups[tree.order()[i]]; });
   sorted.of_node.assign(tree.nodes().size(), kNone);
   for (std::size_t n = tree.nodes().size(); n-- > 0;) {  // children come behind their parent
     const BoxNode& node = tree.nodes()[n];

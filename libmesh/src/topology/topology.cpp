@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+#include <atomic>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -66,32 +67,65 @@ void join_corners(std::span<const IndexTriangle> triangles, std::uint32_t s, std
   corners.join(next_side(s), opposite ? t : next_side(t));
 }
 
+constexpr std::size_t kItemsPerTask = 32768;
+
+void add_to(std::size_t& all, std::size_t some) { all += some; }
+
+// The lowest corner of a fan stands for it. A vertex is split if there are more of them.
 std::size_t count_split_vertices(std::span<const IndexTriangle> triangles, std::size_t points,
                                  SharedSets& corners, TopologyPlaces* places) {
+  constexpr char kOneFan = 1, kMoreFans = 2;
   std::vector<char> fans(points, 0);
-  std::size_t split = 0;
-  for (std::uint32_t c = 0; c < 3 * triangles.size(); ++c) {
-    if (corners.root(c) != c) continue;
-    const std::uint32_t vertex = side_start(triangles, c);
-    char& seen = fans[vertex];
-    split += seen == 1;
-    if (seen == 1 && places != nullptr) places->nonmanifold_vertices.push_back(vertex);
-    if (seen < 2) ++seen;
-  }
-  if (places != nullptr) {
-    std::sort(places->nonmanifold_vertices.begin(), places->nonmanifold_vertices.end());
-  }
-  return split;
+  parallel_tasks(3 * triangles.size(), kItemsPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                     const auto c = static_cast<std::uint32_t>(i);
+                     if (corners.root(c) != c) continue;
+                     const std::atomic_ref<char> seen(fans[side_start(triangles, c)]);
+                     if (seen.fetch_or(kOneFan, std::memory_order_relaxed) != 0) {
+                       seen.fetch_or(kMoreFans, std::memory_order_relaxed);
+                     }
+                   }
+                 });
+  const auto find_split = [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> split;
+    for (std::size_t v = first; v < last; ++v) {
+      if ((fans[v] & kMoreFans) != 0) split.push_back(static_cast<std::uint32_t>(v));
+    }
+    return split;
+  };
+  std::vector<std::uint32_t> split =
+      parallel_reduce(points, kItemsPerTask, find_split,
+                      [](std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
+                        all.insert(all.end(), some.begin(), some.end());
+                      });
+  const std::size_t count = split.size();
+  if (places != nullptr) places->nonmanifold_vertices = std::move(split);
+  return count;
 }
 
-// The lowest triangle of a part stands for it, so parts are met in the order of their numbers.
+// The lowest triangle of a part stands for it, so the parts are in the order of these.
 std::vector<std::uint32_t> number_parts(std::size_t triangles, SharedSets& sets) {
   std::vector<std::uint32_t> parts(triangles);
-  std::uint32_t count = 0;
-  for (std::uint32_t t = 0; t < triangles; ++t) {
-    const std::uint32_t root = sets.root(t);
-    parts[t] = root == t ? count++ : parts[root];
-  }
+  std::vector<std::uint32_t> number(tasks_of(triangles, kItemsPerTask), 0);
+  const auto for_all = [&](const auto& visit) {
+    parallel_tasks(triangles, kItemsPerTask,
+                   [&](std::size_t task, std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) {
+                       const auto t = static_cast<std::uint32_t>(i);
+                       visit(task, t, sets.root(t));
+                     }
+                   });
+  };
+  for_all(
+      [&](std::size_t task, std::uint32_t t, std::uint32_t root) { number[task] += root == t; });
+  std::exclusive_scan(number.begin(), number.end(), number.begin(), std::uint32_t{0});
+  for_all([&](std::size_t task, std::uint32_t t, std::uint32_t root) {
+    if (root == t) parts[t] = number[task]++;
+  });
+  for_all([&](std::size_t, std::uint32_t t, std::uint32_t root) {
+    if (root != t) parts[t] = parts[root];
+  });
   return parts;
 }
 
@@ -121,9 +155,14 @@ Topology examine_topology(std::span<const IndexTriangle> triangles, std::size_t 
   if (places != nullptr) *places = std::move(edges.places);
   Topology topology = edges.counts;
   topology.triangles = triangles.size();
-  for (const auto& t : triangles) {
-    topology.repeated_corners += t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  }
+  const auto repeated = [&](std::size_t first, std::size_t last) {
+    std::size_t found = 0;
+    for (const IndexTriangle& t : triangles.subspan(first, last - first)) {
+      found += t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    }
+    return found;
+  };
+  topology.repeated_corners = parallel_reduce(triangles.size(), kItemsPerTask, repeated, &add_to);
   topology.parts = parts.count();
   topology.nonmanifold_vertices = count_split_vertices(triangles, points, corners, places);
   if (places != nullptr) places->parts = number_parts(triangles.size(), parts);

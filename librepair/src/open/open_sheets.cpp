@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <base/disjoint_sets.h>
+#include <base/parallel.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <repair/orient_parts.h>
@@ -167,26 +168,76 @@ namespace {
 // Three points tell the plane, each of which may be off: another one may seem so much farther off.
 constexpr double kSeenOff = 4;
 
-const Vec3d& farthest(const std::vector<Vec3d>& points, const auto& distance) {
-  return *std::max_element(points.begin(), points.end(), [&](const Vec3d& a, const Vec3d& b) {
-    return distance(a) < distance(b);
-  });
+constexpr std::size_t kPointsPerTask = 32768;
+
+// Where a number is the largest: of several the first.
+struct Largest {
+  double value = -1;
+  std::size_t at = 0;
+};
+
+// The point i below `count`, as `at` tells it, that is farthest away.
+template <class At, class Distance>
+Vec3d farthest(std::size_t count, const At& at, const Distance& distance) {
+  const auto find = [&](std::size_t first, std::size_t last) {
+    Largest largest;
+    for (std::size_t i = first; i < last; ++i) {
+      const double value = distance(at(i));
+      if (value > largest.value) largest = {value, i};
+    }
+    return largest;
+  };
+  const Largest largest =
+      parallel_reduce(count, kPointsPerTask, find, [](Largest& all, const Largest& some) {
+        if (some.value > all.value) all = some;
+      });
+  return at(largest.at);
 }
 
-const Vec3d& farthest_from(const Vec3d& p, const std::vector<Vec3d>& points) {
-  return farthest(points, [&](const Vec3d& q) { return (q - p).squaredNorm(); });
+template <class At>
+Vec3d farthest_from(const Vec3d& p, std::size_t count, const At& at) {
+  return farthest(count, at, [&](const Vec3d& q) { return (q - p).squaredNorm(); });
 }
+
+// Whether all points lie in one plane, as is_flat() has it.
+template <class At>
+bool are_flat(std::size_t count, const At& at, double rounding) {
+  const Vec3d first = farthest_from(at(0), count, at);
+  const Vec3d along = (farthest_from(first, count, at) - first).normalized();
+  const Vec3d beside =
+      farthest(count, at, [&](const Vec3d& p) { return (p - first).cross(along).squaredNorm(); });
+  const Vec3d normal = along.cross(beside - first).normalized();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(std::abs((at(i) - first).dot(normal)) <= kSeenOff * rounding)) return false;
+  }
+  return true;
+}
+
+// What points tell of the numbers that they were given in.
+struct Numbers {
+  bool are_single = true;
+  double most = 0;
+};
 
 }  // namespace
 
 double rounding_of(const CleanSoup& soup) {
-  bool is_single = true;
-  double most = 0;
-  for (const Vec3d& p : soup.points) {
-    is_single = is_single && rounded_to(p, Precision::float32) == p;
-    most = std::max(most, p.cwiseAbs().maxCoeff());
-  }
-  const double spacing = is_single ? number_spacing(most, Precision::float32) / soup.grid.unit : 0;
+  const auto look_at = [&](std::size_t first, std::size_t last) {
+    Numbers numbers;
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3d& p = soup.points[PointId(i)];
+      numbers.are_single = numbers.are_single && rounded_to(p, Precision::float32) == p;
+      numbers.most = std::max(numbers.most, p.cwiseAbs().maxCoeff());
+    }
+    return numbers;
+  };
+  const Numbers numbers = parallel_reduce(soup.points.size(), kPointsPerTask, look_at,
+                                          [](Numbers& all, const Numbers& some) {
+                                            all.are_single = all.are_single && some.are_single;
+                                            all.most = std::max(all.most, some.most);
+                                          });
+  const double spacing =
+      numbers.are_single ? number_spacing(numbers.most, Precision::float32) / soup.grid.unit : 0;
   return 0.5 * std::numbers::sqrt3 * std::max(1.0, spacing);
 }
 
@@ -195,25 +246,21 @@ Vec3d original_place(const CleanSoup& soup, PointId point) {
 }
 
 bool is_flat(const std::vector<Vec3d>& points, double rounding) {
-  const Vec3d& first = farthest_from(points.front(), points);
-  const Vec3d along = (farthest_from(first, points) - first).normalized();
-  const Vec3d& beside =
-      farthest(points, [&](const Vec3d& p) { return (p - first).cross(along).squaredNorm(); });
-  const Vec3d normal = along.cross(beside - first).normalized();
-  return std::all_of(points.begin(), points.end(), [&](const Vec3d& p) {
-    return std::abs((p - first).dot(normal)) <= kSeenOff * rounding;
-  });
+  return are_flat(
+      points.size(), [&](std::size_t i) { return points[i]; }, rounding);
 }
 
 bool is_flat_sheet(const CleanSoup& soup) {
-  std::vector<Vec3d> corners;
-  for (const Triangle& t : soup.triangles) {
-    if (t.source == Triangle::kNoSource) break;
-    for (const PointId p : t.corners) corners.push_back(original_place(soup, p));
-  }
-  if (!is_flat(corners, rounding_of(soup))) return false;
+  const auto is_given = [](const Triangle& t) { return t.source != Triangle::kNoSource; };
+  const auto given = static_cast<std::size_t>(
+      std::find_if_not(soup.triangles.begin(), soup.triangles.end(), is_given) -
+      soup.triangles.begin());
+  const auto corner = [&](std::size_t i) {
+    return original_place(soup, soup.triangles[TriangleId(i / 3)].corners[i % 3]);
+  };
+  if (!are_flat(3 * given, corner, rounding_of(soup))) return false;
   std::vector<IndexTriangle> triangles = index_triangles(soup);
-  triangles.resize(corners.size() / 3);
+  triangles.resize(given);
   const std::vector<char> open = triangles_of_open_parts(triangles, soup.points.size());
   return std::all_of(open.begin(), open.end(), [](char x) { return x != 0; });
 }

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include <base/parallel.h>
+#include <base/trivial_vector.h>
 #include <mesh/internal/triangle_measures.h>
 
 #include "turn_sets.h"
@@ -30,16 +32,26 @@ struct Fold {
   bool agrees;
 };
 
-using Neighbours = std::vector<std::array<Neighbour, 3>>;
+using Neighbours = TrivialVector<std::array<Neighbour, 3>>;
+
+constexpr std::size_t kEdgesPerTask = 16384;
+constexpr std::size_t kSumsPerTask = 8192;
 
 Neighbours find_neighbours(std::span<const IndexTriangle> triangles, const EdgeTable& table) {
-  Neighbours neighbours(triangles.size());
-  table.for_each_edge([&](std::span<const std::uint32_t> sides) {
-    if (sides.size() != 2) return;
-    const bool agrees = side_start(triangles, sides[0]) != side_start(triangles, sides[1]);
-    neighbours[sides[0] / 3][sides[0] % 3] = {sides[1] / 3, agrees};
-    neighbours[sides[1] / 3][sides[1] % 3] = {sides[0] / 3, agrees};
-  });
+  Neighbours neighbours;
+  neighbours.resize_for_overwrite(triangles.size());  // each side is one of some edge
+  parallel_tasks(table.edges(), kEdgesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t edge = first; edge < last; ++edge) {
+                     const std::span<const std::uint32_t> sides = table.sides(edge);
+                     for (const std::uint32_t s : sides) neighbours[s / 3][s % 3] = Neighbour();
+                     if (sides.size() != 2) continue;
+                     const std::uint32_t a = sides[0], b = sides[1];
+                     const bool agrees = side_start(triangles, a) != side_start(triangles, b);
+                     neighbours[a / 3][a % 3] = {b / 3, agrees};
+                     neighbours[b / 3][b % 3] = {a / 3, agrees};
+                   }
+                 });
   return neighbours;
 }
 
@@ -77,12 +89,19 @@ class PieceFinder {
       : soup_(soup), check_(progress), neighbours_(find_neighbours(triangles, table)) {
     result_.of.assign(triangles.size(), kUnseen);
     result_.turned.assign(triangles.size(), 0);
+    members_.reserve(triangles.size());
   }
 
   SurfacePieces run() {
     for (std::uint32_t t = 0; t < result_.of.size(); ++t) {
       if (result_.of[t] == kUnseen) grow_from(t);
     }
+    first_.push_back(members_.size());
+    parallel_for(result_.pieces.size(), [&](std::size_t p) {
+      const std::span members(members_.data() + first_[p], first_[p + 1] - first_[p]);
+      if (!result_.pieces[p].orientable) turn_unorientable(members);
+      add_up(members, result_.pieces[p]);
+    });
     return std::move(result_);
   }
 
@@ -92,9 +111,10 @@ class PieceFinder {
   void grow_from(std::uint32_t seed) {
     const auto id = static_cast<std::uint32_t>(result_.pieces.size());
     SurfacePiece piece;
-    members_.assign(1, seed);
+    first_.push_back(members_.size());
+    members_.push_back(seed);
     result_.of[seed] = id;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
+    for (std::size_t i = first_.back(); i < members_.size(); ++i) {
       check_.tick();
       const std::uint32_t t = members_[i];
       for (const Neighbour& n : neighbours_[t]) {
@@ -109,8 +129,6 @@ class PieceFinder {
         }
       }
     }
-    if (!piece.orientable) turn_unorientable();
-    add_up(piece);
     result_.pieces.push_back(piece);
   }
 
@@ -118,10 +136,10 @@ class PieceFinder {
   // surface is folded most: there, the two triangles may be the rest of an edge of more. Turns
   // nothing unless that takes away more than half of the contradictions: what is consistent but for
   // such edges stays as it is.
-  void turn_unorientable() {
-    for (const std::uint32_t t : members_) result_.turned[t] = 0;
+  void turn_unorientable(std::span<std::uint32_t> members) {
+    for (const std::uint32_t t : members) result_.turned[t] = 0;
     std::vector<Fold> folds;
-    for (const std::uint32_t t : members_) {
+    for (const std::uint32_t t : members) {
       for (std::uint32_t k = 0; k < 3; ++k) {
         const Neighbour& n = neighbours_[t][k];
         if (n.triangle == ~std::uint32_t{0} || n.triangle < t) continue;
@@ -131,12 +149,12 @@ class PieceFinder {
     std::sort(folds.begin(), folds.end(), [](const Fold& a, const Fold& b) {
       return std::tie(a.fold, a.a, a.b) < std::tie(b.fold, b.a, b.b);
     });
-    std::sort(members_.begin(), members_.end());
+    std::sort(members.begin(), members.end());
     const auto place = [&](std::uint32_t t) {
-      return static_cast<std::uint32_t>(std::lower_bound(members_.begin(), members_.end(), t) -
-                                        members_.begin());
+      return static_cast<std::uint32_t>(std::lower_bound(members.begin(), members.end(), t) -
+                                        members.begin());
     };
-    TurnSets sets(std::vector<char>(members_.size(), 0));
+    TurnSets sets(std::vector<char>(members.size(), 0));
     for (const Fold& f : folds) sets.join(place(f.a), place(f.b), !f.agrees);
     std::size_t before = 0, after = 0;
     for (const Fold& f : folds) {
@@ -144,7 +162,7 @@ class PieceFinder {
       after += (sets.find(place(f.a)).turned == sets.find(place(f.b)).turned) != f.agrees;
     }
     if (2 * after >= before) return;
-    for (const std::uint32_t t : members_) result_.turned[t] = sets.find(place(t)).turned ? 1 : 0;
+    for (const std::uint32_t t : members) result_.turned[t] = sets.find(place(t)).turned ? 1 : 0;
   }
 
   // -1 where the triangles lie flat beside each other, 1 where they lie on each other. Rounded: it
@@ -160,25 +178,38 @@ class PieceFinder {
     return fold_cosine(at(u), at(v), at(corners[(k + 2) % 3]), at(tip));
   }
 
-  void add_up(SurfacePiece& piece) {
-    for (const std::uint32_t t : members_) {
-      const SurfaceSum sum = sum_of(soup_, TriangleId(t));
-      piece.sum.add(result_.turned[t] != 0 ? sum.turned_round() : sum);
-      const Triangle& triangle = soup_.triangles[TriangleId(t)];
-      piece.doubled &= !says_something(triangle);
-      piece.closes_holes &= triangle.source == Triangle::kNoSource;
-    }
-    piece.doubled &= !piece.closes_holes;
+  void add_up(std::span<const std::uint32_t> members, SurfacePiece& piece) {
+    const auto add_some = [&](std::size_t first, std::size_t last) {
+      SurfacePiece some;
+      for (const std::uint32_t t : members.subspan(first, last - first)) {
+        const SurfaceSum sum = sum_of(soup_, TriangleId(t));
+        some.sum.add(result_.turned[t] != 0 ? sum.turned_round() : sum);
+        const Triangle& triangle = soup_.triangles[TriangleId(t)];
+        some.doubled &= !says_something(triangle);
+        some.closes_holes &= triangle.source == Triangle::kNoSource;
+      }
+      return some;
+    };
+    const SurfacePiece all = parallel_reduce(members.size(), kSumsPerTask, add_some,
+                                             [](SurfacePiece& sum, const SurfacePiece& some) {
+                                               sum.sum.add(some.sum);
+                                               sum.doubled &= some.doubled;
+                                               sum.closes_holes &= some.closes_holes;
+                                             });
+    piece.sum = all.sum;
+    piece.closes_holes = all.closes_holes;
+    piece.doubled = all.doubled && !all.closes_holes;
     if (piece.sum.turned <= piece.sum.kept) return;
     piece.sum = piece.sum.turned_round();
-    for (const std::uint32_t t : members_) result_.turned[t] ^= 1;
+    for (const std::uint32_t t : members) result_.turned[t] ^= 1;
   }
 
   const CleanSoup& soup_;
   CancelCheck check_;
   Neighbours neighbours_;
   SurfacePieces result_;
-  std::vector<std::uint32_t> members_;
+  std::vector<std::uint32_t> members_;  // of all pieces, one after the other ...
+  std::vector<std::size_t> first_;      // ... and where those of each begin
 };
 
 }  // namespace

@@ -2,11 +2,13 @@
 #include "corner_clusters.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include <base/parallel.h>
 #include <check/box_tree.h>
 
 namespace meshrepair::internal {
@@ -14,6 +16,10 @@ namespace {
 
 // Corners near another, on average: a vertex of a soup has six triangles.
 constexpr std::size_t kMostNear = 64;
+
+// Between two questions whether to go on.
+constexpr std::size_t kSearchesAtATime = 16384;
+constexpr std::size_t kSearchesPerTask = 256;
 
 }  // namespace
 
@@ -55,10 +61,7 @@ std::optional<std::vector<CornerClusters::Pair>> CornerClusters::pairs_within(
   std::vector<Box> boxes(rims_.corners.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].add(soup_.points[rims_.corners[i]]);
   const BoxTree tree(boxes);
-  std::vector<Pair> pairs;
-  const std::size_t most = kMostNear * boxes.size();
-  for (std::size_t i = 0; i < boxes.size() && pairs.size() <= most; ++i) {
-    check.tick();
+  const auto add_pairs_of = [&](std::size_t i, std::vector<Pair>& pairs) {
     const std::uint32_t a = rims_.corners[i];
     const double reach = std::min(distance, share * rims_.size[a]);
     Box around = boxes[i];
@@ -72,9 +75,28 @@ std::optional<std::vector<CornerClusters::Pair>> CornerClusters::pairs_within(
                  if (squared > least * least) return;
                  pairs.push_back({squared, a, b});
                });
+  };
+  std::vector<Pair> pairs;
+  const std::size_t most = kMostNear * boxes.size();
+  std::atomic<std::size_t> found = 0;  // by all threads: too many are not even listed
+  for (std::size_t begin = 0; begin < boxes.size(); begin += kSearchesAtATime) {
+    check.ask();
+    const auto pairs_of = [&](std::size_t first, std::size_t last) {
+      std::vector<Pair> some;
+      for (std::size_t i = begin + first; i < begin + last && found <= most; ++i) {
+        const std::size_t before = some.size();
+        add_pairs_of(i, some);
+        found += some.size() - before;
+      }
+      return some;
+    };
+    parallel_reduce(std::min(kSearchesAtATime, boxes.size() - begin), kSearchesPerTask, pairs_of,
+                    [&](std::vector<Pair>&, const std::vector<Pair>& some) {
+                      pairs.insert(pairs.end(), some.begin(), some.end());
+                    });
   }
-  if (pairs.size() > most) return std::nullopt;
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+  if (found > most) return std::nullopt;
+  parallel_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
     return std::tie(x.squared_distance, x.a, x.b) < std::tie(y.squared_distance, y.a, y.b);
   });
   return pairs;

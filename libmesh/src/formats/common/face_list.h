@@ -22,6 +22,7 @@ class FaceList {
   // 0-based; anything that no point can have (kNoPoint, too large) makes the face a bad one.
   void add_corner(std::int64_t index);
   void end_face();
+  void add_triangle(const std::array<std::uint32_t, 3>& corners);
   // Forgets the face that was begun last, ended or not. At most once for each face.
   void drop_face();
 
@@ -65,6 +66,12 @@ inline void FaceList::add_corner(std::int64_t index) {
   const bool fits = index >= 0 && index < kBadIndex;
   stream_.push_back(fits ? static_cast<std::uint32_t>(index) : kBadIndex);
   ++corners_;
+}
+
+inline void FaceList::add_triangle(const std::array<std::uint32_t, 3>& corners) {
+  begin_face();
+  for (const std::uint32_t corner : corners) add_corner(corner);
+  end_face();
 }
 
 }  // namespace meshrepair

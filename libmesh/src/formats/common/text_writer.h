@@ -2,6 +2,7 @@
 // Appends numbers to a text: the shortest digits that read back as the same bits, in any locale.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -30,17 +31,20 @@ void append_triple(std::string& text, const Triple& triple) {
   append_number(text, triple[2]);
 }
 
-// What append(text, i) appends for each i below `count`. On several threads.
+// What append(text, i) appends for each i below `count`. On several threads, and of so many lines
+// at a time that little of the text is there twice.
 template <class Append>
 void append_lines(std::string& text, std::size_t count, const Append& append) {
-  constexpr std::size_t kLinesPerTask = 16384;
-  const auto lines_of = [&](std::size_t first, std::size_t last) {
-    std::string lines;
-    for (std::size_t i = first; i < last; ++i) append(lines, i);
-    return lines;
-  };
-  parallel_reduce(count, kLinesPerTask, lines_of,
-                  [&](std::string&, const std::string& lines) { text += lines; });
+  constexpr std::size_t kLinesPerTask = 4096, kLinesAtATime = 64 * kLinesPerTask;
+  for (std::size_t begin = 0; begin < count; begin += kLinesAtATime) {
+    const auto lines_of = [&](std::size_t first, std::size_t last) {
+      std::string lines;
+      for (std::size_t i = first; i < last; ++i) append(lines, begin + i);
+      return lines;
+    };
+    parallel_reduce(std::min(kLinesAtATime, count - begin), kLinesPerTask, lines_of,
+                    [&](std::string&, const std::string& lines) { text += lines; });
+  }
 }
 
 // A line "x y z" for each point, then one "3 a b c" for each triangle, as OFF and PLY have them;

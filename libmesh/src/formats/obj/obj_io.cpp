@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
+#include <string_view>
 
 #include <mesh/read_guard.h>
 
 #include "formats/common/face_list.h"
+#include "formats/common/plain_lines.h"
 #include "formats/common/text_scanner.h"
 #include "formats/common/text_writer.h"
 #include "material_library.h"
@@ -35,6 +38,7 @@ class ObjReader {
       line_at_ = text_.position();
       guard_.step(faces_.triangles(), line_at_);
       const std::string_view word = text_.peek_token();
+      if (read_plain(word)) continue;
       text_.skip_token();
       if (word == "v") {
         read_point();
@@ -66,6 +70,9 @@ class ObjReader {
   }
 
  private:
+  // In files in which lines that look plain are not, it is not worth while to try each.
+  static constexpr std::size_t kMostMisses = 100;
+
   [[nodiscard]] bool wants_attributes() const { return source_.options.attributes; }
 
   void warn_of_bad_corners() {
@@ -76,6 +83,78 @@ class ObjReader {
          std::to_string(bad) + (bad == 1 ? " corner names" : " corners name") +
              " texture coordinates or normals that are not there: left without",
          {{"corners", bad}}});
+  }
+
+  // Lines that have nothing odd about them, if such ones come here. False: they do not.
+  bool read_plain(std::string_view word) {
+    if (plain_misses_ == kMostMisses || (word != "v" && word != "f")) return false;
+    text_.go_to(word == "v" ? read_plain_points() : read_plain_faces());
+    if (text_.position() != line_at_) return true;
+    ++plain_misses_;
+    return false;
+  }
+
+  std::size_t read_plain_points() {
+    const auto parse = [](PlainLine& line, Vec3d& p) {
+      return line.letter('v') && line.blanks() && line.number(p[0]) && line.blanks() &&
+             line.number(p[1]) && line.blanks() && line.number(p[2]) && line.ends();
+    };
+    const auto take = [&](std::span<const Vec3d> points, std::size_t position) {
+      for (const Vec3d& p : points) {
+        guard_.step(faces_.triangles(), position);
+        result_.soup.points.push_back(p);
+      }
+      return points.size();
+    };
+    return read_plain_lines<Vec3d>(source_.bytes, text_.position(), parse, take);
+  }
+
+  // A triangle of points that are counted from the first one, and where its corners begin and end,
+  // from `line` on.
+  struct PlainFace {
+    const char* line = nullptr;
+    std::array<std::uint32_t, 3> numbers{};
+    std::array<std::uint8_t, 3> first{}, last{};
+  };
+
+  static bool parse_corner(PlainLine& line, PlainFace& face, std::size_t k) {
+    constexpr std::ptrdiff_t kMostBytes = std::numeric_limits<std::uint8_t>::max();
+    const bool has_blanks = line.blanks();
+    const std::ptrdiff_t first = line.at() - face.line;
+    if (!has_blanks || !line.number(face.numbers[k]) || face.numbers[k] == 0) return false;
+    if (line.letter('/') && !line.token()) return false;
+    const std::ptrdiff_t last = line.at() - face.line;
+    face.first[k] = static_cast<std::uint8_t>(first);
+    face.last[k] = static_cast<std::uint8_t>(last);
+    return last <= kMostBytes;
+  }
+
+  std::size_t read_plain_faces() {
+    const auto parse = [](PlainLine& line, PlainFace& face) {
+      face.line = line.at();
+      return line.letter('f') && parse_corner(line, face, 0) && parse_corner(line, face, 1) &&
+             parse_corner(line, face, 2) && line.ends();
+    };
+    const auto take = [&](std::span<const PlainFace> faces, std::size_t position) {
+      const std::size_t room = source_.options.max_triangles - faces_.triangles();
+      const std::size_t count = std::min(faces.size(), room);
+      for (const PlainFace& face : faces.first(count)) {
+        guard_.step(faces_.triangles(), position);
+        take_plain_face(face);
+      }
+      return count;
+    };
+    return read_plain_lines<PlainFace>(source_.bytes, text_.position(), parse, take);
+  }
+
+  void take_plain_face(const PlainFace& face) {
+    const auto& [a, b, c] = face.numbers;
+    faces_.add_triangle({a - 1, b - 1, c - 1});
+    if (!wants_attributes()) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      attributes_.add_corner({face.line + face.first[k], face.line + face.last[k]});
+    }
+    attributes_.end_face();
   }
 
   void read_point() {
@@ -117,6 +196,7 @@ class ObjReader {
   ObjAttributes attributes_;
   ReadGuard guard_;
   std::size_t line_at_ = 0, left_out_ = 0;
+  std::size_t plain_misses_ = 0;
   FirstBad first_bad_;
 };
 

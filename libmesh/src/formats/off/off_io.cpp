@@ -17,10 +17,14 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
+#include <vector>
 
+#include <mesh/edge_table.h>
 #include <mesh/read_guard.h>
 
 #include "formats/common/face_list.h"
+#include "formats/common/plain_lines.h"
 #include "formats/common/text_writer.h"
 #include "off_header.h"
 
@@ -45,10 +49,12 @@ class OffReader {
     lines_count_ = header_.counts_end_line && lines_hold_points();
     // A point takes at least six bytes, "0 0 0" and a blank.
     result_.soup.points.reserve(within(header_.points, text_.remaining() / 6 + 1));
+    if (lines_count_ && !header_.homogeneous) read_plain_points();
     while (result_.soup.points.size() < header_.points && text_.next_anywhere()) {
       guard_.step(0, text_.position());
       read_point();
     }
+    if (lines_count_ && result_.soup.points.size() == header_.points) read_plain_faces();
     read_faces();
     guard_.step(faces_.triangles(), source_.bytes.size());
     report_losses();
@@ -64,6 +70,41 @@ class OffReader {
   }
 
   bool next_number() { return lines_count_ ? text_.next_on_line() : text_.next_anywhere(); }
+
+  void read_plain_points() {
+    const auto parse = [](PlainLine& line, Vec3d& p) {
+      return line.number(p[0]) && line.blanks() && line.number(p[1]) && line.blanks() &&
+             line.number(p[2]) && line.ends();
+    };
+    const auto take = [&](std::span<const Vec3d> read, std::size_t position) {
+      std::vector<Vec3d>& points = result_.soup.points;
+      const std::size_t count = std::min(read.size(), header_.points - points.size());
+      for (const Vec3d& p : read.first(count)) {
+        guard_.step(0, position);
+        points.push_back(p);
+      }
+      return count;
+    };
+    text_.go_to(read_plain_lines<Vec3d>(source_.bytes, text_.position(), parse, take));
+  }
+
+  void read_plain_faces() {
+    const auto parse = [](PlainLine& line, IndexTriangle& t) {
+      return line.letter('3') && line.blanks() && line.number(t[0]) && line.blanks() &&
+             line.number(t[1]) && line.blanks() && line.number(t[2]) && line.ends();
+    };
+    const auto take = [&](std::span<const IndexTriangle> read, std::size_t position) {
+      const std::size_t room = source_.options.max_triangles - faces_.triangles();
+      const std::size_t count = std::min(read.size(), room);
+      for (const IndexTriangle& t : read.first(count)) {
+        guard_.step(faces_.triangles(), position);
+        faces_.add_triangle(t);
+      }
+      return count;
+    };
+    if (!text_.next_anywhere()) return;
+    text_.go_to(read_plain_lines<IndexTriangle>(source_.bytes, text_.position(), parse, take));
+  }
 
   void read_point() {
     const std::size_t start = text_.position();

@@ -179,7 +179,9 @@ std::string format_stl_ascii(const TriangleSoup& soup, const Attributes* attribu
                                  : dynamic_cast<const StlSolidName*>(attributes->keepsake.get());
     const std::string name = kept == nullptr ? "meshrepair" : kept->name;
     out += "solid " + name + '\n';
-    for (const auto& triangle : soup.triangles) append_facet(out, soup, triangle);
+    append_lines(out, soup.triangles.size(), [&](std::string& lines, std::size_t t) {
+      append_facet(lines, soup, soup.triangles[t]);
+    });
     return out + "endsolid " + name + '\n';
   }
   const TriangleLabels& groups = attributes->groups;
@@ -188,9 +190,10 @@ std::string format_stl_ascii(const TriangleSoup& soup, const Attributes* attribu
     if (sorted.first[i] == sorted.first[i + 1]) continue;
     const std::string name = i < groups.names.size() ? ' ' + groups.names[i] : std::string();
     out += "solid" + name + '\n';
-    for (std::size_t k = sorted.first[i]; k < sorted.first[i + 1]; ++k) {
-      append_facet(out, soup, soup.triangles[sorted.order[k]]);
-    }
+    const std::size_t first = sorted.first[i];
+    append_lines(out, sorted.first[i + 1] - first, [&](std::string& lines, std::size_t k) {
+      append_facet(lines, soup, soup.triangles[sorted.order[first + k]]);
+    });
     out += "endsolid" + name + '\n';
   }
   return out;

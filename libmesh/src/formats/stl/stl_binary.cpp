@@ -14,6 +14,8 @@
 
 #include <Eigen/Geometry>
 
+#include <base/error.h>
+#include <base/parallel.h>
 #include <mesh/read_guard.h>
 #include <mesh/weld_points.h>
 
@@ -29,6 +31,7 @@ static_assert(std::endian::native == std::endian::little, "floats are copied as 
 
 constexpr std::size_t kNormalSize = 12;
 constexpr std::size_t kCornersSize = 36;
+constexpr std::size_t kWrittenPerTask = 16384;
 
 std::uint32_t declared_count(std::string_view bytes) {
   std::uint32_t count = 0;
@@ -52,10 +55,20 @@ void report_sizes(const MeshSource& source, std::size_t found, ReadReport& repor
 
 float to_float(double coordinate) { return written_float(coordinate, "binary STL"); }
 
-void append_floats(std::string& out, const Vec3d& vector) {
+char* put(char* at, const Vec3d& vector) {
   const std::array<float, 3> floats = {to_float(vector.x()), to_float(vector.y()),
                                        to_float(vector.z())};
-  out.append(reinterpret_cast<const char*>(floats.data()), sizeof floats);
+  std::memcpy(at, floats.data(), sizeof floats);
+  return at + sizeof floats;
+}
+
+void put_triangle(char* at, const TriangleSoup& soup, std::size_t t, std::uint16_t word) {
+  const auto& [a, b, c] = soup.triangles[t];
+  at = put(at, stl_normal(soup.points[a], soup.points[b], soup.points[c]));
+  at = put(at, soup.points[a]);
+  at = put(at, soup.points[b]);
+  at = put(at, soup.points[c]);
+  std::memcpy(at, &word, sizeof word);
 }
 
 }  // namespace
@@ -104,17 +117,20 @@ std::string format_stl_binary(const TriangleSoup& soup, const Attributes* attrib
     colours.words = stl_region_words(attributes->groups);
   }
   std::string out = colours.header;
-  out.reserve(kStlHeaderSize + kStlTriangleSize * soup.triangles.size());
   const auto count = static_cast<std::uint32_t>(soup.triangles.size());
+  out.reserve(kStlHeaderSize + kStlTriangleSize * soup.triangles.size());
   out.append(reinterpret_cast<const char*>(&count), sizeof count);
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    const auto& [a, b, c] = soup.triangles[t];
-    append_floats(out, stl_normal(soup.points[a], soup.points[b], soup.points[c]));
-    append_floats(out, soup.points[a]);
-    append_floats(out, soup.points[b]);
-    append_floats(out, soup.points[c]);
-    const std::uint16_t word = colours.words.empty() ? std::uint16_t{0} : colours.words[t];
-    out.append(reinterpret_cast<const char*>(&word), sizeof word);
+  out.resize(kStlHeaderSize + kStlTriangleSize * soup.triangles.size());
+  const auto put_some = [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      put_triangle(out.data() + kStlHeaderSize + t * kStlTriangleSize, soup, t,
+                   colours.words.empty() ? std::uint16_t{0} : colours.words[t]);
+    }
+  };
+  try {
+    parallel_tasks(soup.triangles.size(), kWrittenPerTask, put_some);
+  } catch (const OutputError&) {
+    put_some(0, 0, soup.triangles.size());  // fails for the first one, whatever the threads
   }
   return out;
 }

@@ -102,6 +102,30 @@ TEST(ReadObj, CountsMayComeFirst) {
   }
 }
 
+// Lines are read in pieces on several threads, up to one that is odd.
+TEST(ReadObj, OddLinesAmongManyPlainOnesChangeNothing) {
+  constexpr std::uint32_t kPointsOnly = 50'000;
+  for (const bool odd : {false, true}) {
+    std::string text;
+    for (std::uint32_t p = 0; p < kPointsOnly; ++p) {
+      text += (odd && p % 7919 == 0 ? " v " : "v ") + std::to_string(p) + " 0.5 -1e-3\n";
+    }
+    for (std::uint32_t p = 2; p < kPointsOnly; ++p) {
+      text += "f " + std::to_string(p - 1) + ' ' + std::to_string(p) + "//7 ";
+      text += odd && p % 7907 == 0 ? "-" + std::to_string(kPointsOnly - p) : std::to_string(p + 1);
+      text += '\n';
+    }
+    const ReadResult result = read_text(text, "a.obj");
+    ASSERT_EQ(result.soup.points.size(), kPointsOnly);
+    ASSERT_EQ(result.soup.triangles.size(), kPointsOnly - 2);
+    for (std::uint32_t p = 0; p < kPointsOnly; ++p) {
+      ASSERT_EQ(result.soup.points[p], Vec3d(p, 0.5, -1e-3));
+      if (p < 2) continue;
+      ASSERT_EQ(result.soup.triangles[p - 2], (Triangle{p - 2, p - 1, p}));
+    }
+  }
+}
+
 TEST(ReadObj, PointsWithoutFacesAreRefused) {
   EXPECT_EQ(refusal_of(kPoints, "a.obj"), "a.obj: holds 4 points but no faces");
   EXPECT_THAT(refusal_of(kPoints + "f 7 8 9\n", "a.obj"),

@@ -235,5 +235,23 @@ TEST(WriteStl, CoordinateBeyondFloatIsRefusedInBinary) {
   EXPECT_THROW(static_cast<void>(format_soup(soup, SoupFormat::stl_binary)), OutputError);
 }
 
+// Whatever the threads: the error is about the first coordinate that does not fit.
+TEST(WriteStl, NamesTheFirstCoordinateThatIsTooLarge) {
+  TriangleSoup soup;
+  for (std::uint32_t t = 0; t < 100'000; ++t) {
+    for (std::uint32_t k = 0; k < 3; ++k) soup.points.emplace_back(t, k % 2, k / 2);
+    soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const std::string fitting = format_soup(soup, SoupFormat::stl_binary);
+  EXPECT_EQ(read_soup(std::string_view(fitting), "a", {}).soup.triangles.size(), 100'000U);
+  for (std::uint32_t t = 50'000; t < 100'000; ++t) soup.points[3 * t].x() = t * 1e40;
+  try {
+    (void)format_soup(soup, SoupFormat::stl_binary);
+    FAIL();
+  } catch (const OutputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("a coordinate of 5e+44 does not fit"));
+  }
+}
+
 }  // namespace
 }  // namespace meshrepair
