@@ -405,6 +405,18 @@ Json stages_section(const std::vector<StageReport>& reports) {
   return stages;
 }
 
+namespace {
+
+void add_what_was_taken_away(const RepairReport& repair, JsonReport& report) {
+  if (was_begun(repair, "simplify")) {
+    report.set_section("simplify", section_of(repair.simplify));
+  }
+  if (repair.keep.asked) report.set_section("keep", section_of(repair.keep));
+  if (repair.fewer.asked > 0) report.set_section("fewer", section_of(repair.fewer));
+}
+
+}  // namespace
+
 void add_sections(const Findings& findings, JsonReport& report) {
   const RepairReport& repair = findings.repair;
   if (const Purpose& purpose = findings.purpose; !purpose.name.empty()) {
@@ -453,11 +465,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("removed", removed_of(repair));
     report.set_section("extract", section_of(repair.extract));
   }
-  if (was_begun(repair, "simplify")) {
-    report.set_section("simplify", section_of(repair.simplify));
-  }
-  if (repair.keep.asked) report.set_section("keep", section_of(repair.keep));
-  if (repair.fewer.asked > 0) report.set_section("fewer", section_of(repair.fewer));
+  add_what_was_taken_away(repair, report);
   // meshcheck has a stage of this name, too, but no result.
   if (has("extract") && was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));

@@ -226,8 +226,8 @@ class Decimator {
   [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to) const {
     if (freedom_[to] == Freedom::fixed || freedom_[from] != freedom_[to]) return scaled(to);
     const Vec3d a = scaled(from), b = scaled(to);
-    const Vec3d middle = 0.5 * (a + b);
-    const Vec3d place = both.least_near(middle);
+    Vec3d middle = 0.5 * (a + b);
+    Vec3d place = both.least_near(middle);
     if ((place - middle).squaredNorm() <= kFarthest * kFarthest * (b - a).squaredNorm()) {
       return place;
     }
