@@ -4,7 +4,7 @@
 //   {"id": 7, "in": "broken.stl", "out": "repaired.stl", "options": ["--for", "print"]}
 //   {"cancel": 7, "grace": 3}
 //
-//   id       any value; the answer has the same
+//   id       any value; the answer has the same; numbers of more than 64 bits are rounded
 //   in, out  names of files
 //   options  of meshrepair; may be left out
 //   cancel   the id of jobs to end

@@ -117,7 +117,7 @@ void warn_of_unknown_parts(const Findings& findings) {
 void warn_of_triangles_left(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   const FewerTrianglesReport& fewer = repair.fewer;
-  if (fewer.asked == 0 || repair.output.triangles <= fewer.asked + 1) return;
+  if (fewer.asked == 0 || repair.output.triangles <= fewer.asked) return;
   const DecimationReport& why = fewer.collapses;
   warn(findings.output_name(),
        {WarningCode::triangles_left,

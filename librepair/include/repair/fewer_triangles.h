@@ -11,7 +11,7 @@
 namespace meshrepair {
 
 struct FewerTrianglesOptions {
-  std::size_t most = 0;  // triangles of the result, or one more; 0: as they come
+  std::size_t most = 0;  // triangles of the result, or one fewer; 0: as they come
   double share = 0;      // the same, of the triangles that there were; where `most` is 0
 
   // Of each triangle of the input, DecimationOptions::labels. Empty: all are alike.

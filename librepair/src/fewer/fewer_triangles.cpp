@@ -20,7 +20,9 @@ namespace {
 
 std::size_t asked_of(const FewerTrianglesOptions& fewer, std::size_t triangles) {
   if (fewer.most > 0) return fewer.most;
-  return static_cast<std::size_t>(std::llround(fewer.share * static_cast<double>(triangles)));
+  constexpr long long kFewest = 4;  // a tetrahedron has so many
+  return static_cast<std::size_t>(
+      std::max(kFewest, std::llround(fewer.share * static_cast<double>(triangles))));
 }
 
 // A point that something was collapsed into, and moved, is none of the input.

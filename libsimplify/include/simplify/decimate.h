@@ -19,7 +19,7 @@
 namespace meshrepair {
 
 struct DecimationOptions {
-  // As many are wanted; there may be one more.
+  // No more than so many are wanted; there may be one fewer.
   std::size_t triangles = 0;
   // Of new points.
   Precision precision = Precision::float64;

@@ -26,7 +26,7 @@ RepairOptions of_at_most(std::size_t triangles) {
 TEST(FewerTriangles, ASolidAsGivenHasAsManyAsAskedFor) {
   const TriangleSoup soup = sphere(2000);
   const RepairResult result = repair(soup, of_at_most(500));
-  EXPECT_LE(result.surface.mesh.triangles.size(), 501u);
+  EXPECT_LE(result.surface.mesh.triangles.size(), 500u);
   EXPECT_GE(result.surface.mesh.triangles.size(), 499u);
   EXPECT_TRUE(result.report.certify.passed());
   EXPECT_FALSE(result.report.kept_valid);
@@ -52,6 +52,14 @@ TEST(FewerTriangles, AShareIsOfTheRepairedSurface) {
   EXPECT_NEAR(static_cast<double>(fewer.asked), 0.1 * static_cast<double>(fewer.before), 1);
   EXPECT_NEAR(static_cast<double>(result.surface.mesh.triangles.size()),
               static_cast<double>(fewer.asked), 2);
+  EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
+}
+
+TEST(FewerTriangles, AShareOfLessThanATetrahedronIsOne) {
+  RepairOptions options;
+  options.fewer.share = 1e-6;
+  const RepairResult result = repair(torus(12, 8), options);
+  EXPECT_EQ(result.report.fewer.asked, 4u);
   EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
 }
 
