@@ -82,18 +82,6 @@ std::vector<std::uint32_t> sources_in_file(const Surface& surface,
   return sources;
 }
 
-// Where many triangles become one, none of them tells its values at the corners.
-void drop_values_of_corners(const Findings& findings, Attributes& attributes) {
-  if (attributes.corners.empty() && attributes.paints.empty()) return;
-  attributes.corners.clear();
-  attributes.paints.clear();
-  attributes.images.clear();
-  for (Material& look : attributes.looks) look.image = kNone;
-  warn(findings.output_name(),
-       {WarningCode::attributes_lost,
-        "--triangles drops textures, colours, normals and paint; materials and groups stay"});
-}
-
 // A number for each combination.
 std::vector<std::uint32_t> labels_of_triangles(const Attributes& attributes) {
   std::vector<std::uint32_t> labels;
@@ -111,12 +99,8 @@ std::vector<std::uint32_t> labels_of_triangles(const Attributes& attributes) {
   return labels;
 }
 
-void fit_to_input(AnySoup& input, const RepairCommand& command, const Findings& findings,
-                  RepairOptions& options) {
-  if (options.fewer.wanted()) {
-    drop_values_of_corners(findings, input.attributes);
-    options.fewer.labels = labels_of_triangles(input.attributes);
-  }
+void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
+  if (options.fewer.wanted()) options.fewer.labels = labels_of_triangles(input.attributes);
   keep_attributes(input.soup, input.attributes, options);
   options.all_cells = command.always;
   const StepOptions& steps = command.steps;
@@ -202,7 +186,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   if (findings.origin) *findings.origin *= scale;
   findings.unit = brought_to_unit(*format.format, options.assets, findings.unit, input.soup);
   format.extras.unit = findings.unit;
-  fit_to_input(input, command, findings, repair_options);
+  fit_to_input(input, command, repair_options);
   if (!input.scene.meshes.empty()) {
     if (points.repair.base) throw UsageError("--base: cannot be used with --scene each");
     return repair_scene(input, given, repair_options, format, options, run, findings);
@@ -231,7 +215,7 @@ RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run&
   const SoupFormat format = options.format.value_or(SoupFormat::obj);
   input.attributes = chosen_for(options.format, options.assets, std::move(input.attributes));
   RepairOptions repair_options = certified_for(format, options.repair);
-  fit_to_input(input, command, findings, repair_options);
+  fit_to_input(input, command, repair_options);
   RepairedMesh result;
   result.surface = repair_or_advise(input, command.points, repair_options, run, findings);
   measure_distance_stage(input.soup, result.surface, repair_options.certify.precision, run,

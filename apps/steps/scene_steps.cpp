@@ -108,6 +108,7 @@ class SceneRepair {
     try {
       Surface surface = repair(soup, options_of(soup), outcome.findings.repair);
       findings_.has_walls |= outcome.findings.repair.thicken.triangles > 0;
+      findings_.is_reduced |= outcome.findings.repair.fewer.collapses.collapses > 0;
       measure_distance_stage(soup, surface, repair_options_.certify.precision, run_,
                              outcome.findings);
       look_at_file(surface, *format_.format, outcome.findings);

@@ -422,8 +422,9 @@ std::vector<std::string> simplified(const SimplifyReport& report) {
 
 std::vector<std::string> reduced(const RepairReport& repair) {
   if (!repair.fewer.done) return {};
-  return {fmt::format("{} to {} of {} asked for", number_of(repair.fewer.before, "triangle"),
-                      grouped(repair.output.triangles), grouped(repair.fewer.asked))};
+  return {fmt::format("{} to {} of {} asked for, quadric error up to {:.2g}",
+                      number_of(repair.fewer.before, "triangle"), grouped(repair.output.triangles),
+                      grouped(repair.fewer.asked), repair.fewer.collapses.largest_error)};
 }
 
 void describe_mesh(const Findings& findings, double seconds, Lines& lines) {

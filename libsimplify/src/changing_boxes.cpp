@@ -19,28 +19,25 @@ void ChangingBoxes::build(std::span<const std::uint32_t> items, std::span<const 
                           std::size_t end) {
   const BoxTree tree(boxes);
   gone_ = 0;
-  nodes_.clear();
-  nodes_.reserve(tree.nodes().size());
-  for (const BoxNode& node : tree.nodes()) {
-    nodes_.push_back({node.box, node.first, node.count, node.right, kNone});
-  }
+  nodes_.assign(tree.nodes().begin(), tree.nodes().end());
+  parent_.assign(nodes_.size(), kNone);
   order_.clear();
   order_.reserve(items.size());
   for (const std::uint32_t i : tree.order()) order_.push_back(items[i]);
   leaf_of_.resize(end, kNone);
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    const Node& node = nodes_[n];
-    if (node.right == 0) {
+    const BoxNode& node = nodes_[n];
+    if (node.is_leaf()) {
       for (std::uint32_t i = 0; i < node.count; ++i) leaf_of_[order_[node.first + i]] = n;
     } else {
-      nodes_[n + 1].parent = nodes_[node.right].parent = n;
+      parent_[n + 1] = parent_[node.right] = n;
     }
   }
 }
 
 void ChangingBoxes::change(std::uint32_t item, const Box& box) {
   for (std::uint32_t n = leaf_of_[item]; n != kNone && !contains(nodes_[n].box, box);
-       n = nodes_[n].parent) {
+       n = parent_[n]) {
     nodes_[n].box.add(box);
   }
 }

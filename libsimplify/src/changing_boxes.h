@@ -28,31 +28,13 @@ class ChangingBoxes {
   // At least the items whose boxes meet this one, and others. Each once.
   template <class Visit>
   void visit(const Box& box, const Visit& visit_item) const {
-    if (nodes_.empty()) return;
-    std::array<std::uint32_t, kMostDepth + 1> stack{};
-    std::size_t waiting = 1;
-    while (waiting > 0) {
-      const std::uint32_t n = stack[--waiting];
-      const Node& node = nodes_[n];
-      if (!node.box.meets(box)) continue;
-      if (node.right == 0) {
-        for (std::uint32_t i = 0; i < node.count; ++i) visit_item(order_[node.first + i]);
-      } else {
-        stack[waiting++] = node.right;
-        stack[waiting++] = n + 1;
-      }
-    }
+    visit_boxes(
+        nodes_, order_, [&](const Box& node) { return node.meets(box); }, visit_item);
   }
 
  private:
-  static constexpr std::size_t kMostDepth = 32;
-
-  struct Node {
-    Box box;
-    std::uint32_t first, count, right, parent;
-  };
-
-  std::vector<Node> nodes_;
+  std::vector<BoxNode> nodes_;
+  std::vector<std::uint32_t> parent_;  // of each node
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> leaf_of_;  // of each item
   std::size_t gone_ = 0;

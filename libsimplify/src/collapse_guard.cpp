@@ -47,15 +47,10 @@ CollapseGuard::CollapseGuard(const CollapsibleMesh& mesh, const std::vector<Vec3
       looked_at_by_(mesh.triangles().size(), 0) {
   const auto& triangles = mesh.triangles();
   some_point_.resize(parts.count);
-  volume_.assign(parts.count, 0);
-  // From a point of its own, so that rounding leaves something of a small part far away.
-  std::vector<char> has_point(parts.count, 0);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::uint32_t part = part_of_[t];
-    if (std::exchange(has_point[part], 1) == 0) some_point_[part] = triangles[t][0];
-    const Vec3d& from = points[some_point_[part]];
-    const auto& [a, b, c] = triangles[t];
-    volume_[part] += (points[a] - from).dot((points[b] - from).cross(points[c] - from));
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) some_point_[part_of_[t]] = triangles[t][0];
+  const UnitScale as_it_is({});
+  for (const PartSize& size : part_sizes(points, triangles, part_of_, parts.count, as_it_is)) {
+    volume_.push_back(6 * size.volume);
   }
   rebuild();
 }
@@ -146,8 +141,9 @@ bool CollapseGuard::swallows_rest(const Collapse& collapse) {
     swept_ += volume;
     moved += std::abs(volume);
   };
-  for (const auto& t : collapse.fan)
+  for (const auto& t : collapse.fan) {
     sweep(old_place(collapse, t), points_[t.next], points_[t.last]);
+  }
   for (const std::uint32_t t : collapse.gone) {
     const auto& [a, b, c] = mesh_.triangles()[t];
     sweep(points_[a], points_[b], points_[c]);
@@ -197,7 +193,7 @@ bool CollapseGuard::meets_fan(std::uint32_t triangle) {
 bool CollapseGuard::fan_touches_itself(const Collapse& collapse) const {
   for (std::size_t i = 0; i < collapse.fan.size(); ++i) {
     const std::uint32_t point = collapse.fan[i].next;
-    if (places_.is_copy[point] == 0) continue;
+    if (!is_held(point)) continue;
     for (std::size_t k = i + 1; k < collapse.fan.size(); ++k) {
       if (places_.place[collapse.fan[k].next] == places_.place[point]) return true;
     }
@@ -209,10 +205,10 @@ bool CollapseGuard::fan_touches_itself(const Collapse& collapse) const {
 // they touch along it, and what they bound may cross there without any two triangles that do.
 bool CollapseGuard::touches_fan(std::uint32_t triangle, const Collapse& collapse) const {
   const auto& corners = mesh_.triangles()[triangle];
-  const auto is_copy = [&](std::uint32_t p) { return places_.is_copy[p] != 0; };
-  if (std::none_of(corners.begin(), corners.end(), is_copy)) return false;
+  const auto held = [&](std::uint32_t p) { return is_held(p); };
+  if (std::none_of(corners.begin(), corners.end(), held)) return false;
   return std::any_of(collapse.fan.begin(), collapse.fan.end(), [&](const auto& t) {
-    if (is_copy(collapse.to) && t.was_of_to) return false;  // it stays as it is
+    if (is_held(collapse.to) && t.was_of_to) return false;  // it stays as it is
     int places = 0, points = 0;
     for (const std::uint32_t p : {collapse.to, t.next, t.last}) {
       for (const std::uint32_t q : corners) {

@@ -40,7 +40,11 @@ enum class Refusal { none, topology, fold, meeting };
 class CollapseGuard {
  public:
   // Mesh and points have to stay, and change as collapses are made; `parts` are those at first.
+  // Coordinates are about 1: products of three neither overflow nor vanish.
   CollapseGuard(const CollapsibleMesh& mesh, const std::vector<Vec3d>& points, MeshParts parts);
+
+  // It shares its place with others, and must not be moved.
+  [[nodiscard]] bool is_held(std::uint32_t point) const { return places_.is_copy[point] != 0; }
 
   [[nodiscard]] Refusal refusal(const Collapse& collapse);
   // After the collapse that was asked about last has been made, and its point moved.
@@ -64,14 +68,13 @@ class CollapseGuard {
 
   const CollapsibleMesh& mesh_;
   const std::vector<Vec3d>& points_;
-  PointPlaces places_;                     // points that share theirs do not move
+  PointPlaces places_;
   std::vector<std::uint32_t> part_of_;     // of each triangle
   std::vector<std::uint32_t> some_point_;  // of each part
   std::vector<double> volume_;             // of each part, six times
   double swept_ = 0;                       // what the collapse that was asked about adds
   ChangingBoxes boxes_;
-  std::vector<std::uint32_t>
-      looked_at_by_;  // of each triangle, the last question that it is part of
+  std::vector<std::uint32_t> looked_at_by_;  // of each triangle, its last question
   std::uint32_t question_ = 0;
   // The new fan.
   std::vector<CornerTriangle> fan_;

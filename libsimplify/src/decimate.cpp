@@ -6,6 +6,7 @@
 // is left, as its surroundings may have changed.
 //
 // All of this is done with the mesh scaled by a power of two to about unit size, which is exact.
+// Points that have not moved keep their coordinates.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +21,6 @@
 #include <mesh/edge_table.h>
 #include <mesh/internal/collapsible_mesh.h>
 #include <mesh/mesh_parts.h>
-#include <mesh/weld_points.h>
 #include <simplify/decimate.h>
 
 #include "collapse_guard.h"
@@ -46,6 +46,10 @@ constexpr double kSeamWeight = 10;
 // From the middle of an edge, in its lengths: what is farther away is beyond rounding.
 constexpr double kFarthest = 2;
 
+// Another round through what was refused pays if the last one took away more than one in so many of
+// the triangles that are left.
+constexpr std::size_t kFewOfLeft = 256;
+
 // What a point may do.
 enum class Freedom : std::uint8_t { free, on_seam, fixed };
 
@@ -56,24 +60,25 @@ class Decimator {
         report_(report),
         check_(options.progress),
         scale_(mesh.points),
-        points_(mesh.points),
+        given_(mesh.points),
+        points_(scaled(mesh.points, scale_)),
         mesh_(mesh.triangles, mesh.points.size()),
         guard_(mesh_, points_, find_parts(mesh)),
         quadrics_(mesh.points.size()),
         freedom_(mesh.points.size(), Freedom::free),
         version_(mesh.points.size(), 0),
         became_(mesh.points.size(), kNone),
-        left_(mesh.triangles.size()) {
+        first_(mesh.triangles.size()),
+        left_(first_) {
     find_seams(mesh.triangles);
     fix_points();
     add_quadrics();
   }
 
   void run() {
-    const std::size_t first = left_;
-    std::size_t before = left_ + 1;
-    while (left_ > options_.triangles && left_ < before) {
-      before = left_;
+    std::size_t gone = left_;  // in the last round
+    while (left_ > options_.triangles && gone > left_ / kFewOfLeft) {
+      const std::size_t before = left_;
       report_.would_change_topology = report_.would_fold = report_.would_meet = 0;
       fill_queue();
       while (left_ > options_.triangles && !queue_.empty()) {
@@ -83,8 +88,8 @@ class Decimator {
         if (edge.version != version_[edge.from] + version_[edge.to]) continue;
         if (became_[edge.from] != kNone || became_[edge.to] != kNone) continue;
         try_to_collapse(edge);
-        tell_progress(first);
       }
+      gone = before - left_;
     }
   }
 
@@ -98,27 +103,39 @@ class Decimator {
       for (std::uint32_t& p : corners) {
         if (number[p] == kNone) {
           number[p] = static_cast<std::uint32_t>(result.mesh.points.size());
-          result.mesh.points.push_back(points_[p]);
+          result.mesh.points.push_back(place_of(p));
         }
         p = number[p];
       }
       result.mesh.triangles.push_back(corners);
       result.source.push_back(t);
     }
-    result.point.resize(points_.size(), kNone);
+    std::vector<std::uint32_t> became = became_;
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
       std::uint32_t end = p;
-      while (became_[end] != kNone) end = became_[end];
-      result.point[p] = number[end];
+      while (became[end] != kNone) {  // half of the way goes for whoever comes here again
+        if (became[became[end]] != kNone) became[end] = became[became[end]];
+        end = became[end];
+      }
+      result.point.push_back(number[end]);
     }
     return result;
   }
 
  private:
+  static std::vector<Vec3d> scaled(std::vector<Vec3d> points, const UnitScale& scale) {
+    for (Vec3d& p : points) p = scale(p);
+    return points;
+  }
+
+  [[nodiscard]] Vec3d place_of(std::uint32_t p) const {
+    return points_[p] == scale_(given_[p]) ? given_[p] : scale_.back(points_[p]);
+  }
+
   struct Edge {
     double cost;
     std::uint32_t from, to;
-    std::uint32_t version;  // of both ends, added
+    std::uint32_t version;  // of both ends, added: either only grows
 
     // Of a queue whose top is the largest.
     bool operator<(const Edge& other) const {
@@ -126,13 +143,6 @@ class Decimator {
       return std::pair(from, to) > std::pair(other.from, other.to);
     }
   };
-
-  struct Best {
-    Vec3d place;  // scaled
-    double error = 0;
-  };
-
-  [[nodiscard]] Vec3d scaled(std::uint32_t p) const { return scale_(points_[p]); }
 
   void find_seams(std::span<const IndexTriangle> triangles) {
     const auto& labels = options_.labels;
@@ -150,9 +160,8 @@ class Decimator {
   }
 
   void fix_points() {
-    const PointPlaces places = find_places(points_);
-    for (std::size_t p = 0; p < points_.size(); ++p) {
-      if (places.is_copy[p] != 0) freedom_[p] = Freedom::fixed;
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+      if (guard_.is_held(p)) freedom_[p] = Freedom::fixed;
     }
     if (seams_.empty()) return;
     std::vector<std::uint8_t> seams_at(points_.size(), 0);  // each from both sides
@@ -179,7 +188,8 @@ class Decimator {
     const auto& triangles = mesh_.triangles();
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto& corners = triangles[t];
-      const std::array<Vec3d, 3> at = {scaled(corners[0]), scaled(corners[1]), scaled(corners[2])};
+      const std::array<Vec3d, 3> at = {points_[corners[0]], points_[corners[1]],
+                                       points_[corners[2]]};
       const Vec3d across = (at[1] - at[0]).cross(at[2] - at[0]);
       const double doubled_area = across.norm();
       if (!(doubled_area > 0)) continue;
@@ -218,14 +228,13 @@ class Decimator {
     Quadric both = quadrics_[a];
     both.add(quadrics_[b]);
     edge.cost = both.at(best_place(both, a, b)) +
-                kShare * both.weight() * (scaled(a) - scaled(b)).squaredNorm();
+                kShare * both.weight() * (points_[a] - points_[b]).squaredNorm();
     return edge;
   }
 
-  // Scaled.
   [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to) const {
-    if (freedom_[to] == Freedom::fixed || freedom_[from] != freedom_[to]) return scaled(to);
-    const Vec3d a = scaled(from), b = scaled(to);
+    if (freedom_[to] == Freedom::fixed || freedom_[from] != freedom_[to]) return points_[to];
+    const Vec3d &a = points_[from], &b = points_[to];
     Vec3d middle = 0.5 * (a + b);
     Vec3d place = both.least_near(middle);
     if ((place - middle).squaredNorm() <= kFarthest * kFarthest * (b - a).squaredNorm()) {
@@ -246,9 +255,9 @@ class Decimator {
     const Vec3d best = best_place(both, edge.from, edge.to);
     const bool may_move = freedom_[edge.from] == freedom_[edge.to];
     Refusal why = Refusal::topology;
-    for (const Vec3d& place : {best, scaled(edge.to), scaled(edge.from)}) {
+    for (const Vec3d& place : {best, points_[edge.to], points_[edge.from]}) {
       const double error = std::sqrt(both.at(place) / both.weight());
-      collapse_.place = internal::rounded_to(scale_.back(place), options_.precision);
+      collapse_.place = scale_(internal::rounded_to(scale_.back(place), options_.precision));
       why = guard_.refusal(collapse_);
       if (why == Refusal::none) return make(edge, both, error);
       if (!may_move) break;
@@ -334,25 +343,27 @@ class Decimator {
     ++version_[edge.to];
     left_ -= 2;
     ++report_.collapses;
+    tell_progress();
     report_.largest_error = std::max(report_.largest_error, scale_.back(error));
     mesh_.visit_corners(edge.to, [&](std::uint32_t, std::uint32_t next, std::uint32_t) {
       queue_.push(edge_between(edge.to, next));
     });
   }
 
-  void tell_progress(std::size_t first) {
+  void tell_progress() {
     constexpr std::size_t kSeldom = 1024;
     if (options_.progress == nullptr || report_.collapses % kSeldom != 0) return;
-    const auto done = static_cast<double>(first - left_);
+    const auto done = static_cast<double>(first_ - left_);
     options_.progress->advance(
-        std::min(1.0, done / static_cast<double>(first - options_.triangles)));
+        std::min(1.0, done / static_cast<double>(first_ - options_.triangles)));
   }
 
   const DecimationOptions& options_;
   DecimationReport& report_;
   CancelCheck check_;
   const UnitScale scale_;
-  std::vector<Vec3d> points_;
+  const std::vector<Vec3d>& given_;
+  std::vector<Vec3d> points_;  // scaled
   CollapsibleMesh mesh_;
   CollapseGuard guard_;
   std::vector<Quadric> quadrics_;
@@ -360,6 +371,7 @@ class Decimator {
   std::vector<std::uint8_t> seams_;     // of each triangle, a bit for each side; empty: none
   std::vector<std::uint32_t> version_;  // of each point: how often its quadric has changed
   std::vector<std::uint32_t> became_;   // of each point that went, the one that it is now
+  const std::size_t first_;             // triangles
   std::size_t left_;
   std::priority_queue<Edge> queue_;
   PointStar star_, star_of_to_;

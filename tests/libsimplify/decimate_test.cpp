@@ -147,7 +147,7 @@ TEST(Decimate, ScalingByPowersOfTwoChangesNothing) {
   const TriangleSoup mesh = noisy_sphere(600, 0.01, 3);
   ASSERT_TRUE(check_surface(mesh).valid_solid());
   const DecimatedMesh few = reduced(mesh, 100);
-  for (const double scale : {0x1p-60, 0x1p40}) {
+  for (const double scale : {0x1p-600, 0x1p-60, 0x1p40, 0x1p500}) {
     const DecimatedMesh other = reduced(scaled(mesh, scale), 100);
     EXPECT_EQ(other.mesh.triangles, few.mesh.triangles);
     EXPECT_EQ(other.mesh.points, scaled(few.mesh, scale).points);

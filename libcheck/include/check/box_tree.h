@@ -63,6 +63,28 @@ struct BoxNode {
   [[nodiscard]] bool is_leaf() const { return right == 0; }
 };
 
+// The items of all leaves, in `order`, whose boxes, and those above, `reaches(box)` says yes to;
+// the items' own boxes are not asked about. The nodes are those of a BoxTree, or have grown since.
+template <class Reaches, class Visit>
+void visit_boxes(std::span<const BoxNode> nodes, std::span<const std::uint32_t> order,
+                 const Reaches& reaches, const Visit& visit_item) {
+  constexpr std::size_t kMostDepth = 32;  // of 2^32 items, halved each time
+  if (nodes.empty()) return;
+  std::array<std::uint32_t, kMostDepth + 1> stack{};
+  std::size_t waiting = 1;
+  while (waiting > 0) {
+    const std::uint32_t n = stack[--waiting];
+    const BoxNode& node = nodes[n];
+    if (!reaches(node.box)) continue;
+    if (node.is_leaf()) {
+      for (std::uint32_t i = 0; i < node.count; ++i) visit_item(order[node.first + i]);
+    } else {
+      stack[waiting++] = node.right;
+      stack[waiting++] = n + 1;
+    }
+  }
+}
+
 // Split at the median of the boxes' centres along the axis where these spread most, so the depth is
 // logarithmic whatever the input. The same boxes give the same tree on any number of threads.
 class BoxTree {
@@ -77,30 +99,13 @@ class BoxTree {
   // The items by their place in the leaves.
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
 
-  // The items of all leaves whose boxes, and those above, `reaches(box)` says yes to; their own
-  // boxes are not asked about.
+  // As visit_boxes().
   template <class Reaches, class Visit>
-  void visit(Reaches reaches, Visit visit_item) const {
-    if (nodes_.empty()) return;
-    std::array<std::uint32_t, kMostDepth + 1> stack{};
-    std::size_t waiting = 1;
-    while (waiting > 0) {
-      const std::uint32_t n = stack[--waiting];
-      const BoxNode& node = nodes_[n];
-      if (!reaches(node.box)) continue;
-      if (node.is_leaf()) {
-        for (std::uint32_t i = 0; i < node.count; ++i) visit_item(order_[node.first + i]);
-      } else {
-        stack[waiting++] = node.right;
-        stack[waiting++] = n + 1;
-      }
-    }
+  void visit(const Reaches& reaches, const Visit& visit_item) const {
+    visit_boxes(nodes_, order_, reaches, visit_item);
   }
 
  private:
-  // Of 2^32 items, halved each time.
-  static constexpr std::size_t kMostDepth = 32;
-
   RawVector<BoxNode> nodes_;
   RawVector<std::uint32_t> order_;
 };
