@@ -61,7 +61,6 @@ struct Findings {
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
   bool has_walls = false;       // of sheets, in some mesh of a scene
-  bool is_reduced = false;      // by --triangles, the same
   bool wants_fidelity = false;  // though there is no report
   std::optional<Fidelity> fidelity;
   std::size_t output_points = 0;

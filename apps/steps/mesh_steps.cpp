@@ -103,33 +103,13 @@ void measure_distance_stage(const TriangleSoup& input, const Surface& surface, P
   findings.fidelity = measure_fidelity(input, surface, {precision, &run.progress});
 }
 
-namespace {
-
-// Where many triangles became one, none of them tells its values at the corners.
-Attributes of_triangles(Attributes attributes) {
-  attributes.corners.clear();
-  attributes.paints.clear();
-  attributes.images.clear();
-  for (Material& look : attributes.looks) look.image = kNone;
-  return attributes;
-}
-
-}  // namespace
-
 Attributes transfer_attributes_stage(const TriangleSoup& input, const Attributes& attributes,
                                      const Surface& surface, Run& run, Findings& findings) {
   if (attributes.is_bare()) return attributes;
   StageMeter meter(findings.repair.stages, &run.progress);
   meter.begin("attributes");
   const bool has_walls = findings.has_walls || findings.repair.thicken.triangles > 0;
-  const bool is_reduced = findings.is_reduced || findings.repair.fewer.collapses.collapses > 0;
-  if (!is_reduced || (attributes.corners.empty() && attributes.paints.empty())) {
-    return transfer_attributes(input, attributes, surface, has_walls);
-  }
-  warn(findings.output_name(),
-       {WarningCode::attributes_lost,
-        "--triangles drops textures, colours, normals and paint; materials and groups stay"});
-  return transfer_attributes(input, of_triangles(attributes), surface, has_walls);
+  return transfer_attributes(input, attributes, surface, has_walls, findings.repair.fewer.corners);
 }
 
 // Of a mesh without a name: nobody knows what those beside it are to be called.

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,25 +81,8 @@ std::vector<std::uint32_t> sources_in_file(const Surface& surface,
   return sources;
 }
 
-// A number for each combination.
-std::vector<std::uint32_t> labels_of_triangles(const Attributes& attributes) {
-  std::vector<std::uint32_t> labels;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
-  for (const TriangleLabels* given :
-       {&attributes.materials, &attributes.groups, &attributes.objects}) {
-    if (given->empty()) continue;
-    labels.resize(given->of_triangle.size(), 0);
-    numbers.clear();
-    for (std::size_t t = 0; t < labels.size(); ++t) {
-      const auto number = static_cast<std::uint32_t>(numbers.size());
-      labels[t] = numbers.try_emplace({labels[t], given->of_triangle[t]}, number).first->second;
-    }
-  }
-  return labels;
-}
-
 void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOptions& options) {
-  if (options.fewer.wanted()) options.fewer.labels = labels_of_triangles(input.attributes);
+  if (!input.attributes.is_bare()) options.fewer.attributes = &input.attributes;
   keep_attributes(input.soup, input.attributes, options);
   options.all_cells = command.always;
   const StepOptions& steps = command.steps;

@@ -47,6 +47,40 @@ void append(const Surface& mesh, std::size_t first_source, Surface& all) {
   all.input_point.insert(all.input_point.end(), mesh.input_point.begin(), mesh.input_point.end());
 }
 
+// What the triangles of one mesh carry of what all do: values and labels without their names.
+Attributes carried_by(const Attributes& all, std::size_t first, std::size_t triangles) {
+  Attributes one;
+  const auto part = [&](const std::vector<std::uint32_t>& of_all, std::size_t each) {
+    if (of_all.empty()) return std::vector<std::uint32_t>();
+    const auto begin = of_all.begin() + static_cast<std::ptrdiff_t>(each * first);
+    return std::vector(begin, begin + static_cast<std::ptrdiff_t>(each * triangles));
+  };
+  for (const CornerAttribute& given : all.corners) {
+    CornerAttribute& own = one.corners.emplace_back();
+    own.kind = given.kind;
+    own.name = given.name;
+    own.place = given.place;
+    own.storage = given.storage;
+    own.components = given.components;
+    own.of_corner = part(given.of_corner, 3);
+    for (std::uint32_t& value : own.of_corner) {
+      if (value == kNone) continue;
+      const auto at = given.values.begin() + static_cast<std::ptrdiff_t>(given.components * value);
+      value = static_cast<std::uint32_t>(own.count());
+      own.values.insert(own.values.end(), at, at + static_cast<std::ptrdiff_t>(given.components));
+    }
+    share_values(own);
+  }
+  one.materials.of_triangle = part(all.materials.of_triangle, 1);
+  one.groups.of_triangle = part(all.groups.of_triangle, 1);
+  one.objects.of_triangle = part(all.objects.of_triangle, 1);
+  one.smoothing.of_triangle = part(all.smoothing.of_triangle, 1);
+  for (const TrianglePaint& paint : all.paints) {
+    one.paints.push_back({paint.name, {paint.codes.names, part(paint.codes.of_triangle, 1)}});
+  }
+  return one;
+}
+
 class SceneRepair {
  public:
   SceneRepair(const AnySoup& input, const Attributes& given, RepairOptions repair_options,
@@ -54,7 +88,6 @@ class SceneRepair {
       : input_(input),
         given_(given),
         reach_(std::exchange(repair_options.reach, {})),
-        labels_(std::exchange(repair_options.fewer.labels, {})),
         repair_options_(std::move(repair_options)),
         format_(format),
         options_(options),
@@ -76,6 +109,8 @@ class SceneRepair {
     report();
     require_a_solid();
     judge();
+    if (!corners_.empty()) corners_.resize(3 * all_.mesh.triangles.size());
+    findings_.repair.fewer.corners = std::move(corners_);
     const Attributes attributes =
         transfer_attributes_stage(input_.soup, input_.attributes, all_, run_, findings_);
     if (!findings_.withheld) write(attributes);
@@ -108,7 +143,7 @@ class SceneRepair {
     try {
       Surface surface = repair(soup, options_of(soup), outcome.findings.repair);
       findings_.has_walls |= outcome.findings.repair.thicken.triangles > 0;
-      findings_.is_reduced |= outcome.findings.repair.fewer.collapses.collapses > 0;
+      append_corners(outcome.findings.repair.fewer);
       measure_distance_stage(soup, surface, repair_options_.certify.precision, run_,
                              outcome.findings);
       look_at_file(surface, *format_.format, outcome.findings);
@@ -142,15 +177,28 @@ class SceneRepair {
     all.origins.insert(all.origins.end(), one.origins.begin(), one.origins.end());
   }
 
-  [[nodiscard]] RepairOptions options_of(const TriangleSoup& soup) const {
+  // Where those of the mesh in hand have their values, behind those of the meshes before it.
+  void append_corners(FewerTrianglesReport& fewer) {
+    if (fewer.corners.empty()) return;
+    corners_.resize(3 * all_.mesh.triangles.size());
+    for (CornerOrigin origin : std::exchange(fewer.corners, {})) {
+      if (origin.source != Surface::kNoSource) origin.source += static_cast<std::uint32_t>(first_);
+      corners_.push_back(origin);
+    }
+  }
+
+  [[nodiscard]] RepairOptions options_of(const TriangleSoup& soup) {
     RepairOptions options = repair_options_;
+    if (options.fewer.wanted() && options.fewer.attributes != nullptr) {
+      carried_ = carried_by(input_.attributes, first_, soup.triangles.size());
+      options.fewer.attributes = &carried_;
+    }
     const auto take_own = [&](const auto& of_all, auto& own) {
       if (of_all.empty()) return;
       const auto first = of_all.begin() + static_cast<std::ptrdiff_t>(first_);
       own.assign(first, first + static_cast<std::ptrdiff_t>(soup.triangles.size()));
     };
     take_own(reach_, options.reach);
-    take_own(labels_, options.fewer.labels);
     return options;
   }
 
@@ -279,9 +327,8 @@ class SceneRepair {
 
   const AnySoup& input_;
   const Attributes& given_;
-  std::vector<double> reach_;          // of all meshes
-  std::vector<std::uint32_t> labels_;  // the same
-  RepairOptions repair_options_;       // without these
+  std::vector<double> reach_;     // of all meshes
+  RepairOptions repair_options_;  // without these
   const WriteOptions& format_;
   const StepOptions& options_;
   Run& run_;
@@ -289,6 +336,8 @@ class SceneRepair {
   Scene scene_;
   std::size_t first_ = 0;  // triangle of the mesh in hand
   Surface all_;
+  Attributes carried_;                 // by the mesh in hand
+  std::vector<CornerOrigin> corners_;  // of all_, or empty
   std::vector<MeshOutcome> outcomes_;
 };
 

@@ -263,7 +263,6 @@ Surface repair_whole(const TriangleSoup& soup, const RepairOptions& options, Rep
   }
   if (report.sew.distance > 0) internal::note_moved_corners(soup, surface, report);
   keep_wanted_parts(soup, options, surface, report);
-  if (options.fewer.wanted()) internal::take_triangles_away(surface, options, report);
   internal::compare_with_input(soup, surface, report);
   return surface;
 }
@@ -294,9 +293,6 @@ Surface repair_joined(const TriangleSoup& soup, const JoinedSoup& joined,
                       const RepairOptions& options, RepairReport& report) {
   RepairOptions of_pieces = options;
   of_pieces.explain = false;
-  if (!options.fewer.labels.empty()) {
-    of_pieces.fewer.labels = of_sources(options.fewer.labels, joined.source);
-  }
   if (!options.opacity.empty()) of_pieces.opacity = of_sources(options.opacity, joined.source);
   if (!options.reach.empty()) of_pieces.reach = of_sources(options.reach, joined.source);
   Surface surface = repair_whole(joined.soup, of_pieces, report);
@@ -341,6 +337,10 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
       joined ? repair_joined(soup, *joined, options, report) : repair_whole(soup, options, report);
   report.join_gaps = before.join_gaps;
   report.stages.insert(report.stages.begin(), before.stages.begin(), before.stages.end());
+  if (options.fewer.wanted()) {
+    internal::take_triangles_away(soup, surface, options, report);
+    internal::compare_with_input(soup, surface, report);
+  }
   return surface;
 }
 

@@ -320,7 +320,7 @@ PointSolid repair_points(const PointCloud& cloud, const RepairPointsOptions& opt
                          RepairPointsReport& report, RepairReport& repair) {
   PointSolid solid = repair_cloud(cloud, options, report, repair);
   if (options.repair.fewer.wanted()) {
-    internal::take_triangles_away(solid.surface, options.repair, repair);
+    internal::take_triangles_away({}, solid.surface, options.repair, repair);
   }
   return solid;
 }

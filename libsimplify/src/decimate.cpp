@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <optional>
 #include <queue>
 #include <utility>
 
@@ -18,12 +18,12 @@
 
 #include <base/error.h>
 #include <base/ids.h>
-#include <mesh/edge_table.h>
 #include <mesh/internal/collapsible_mesh.h>
 #include <mesh/mesh_parts.h>
 #include <simplify/decimate.h>
 
 #include "collapse_guard.h"
+#include "corner_places.h"
 #include "quadric.h"
 
 namespace meshrepair {
@@ -32,6 +32,7 @@ namespace {
 using internal::Collapse;
 using internal::CollapseGuard;
 using internal::CollapsibleMesh;
+using internal::CornerPlaces;
 using internal::PointStar;
 using internal::Quadric;
 using internal::Refusal;
@@ -70,7 +71,8 @@ class Decimator {
         became_(mesh.points.size(), kNone),
         first_(mesh.triangles.size()),
         left_(first_) {
-    find_seams(mesh.triangles);
+    seams_.assign(options.seams.begin(), options.seams.end());
+    if (options.find_corners) places_.emplace(mesh.triangles, points_, options.seams);
     fix_points();
     add_quadrics();
   }
@@ -109,6 +111,7 @@ class Decimator {
       }
       result.mesh.triangles.push_back(corners);
       result.source.push_back(t);
+      for (std::uint32_t k = 0; places_ && k < 3; ++k) result.corners.push_back(corner_place(t, k));
     }
     std::vector<std::uint32_t> became = became_;
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
@@ -132,6 +135,13 @@ class Decimator {
     return points_[p] == scale_(given_[p]) ? given_[p] : scale_.back(points_[p]);
   }
 
+  [[nodiscard]] CornerPlace corner_place(std::uint32_t t, std::uint32_t k) const {
+    const Vec3d& p = points_[mesh_.triangles()[t][k]];
+    const Vec3d nearest = places_->nearest(3 * t + k, p);
+    return {places_->triangle(3 * t + k),
+            nearest == p ? place_of(mesh_.triangles()[t][k]) : scale_.back(nearest)};
+  }
+
   struct Edge {
     double cost;
     std::uint32_t from, to;
@@ -143,21 +153,6 @@ class Decimator {
       return std::pair(from, to) > std::pair(other.from, other.to);
     }
   };
-
-  void find_seams(std::span<const IndexTriangle> triangles) {
-    const auto& labels = options_.labels;
-    if (std::adjacent_find(labels.begin(), labels.end(), std::not_equal_to<>()) == labels.end()) {
-      return;
-    }
-    seams_.assign(triangles.size(), 0);
-    EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
-      const auto is_other = [&](std::uint32_t s) { return labels[s / 3] != labels[sides[0] / 3]; };
-      if (std::none_of(sides.begin(), sides.end(), is_other)) return;
-      for (const std::uint32_t side : sides) {
-        seams_[side / 3] = static_cast<std::uint8_t>(seams_[side / 3] | 1u << side % 3);
-      }
-    });
-  }
 
   void fix_points() {
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
@@ -277,16 +272,19 @@ class Decimator {
     collapse_.from = edge.from;
     collapse_.to = edge.to;
     collapse_.gone = {star_.triangles[to], star_.triangles[star_.before(to)]};
+    const auto from = std::find(star_of_to_.link.begin(), star_of_to_.link.end(), edge.from);
     collapse_.fan.clear();
-    for (const PointStar* star : {&star_, &star_of_to_}) {
-      for (std::size_t i = 0; i < star->link.size(); ++i) {
-        const std::uint32_t t = star->triangles[i];
-        if (t == collapse_.gone[0] || t == collapse_.gone[1]) continue;
-        collapse_.fan.push_back(
-            {t, star->link[i], star->link[star->after(i)], star == &star_of_to_});
-      }
-    }
+    append_to_fan(star_, to, false);
+    append_to_fan(star_of_to_, static_cast<std::size_t>(from - star_of_to_.link.begin()), true);
     return true;
+  }
+
+  // All but the two at the other end of the edge: with both stars, once around the new point.
+  void append_to_fan(const PointStar& star, std::size_t other_end, bool is_of_to) {
+    for (std::size_t i = star.after(other_end); star.after(i) != other_end; i = star.after(i)) {
+      collapse_.fan.push_back(
+          {star.triangles[i], star.link[i], star.link[star.after(i)], is_of_to});
+    }
   }
 
   [[nodiscard]] bool is_seam_between(std::uint32_t triangle, std::uint32_t a,
@@ -338,6 +336,7 @@ class Decimator {
     mesh_.collapse(star_, at_);
     points_[edge.to] = collapse_.place;
     guard_.note_made(collapse_);
+    if (places_) move_corners(edge.to);
     quadrics_[edge.to] = both;
     became_[edge.from] = edge.to;
     ++version_[edge.to];
@@ -348,6 +347,26 @@ class Decimator {
     mesh_.visit_corners(edge.to, [&](std::uint32_t, std::uint32_t next, std::uint32_t) {
       queue_.push(edge_between(edge.to, next));
     });
+  }
+
+  // Those between two seams together.
+  void move_corners(std::uint32_t point) {
+    const auto& fan = collapse_.fan;
+    const auto is_last = [&](std::size_t i) {
+      return !seams_.empty() && is_seam_between(fan[i].triangle, point, fan[i].last);
+    };
+    std::size_t first = 0;
+    while (first < fan.size() && !is_last(first)) ++first;
+    corners_.clear();
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      const std::size_t at = (first + 1 + i) % fan.size();
+      const auto& corners = mesh_.triangles()[fan[at].triangle];
+      const auto k = std::find(corners.begin(), corners.end(), point) - corners.begin();
+      corners_.push_back(3 * fan[at].triangle + static_cast<std::uint32_t>(k));
+      if (!is_last(at) && i + 1 < fan.size()) continue;
+      places_->move(corners_, points_[point]);
+      corners_.clear();
+    }
   }
 
   void tell_progress() {
@@ -366,6 +385,7 @@ class Decimator {
   std::vector<Vec3d> points_;  // scaled
   CollapsibleMesh mesh_;
   CollapseGuard guard_;
+  std::optional<CornerPlaces> places_;  // if they are wanted
   std::vector<Quadric> quadrics_;
   std::vector<Freedom> freedom_;
   std::vector<std::uint8_t> seams_;     // of each triangle, a bit for each side; empty: none
@@ -377,6 +397,7 @@ class Decimator {
   PointStar star_, star_of_to_;
   std::size_t at_ = 0;  // in the link of star_, the other end of the edge
   Collapse collapse_;
+  std::vector<std::uint32_t> corners_;
 };
 
 }  // namespace

@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <check/check_surface.h>
 #include <check/mesh_distance.h>
+#include <mesh/edge_table.h>
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <simplify/decimate.h>
@@ -161,26 +164,76 @@ TEST(Decimate, IsNearerThanItsTriangles) {
   EXPECT_LT(distance.largest(), 1e-2);
 }
 
-// The equator is the border of two labels.
-TEST(Decimate, BordersOfLabelsStay) {
-  const TriangleSoup mesh = torus(60, 30);
-  std::vector<std::uint32_t> labels;
-  const auto middle = [&](const TriangleSoup& soup, std::size_t t) {
-    const auto& c = soup.triangles[t];
-    return Vec3d((soup.points[c[0]] + soup.points[c[1]] + soup.points[c[2]]) / 3);
-  };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    labels.push_back(middle(mesh, t).z() > 0 ? 1 : 0);
+// Sides between triangles above and below the plane z = 0.
+std::vector<std::uint8_t> seams_between(const TriangleSoup& mesh, const std::vector<char>& above) {
+  std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
+  EdgeTable(mesh.triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+    if (above[sides[0] / 3] == above[sides[1] / 3]) return;
+    for (const std::uint32_t s : sides) {
+      seams[s / 3] = static_cast<std::uint8_t>(seams[s / 3] | 1u << s % 3);
+    }
+  });
+  return seams;
+}
+
+struct Halves {
+  TriangleSoup mesh = torus(60, 30);
+  std::vector<char> above;
+  std::vector<std::uint8_t> seams;
+
+  Halves() {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) above.push_back(is_above(mesh, t));
+    seams = seams_between(mesh, above);
   }
-  DecimationOptions options;
-  options.triangles = 300;
-  options.labels = labels;
-  DecimationReport report;
-  const DecimatedMesh few = decimate(mesh, options, report);
-  expect_same_kind(mesh, few.mesh);
+
+  static char is_above(const TriangleSoup& soup, std::size_t t) {
+    const auto& c = soup.triangles[t];
+    return (soup.points[c[0]] + soup.points[c[1]] + soup.points[c[2]]).z() > 0 ? 1 : 0;
+  }
+
+  [[nodiscard]] DecimatedMesh reduced() const {
+    DecimationOptions options;
+    options.triangles = 300;
+    options.seams = seams;
+    options.find_corners = true;
+    DecimationReport report;
+    return decimate(mesh, options, report);
+  }
+};
+
+TEST(Decimate, SeamsStay) {
+  const Halves halves;
+  const DecimatedMesh few = halves.reduced();
+  expect_same_kind(halves.mesh, few.mesh);
   EXPECT_LE(few.mesh.triangles.size(), 301u);
   for (std::size_t t = 0; t < few.source.size(); ++t) {
-    EXPECT_EQ(labels[few.source[t]] == 1, middle(few.mesh, t).z() > 0);
+    EXPECT_EQ(halves.above[few.source[t]], Halves::is_above(few.mesh, t));
+  }
+}
+
+// What is near on the other side of a seam does not count.
+TEST(Decimate, CornersLieOnTheirSideOfSeams) {
+  const Halves halves;
+  const DecimatedMesh few = halves.reduced();
+  ASSERT_EQ(few.corners.size(), 3 * few.mesh.triangles.size());
+  const MeshDistance distance = mesh_distance(few.mesh, halves.mesh);
+  for (std::size_t c = 0; c < few.corners.size(); ++c) {
+    EXPECT_EQ(halves.above[few.corners[c].triangle], Halves::is_above(few.mesh, c / 3));
+    const Vec3d& corner = few.mesh.points[few.mesh.triangles[c / 3][c % 3]];
+    EXPECT_LE((few.corners[c].place - corner).norm(), 1.1 * distance.forth.largest);
+  }
+}
+
+TEST(Decimate, CornersThatDidNotMoveAreWhereTheyWere) {
+  const Halves halves;
+  const DecimatedMesh few = halves.reduced();
+  for (std::size_t c = 0; c < few.corners.size(); ++c) {
+    const auto& given = halves.mesh.triangles[few.corners[c].triangle];
+    const Vec3d& corner = few.mesh.points[few.mesh.triangles[c / 3][c % 3]];
+    for (const std::uint32_t p : given) {
+      if (halves.mesh.points[p] != corner) continue;
+      EXPECT_EQ(few.corners[c].place, corner);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <mesh/attributes.h>
 #include <simplify/decimate.h>
 
 namespace meshrepair {
@@ -14,10 +15,19 @@ struct FewerTrianglesOptions {
   std::size_t most = 0;  // triangles of the result, or one fewer; 0: as they come
   double share = 0;      // the same, of the triangles that there were; where `most` is 0
 
-  // Of each triangle of the input, DecimationOptions::labels. Empty: all are alike.
-  std::vector<std::uint32_t> labels;
+  // Of the input: borders of materials, groups, objects and paint, charts of textures, creases of
+  // normals and borders of colours stay where they are as well as the surface does. Not owned; may
+  // be null.
+  const Attributes* attributes = nullptr;
 
   [[nodiscard]] bool wanted() const { return most > 0 || share > 0; }
+};
+
+// A place on a triangle of the input, from which a corner of the result has its values.
+struct CornerOrigin {
+  std::uint32_t source = ~std::uint32_t{0};  // all ones: see Surface::source
+  bool turned = false;                       // the result faces the other way there
+  Vec3d place = Vec3d::Zero();
 };
 
 struct FewerTrianglesReport {
@@ -25,6 +35,8 @@ struct FewerTrianglesReport {
   std::size_t asked = 0;   // triangles
   std::size_t before = 0;  // triangles that there were
   DecimationReport collapses;
+  // Of corner k of triangle t of the result at 3 t + k; empty where no values were given.
+  std::vector<CornerOrigin> corners;
 };
 
 }  // namespace meshrepair

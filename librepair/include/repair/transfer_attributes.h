@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 #include <extract/surface.h>
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
+#include <repair/fewer_triangles.h>
 #include <repair/repair_options.h>
 
 namespace meshrepair {
@@ -39,12 +41,16 @@ void keep_attributes(const TriangleSoup& input, const Attributes& attributes,
 // of the place below it in the plane of its source, and what is nearer to a right angle to that
 // than to be parallel has the normals of its own plane.
 //
+// Where triangles were taken away, `corners` are FewerTrianglesReport::corners, and corners have
+// the values of these places; values of whole triangles are those of the source.
+//
 // Paint of slicers stays on whole triangles, bit for bit, and pieces have that of their place, see
 // PaintCode::within(); patches have none.
 //
 // `attributes` are of `input`, of which `surface` was made. Linear; on several threads.
 [[nodiscard]] Attributes transfer_attributes(const TriangleSoup& input,
                                              const Attributes& attributes, const Surface& surface,
-                                             bool has_walls = false);
+                                             bool has_walls = false,
+                                             std::span<const CornerOrigin> corners = {});
 
 }  // namespace meshrepair

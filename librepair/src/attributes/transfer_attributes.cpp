@@ -55,8 +55,14 @@ std::optional<std::array<double, 3>> shares_of(const Vec3d& p, const Places& tri
 class ValueTransfer {
  public:
   ValueTransfer(const TriangleSoup& input, const CornerAttribute& given, const Surface& surface,
-                const std::vector<std::uint32_t>& sources, bool has_walls)
-      : input_(input), given_(given), surface_(surface), sources_(sources), has_walls_(has_walls) {}
+                const std::vector<std::uint32_t>& sources, bool has_walls,
+                std::span<const CornerOrigin> corners)
+      : input_(input),
+        given_(given),
+        surface_(surface),
+        sources_(sources),
+        has_walls_(has_walls),
+        corners_(corners) {}
 
   CornerAttribute run() {
     const std::size_t corners = 3 * surface_.mesh.triangles.size();
@@ -92,32 +98,36 @@ class ValueTransfer {
     const std::uint32_t source = sources_[t];
     std::fill(of_corner.begin(), of_corner.end(), kNone);
     if (source == Surface::kNoSource) return;
-    const Places from = places_of(input_, source);
-    Places to = places_of(surface_.mesh, t);
-    if (has_walls_) {
-      if (given_.kind == CornerAttribute::Kind::normal && is_steep(from, to)) {
-        return make_flat(to, of_corner, made);
-      }
-      for (Vec3d& p : to) p = on_plane(p, from);
+    const Places from = places_of(input_, source), to = places_of(surface_.mesh, t);
+    if (has_walls_ && given_.kind == CornerAttribute::Kind::normal && is_steep(from, to)) {
+      return make_flat(to, of_corner, made);
     }
-    const std::uint32_t* const given = given_.of_corner.data() + 3 * std::size_t{source};
-    const bool turned = is_turned(from, places_of(surface_.mesh, t));
-    const bool stays = !turns_ || !turned;
-    const bool is_constant = stays && given[0] == given[1] && given[1] == given[2];
-    if (is_constant) return void(std::fill(of_corner.begin(), of_corner.end(), given[0]));
-    const bool is_full = std::none_of(given, given + 3, [](std::uint32_t v) { return v == kNone; });
+    const bool turned = is_turned(from, to);
+    const bool is_by_place = !corners_.empty() && given_.place != CornerAttribute::Place::triangle;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto same =
-          static_cast<std::size_t>(std::find(from.begin(), from.end(), to[k]) - from.begin());
-      if (same < 3 && stays) {
-        of_corner[k] = given[same];
-        continue;
+      CornerOrigin origin{source, turned, to[k]};
+      if (is_by_place && corners_[3 * t + k].source != Surface::kNoSource) {
+        origin = corners_[3 * t + k];
       }
-      const auto shares = is_full ? shares_of(to[k], from) : std::nullopt;
-      if (!shares) continue;
-      of_corner[k] = kMade;
-      append_mixed(given, *shares, turned, made);
+      of_corner[k] = value_at(origin, made);
     }
+  }
+
+  // kMade: it is appended to `made`.
+  std::uint32_t value_at(const CornerOrigin& origin, std::vector<double>& made) const {
+    const std::uint32_t* const given = given_.of_corner.data() + 3 * std::size_t{origin.source};
+    const bool stays = !turns_ || !origin.turned;
+    if (stays && given[0] == given[1] && given[1] == given[2]) return given[0];
+    const Places from = places_of(input_, origin.source);
+    const Vec3d place = has_walls_ ? on_plane(origin.place, from) : origin.place;
+    const auto same =
+        static_cast<std::size_t>(std::find(from.begin(), from.end(), place) - from.begin());
+    if (same < 3 && stays) return given[same];
+    const bool is_full = std::none_of(given, given + 3, [](std::uint32_t v) { return v == kNone; });
+    const auto shares = is_full ? shares_of(place, from) : std::nullopt;
+    if (!shares) return kNone;
+    append_mixed(given, *shares, origin.turned, made);
+    return kMade;
   }
 
   [[nodiscard]] static Vec3d normal_of(const Places& places) {
@@ -201,6 +211,7 @@ class ValueTransfer {
   const Surface& surface_;
   const std::vector<std::uint32_t>& sources_;
   const bool has_walls_;
+  const std::span<const CornerOrigin> corners_;
   const bool turns_ = turns(given_);
 };
 
@@ -231,7 +242,10 @@ class PaintTransfer {
       std::uint32_t code = source == Surface::kNoSource ? kNone : given.codes.of_triangle[source];
       if (code != kNone && !is_whole(t, source)) {
         const auto known = codes.try_emplace(code, given.codes.names[code]).first;
-        code = number_of(code_of(known->second, t, source), result.codes.names, numbers);
+        const PaintCode& known_code = known->second;
+        if (known_code.is_divided() || !known_code.main_state()) {
+          code = number_of(code_of(known->second, t, source), result.codes.names, numbers);
+        }
       }
       result.codes.of_triangle.push_back(code);
     }
@@ -280,11 +294,13 @@ class PaintTransfer {
 }  // namespace
 
 Attributes transfer_attributes(const TriangleSoup& input, const Attributes& attributes,
-                               const Surface& surface, bool has_walls) {
+                               const Surface& surface, bool has_walls,
+                               std::span<const CornerOrigin> corners) {
   Attributes result;
   const std::vector<std::uint32_t> sources = internal::facing_sources(input, surface);
   for (const CornerAttribute& given : attributes.corners) {
-    result.corners.push_back(ValueTransfer(input, given, surface, sources, has_walls).run());
+    result.corners.push_back(
+        ValueTransfer(input, given, surface, sources, has_walls, corners).run());
   }
   result.materials = transfer_labels(attributes.materials, sources);
   result.looks = attributes.looks;

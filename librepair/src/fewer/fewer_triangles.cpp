@@ -10,9 +10,12 @@
 #include <base/error.h>
 #include <base/ids.h>
 #include <repair/explain_repair.h>
+#include <repair/transfer_attributes.h>
 #include <repair/valid_solid.h>
 
+#include "attributes/facing_sources.h"
 #include "report/describe_result.h"
+#include "seams.h"
 #include "valid/keep_valid.h"
 
 namespace meshrepair::internal {
@@ -40,14 +43,25 @@ Surface collapsed(const Surface& before, DecimatedMesh fewer) {
   return surface;
 }
 
-// What closes holes and gaps belongs together.
-std::vector<std::uint32_t> labels_of(const Surface& surface, const FewerTrianglesOptions& fewer) {
-  std::vector<std::uint32_t> labels;
-  if (fewer.labels.empty()) return labels;
-  for (const std::uint32_t t : surface.source) {
-    labels.push_back(t < fewer.labels.size() ? fewer.labels[t] : kNone);
+// Of each corner, where the input has its value.
+std::vector<CornerOrigin> origins_of(const TriangleSoup& input, const Surface& before,
+                                     const std::vector<CornerPlace>& corners) {
+  const std::vector<std::uint32_t> sources = facing_sources(input, before);
+  const auto normal_of = [](const TriangleSoup& soup, std::uint32_t t) {
+    const auto& [a, b, c] = soup.triangles[t];
+    return Vec3d((soup.points[b] - soup.points[a]).cross(soup.points[c] - soup.points[a]));
+  };
+  std::vector<CornerOrigin> origins;
+  origins.reserve(corners.size());
+  for (const CornerPlace& corner : corners) {
+    CornerOrigin& origin = origins.emplace_back();
+    origin.source = sources[corner.triangle];
+    origin.place = corner.place;
+    if (origin.source == Surface::kNoSource) continue;
+    origin.turned =
+        normal_of(input, origin.source).dot(normal_of(before.mesh, corner.triangle)) < 0;
   }
-  return labels;
+  return origins;
 }
 
 void keep_origins(const std::vector<std::uint32_t>& source, RepairExplanation& explanation) {
@@ -60,7 +74,8 @@ void keep_origins(const std::vector<std::uint32_t>& source, RepairExplanation& e
 
 }  // namespace
 
-void take_triangles_away(Surface& surface, const RepairOptions& options, RepairReport& report) {
+void take_triangles_away(const TriangleSoup& input, Surface& surface, const RepairOptions& options,
+                         RepairReport& report) {
   FewerTrianglesReport& told = report.fewer;
   told.before = surface.mesh.triangles.size();
   told.asked = asked_of(options.fewer, told.before);
@@ -70,8 +85,13 @@ void take_triangles_away(Surface& surface, const RepairOptions& options, RepairR
   DecimationOptions decimation;
   decimation.triangles = told.asked;
   decimation.precision = options.certify.precision;
-  const std::vector<std::uint32_t> labels = labels_of(surface, options.fewer);
-  decimation.labels = labels;
+  std::vector<std::uint8_t> seams;
+  if (const Attributes* const given = options.fewer.attributes; given != nullptr) {
+    const bool has_walls = report.thicken.triangles > 0;
+    seams = find_seams(surface, transfer_attributes(input, *given, surface, has_walls));
+    decimation.find_corners = !given->corners.empty();
+  }
+  decimation.seams = seams;
   decimation.progress = options.progress;
   DecimatedMesh fewer = decimate(surface.mesh, decimation, told.collapses);
   told.done = true;
@@ -81,6 +101,7 @@ void take_triangles_away(Surface& surface, const RepairOptions& options, RepairR
     throw InternalError("with fewer triangles the surface is no boundary of a solid any more");
   }
   keep_origins(fewer.source, report.explanation);
+  if (decimation.find_corners) told.corners = origins_of(input, surface, fewer.corners);
   surface = collapsed(surface, std::move(fewer));
   report.spared_cells |= std::exchange(report.kept_valid, false);
   describe_output(surface, report);

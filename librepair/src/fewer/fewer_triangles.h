@@ -8,8 +8,10 @@
 
 namespace meshrepair::internal {
 
-// Stage "fewer". Where the surface is not certified, it stays as it is. Brings the report up to
-// date. Throws Cancelled; InternalError where what comes out is not the boundary of a solid.
-void take_triangles_away(Surface& surface, const RepairOptions& options, RepairReport& report);
+// Stage "fewer". The surface was made of `input`. Where the surface is not certified, it stays as
+// it is. Brings the report up to date. Throws Cancelled; InternalError where what comes out is not
+// the boundary of a solid.
+void take_triangles_away(const TriangleSoup& input, Surface& surface, const RepairOptions& options,
+                         RepairReport& report);
 
 }  // namespace meshrepair::internal

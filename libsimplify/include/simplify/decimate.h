@@ -23,9 +23,11 @@ struct DecimationOptions {
   std::size_t triangles = 0;
   // Of new points.
   Precision precision = Precision::float64;
-  // Of each triangle, what it belongs to: borders between triangles of different labels stay where
-  // they are as well as the surface does, and no two become one. Not owned. Empty: all are alike.
-  std::span<const std::uint32_t> labels = {};
+  // Of each triangle, a bit for each side that is a seam, 1 << k for the one from corner k to the
+  // next: seams stay where they are as well as the surface does, and no two become one. An edge is
+  // a seam on both sides or on none. Not owned. Empty: there are none.
+  std::span<const std::uint8_t> seams = {};
+  bool find_corners = false;             // whether DecimatedMesh::corners is wanted
   ProgressObserver* progress = nullptr;  // not owned; no stage is begun
 };
 
@@ -40,12 +42,21 @@ struct DecimationReport {
   std::size_t would_meet = 0;             // make triangles meet, or a part swallow another one
 };
 
+// A place on a triangle of the input.
+struct CornerPlace {
+  std::uint32_t triangle = 0;
+  Vec3d place = Vec3d::Zero();
+};
+
 struct DecimatedMesh {
   TriangleSoup mesh;
   // Of each triangle, that of the input which it was.
   std::vector<std::uint32_t> source;
   // Of each point of the input, the one of the mesh that it was collapsed into; or stayed.
   std::vector<std::uint32_t> point;
+  // Of corner k of triangle t at 3 t + k, if wanted: where the input is nearest to it, on the side
+  // of all seams that the triangle is on. Corners of a point that no seam parts have the same.
+  std::vector<CornerPlace> corners;
 };
 
 // Collapses edges, the one that changes the surface least first, as measured by quadrics (M.

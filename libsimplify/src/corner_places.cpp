@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "corner_places.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <base/ids.h>
+#include <check/internal/nearest_triangle.h>
+#include <mesh/edge_table.h>
+
+namespace meshrepair::internal {
+namespace {
+
+// Around a point, many triangles may be as near as one another, with a nearer one behind them.
+constexpr std::size_t kMostLookedAt = 48;  // since the last that was nearer
+
+Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d ab = b - a;
+  const double length = ab.squaredNorm();
+  if (!(length > 0)) return a;
+  return a + std::clamp((p - a).dot(ab) / length, 0.0, 1.0) * ab;
+}
+
+// As squared_distance() finds how far it is.
+Vec3d nearest_on_triangle(const Vec3d& p, const Corners& triangle) {
+  const auto& [a, b, c] = triangle;
+  if (p == a || p == b || p == c) return p;
+  const Vec3d ab = b - a, ac = c - a, ap = p - a;
+  const Vec3d normal = ab.cross(ac);
+  const double size = normal.squaredNorm();
+  const double v = ap.cross(ac).dot(normal), w = ab.cross(ap).dot(normal);
+  if (v >= 0 && w >= 0 && v + w <= size && size > 0) return a + v / size * ab + w / size * ac;
+  Vec3d nearest = a;
+  for (const Vec3d& q :
+       {nearest_on_segment(p, a, b), nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)}) {
+    if ((q - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = q;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+CornerPlaces::CornerPlaces(std::span<const IndexTriangle> triangles, std::vector<Vec3d> points,
+                           std::span<const std::uint8_t> seams)
+    : triangles_(triangles.begin(), triangles.end()),
+      points_(std::move(points)),
+      beyond_(triangles.size(), {kNone, kNone, kNone}),
+      triangle_of_(3 * triangles.size()),
+      looked_at_by_(triangles.size(), 0) {
+  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+    const auto is_seam = [&](std::uint32_t s) { return (seams[s / 3] >> s % 3 & 1) != 0; };
+    if (sides.size() != 2 || (!seams.empty() && is_seam(sides[0]))) return;
+    beyond_[sides[0] / 3][sides[0] % 3] = sides[1] / 3;
+    beyond_[sides[1] / 3][sides[1] % 3] = sides[0] / 3;
+  });
+  for (std::uint32_t c = 0; c < triangle_of_.size(); ++c) triangle_of_[c] = c / 3;
+}
+
+std::array<Vec3d, 3> CornerPlaces::corners_of(std::uint32_t triangle) const {
+  const auto& [a, b, c] = triangles_[triangle];
+  return {points_[a], points_[b], points_[c]};
+}
+
+void CornerPlaces::move(std::span<const std::uint32_t> corners, const Vec3d& place) {
+  std::uint32_t nearest = triangle_of_[corners[0]];
+  double least = squared_distance(place, corners_of(nearest));
+  for (const std::uint32_t corner : corners.subspan(1)) {
+    const std::uint32_t t = triangle_of_[corner];
+    if (t == nearest) continue;
+    const double distance = squared_distance(place, corners_of(t));
+    if (distance < least) std::tie(nearest, least) = std::pair(t, distance);
+  }
+  nearest = nearest_from(nearest, place);
+  for (const std::uint32_t corner : corners) triangle_of_[corner] = nearest;
+}
+
+std::uint32_t CornerPlaces::nearest_from(std::uint32_t triangle, const Vec3d& place) {
+  ++search_;
+  std::uint32_t nearest = triangle;
+  double least = squared_distance(place, corners_of(triangle));
+  looked_at_by_[triangle] = search_;
+  to_look_at_.assign(1, triangle);
+  for (std::size_t i = 0; i < to_look_at_.size() && to_look_at_.size() < kMostLookedAt; ++i) {
+    for (const std::uint32_t t : beyond_[to_look_at_[i]]) {
+      if (t == kNone || looked_at_by_[t] == search_) continue;
+      looked_at_by_[t] = search_;
+      const double distance = squared_distance(place, corners_of(t));
+      if (distance < least) {  // all that is farther is forgotten
+        std::tie(nearest, least) = std::pair(t, distance);
+        to_look_at_.assign(1, t);
+        i = ~std::size_t{0};
+        break;
+      }
+      to_look_at_.push_back(t);
+    }
+  }
+  return nearest;
+}
+
+Vec3d CornerPlaces::nearest(std::uint32_t corner, const Vec3d& place) const {
+  return nearest_on_triangle(place, corners_of(triangle_of_[corner]));
+}
+
+}  // namespace meshrepair::internal
