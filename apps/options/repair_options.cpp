@@ -100,14 +100,13 @@ std::string why_not_kept(const std::string& word) {
 }
 
 // What --triangles says; nothing where it is neither a number nor a share.
-std::optional<FewerTrianglesOptions> fewer_by(const std::string& word) {
-  FewerTrianglesOptions fewer;
+std::optional<std::pair<std::size_t, double>> fewer_by(const std::string& word) {
   if (word.ends_with('%')) {
-    fewer.share = parse_number(word.substr(0, word.size() - 1)).value_or(0) / 100;
-    return fewer.share > 0 && fewer.share <= 1 ? std::optional(fewer) : std::nullopt;
+    const double share = parse_number(word.substr(0, word.size() - 1)).value_or(0) / 100;
+    return share > 0 && share <= 1 ? std::optional(std::pair(std::size_t{0}, share)) : std::nullopt;
   }
-  fewer.most = parse_count(word).value_or(0);
-  return fewer.most >= 4 ? std::optional(fewer) : std::nullopt;
+  const std::size_t most = parse_count(word).value_or(0);
+  return most >= 4 ? std::optional(std::pair(most, 0.0)) : std::nullopt;
 }
 
 // For check(): an empty text where the word is one.
@@ -310,12 +309,28 @@ void add_keep_options(CommandLine& app, KeepPartsOptions& keep) {
 
 void add_triangles_option(CommandLine& app, FewerTrianglesOptions& fewer) {
   app.add_option_function(
-         "--triangles", [&fewer](const std::string& word) { fewer = *fewer_by(word); },
+         "--triangles",
+         [&fewer](const std::string& word) { std::tie(fewer.most, fewer.share) = *fewer_by(word); },
          "Reduce the result to this many triangles, or to this share of them, such as 10%.\n"
          "No collapse makes triangles intersect, opens the surface or changes its genus;\n"
          "more triangles stay where that takes them")
       ->check(why_not_fewer)
       ->type_name("N|N%")
+      ->group("Repair");
+}
+
+void add_max_error_option(CommandLine& app, FewerTrianglesOptions& fewer) {
+  app.add_option_function(
+         "--max-error",
+         [&fewer](const std::string& word) {
+           std::tie(fewer.distance, fewer.distance_is_share) = *length_in(word);
+         },
+         "Reduce the result until it would be farther than this from the repaired mesh, in\n"
+         "either direction: in units of IN, or as a percentage of the bounding box diagonal,\n"
+         "such as 0.1%. The distance is proven, not sampled. With --triangles, whichever\n"
+         "comes first")
+      ->check(why_no_length)
+      ->type_name("X|X%")
       ->group("Repair");
 }
 

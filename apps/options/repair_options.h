@@ -43,6 +43,8 @@ void add_negative_option(CommandLine& app, NegativeVolumes& negative);
 
 // --triangles: how many of the result stay.
 void add_triangles_option(CommandLine& app, FewerTrianglesOptions& fewer);
+// --max-error: how far they may be from those of before.
+void add_max_error_option(CommandLine& app, FewerTrianglesOptions& fewer);
 // --simplify: how far the surface may move to have fewer triangles.
 void add_simplify_option(CommandLine& app, double& simplify);
 

@@ -300,11 +300,15 @@ Json section_of(const FewerTrianglesReport& fewer) {
   return {{"done", fewer.done},
           {"asked", fewer.asked},
           {"before", fewer.before},
+          {"max_error", fewer.most_distance},
+          {"unproven", fewer.is_unproven},
           {"collapses", fewer.collapses.collapses},
           {"largest_error", fewer.collapses.largest_error},
           {"would_change_topology", fewer.collapses.would_change_topology},
+          {"would_break_seam", fewer.collapses.would_break_seam},
           {"would_fold", fewer.collapses.would_fold},
-          {"would_intersect", fewer.collapses.would_meet}};
+          {"would_intersect", fewer.collapses.would_meet},
+          {"would_exceed_error", fewer.collapses.would_part}};
 }
 
 Json section_of(const KeepPartsReport& keep) {
@@ -412,7 +416,7 @@ void add_what_was_taken_away(const RepairReport& repair, JsonReport& report) {
     report.set_section("simplify", section_of(repair.simplify));
   }
   if (repair.keep.asked) report.set_section("keep", section_of(repair.keep));
-  if (repair.fewer.asked > 0) report.set_section("fewer", section_of(repair.fewer));
+  if (repair.fewer.before > 0) report.set_section("fewer", section_of(repair.fewer));
 }
 
 }  // namespace

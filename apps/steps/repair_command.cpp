@@ -57,6 +57,7 @@ void scale_lengths(double factor, RepairOptions& options, ScanBaseOptions& base)
   if (!options.join_gaps.is_share) options.join_gaps.distance *= factor;
   if (!options.seal.is_share) options.seal.size *= factor;
   if (!options.thicken.is_share) options.thicken.thickness *= factor;
+  if (!options.fewer.distance_is_share) options.fewer.distance *= factor;
   if (!base.is_share) base.depth *= factor;
   if (base.floor) *base.floor *= factor;
 }
@@ -114,6 +115,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_thicken_options(app, max_hole, options.repair.thicken);
   add_keep_options(app, options.repair.keep);
   add_triangles_option(app, options.repair.fewer);
+  add_max_error_option(app, options.repair.fewer);
   add_touching_option(app, options.repair.extract.touching);
   add_simplify_option(app, options.repair.simplify);
   add_scene_option(app, options.assets);

@@ -422,9 +422,14 @@ std::vector<std::string> simplified(const SimplifyReport& report) {
 
 std::vector<std::string> reduced(const RepairReport& repair) {
   if (!repair.fewer.done) return {};
-  return {fmt::format("{} to {} of {} asked for, quadric error up to {:.2g}",
-                      number_of(repair.fewer.before, "triangle"), grouped(repair.output.triangles),
-                      grouped(repair.fewer.asked), repair.fewer.collapses.largest_error)};
+  const FewerTrianglesReport& fewer = repair.fewer;
+  std::string text = fmt::format("{} to {}", number_of(fewer.before, "triangle"),
+                                 grouped(repair.output.triangles));
+  if (fewer.asked > 0) text += fmt::format(" of {} asked for", grouped(fewer.asked));
+  text += fewer.most_distance > 0
+              ? fmt::format(", proven to be at most {:.3g} away", fewer.most_distance)
+              : fmt::format(", quadric error up to {:.2g}", fewer.collapses.largest_error);
+  return {text};
 }
 
 void describe_mesh(const Findings& findings, double seconds, Lines& lines) {

@@ -114,20 +114,33 @@ void warn_of_unknown_parts(const Findings& findings) {
         "all parts stay, as a surface that is not closed does not tell solids apart"});
 }
 
+std::string reasons_of(const DecimationReport& why) {
+  std::vector<std::string> reasons;
+  const auto add = [&](std::size_t count, const char* reason) {
+    if (count > 0) reasons.push_back(fmt::format("{} ({})", reason, count));
+  };
+  add(why.would_meet, "make triangles intersect");
+  add(why.would_fold, "fold them over");
+  add(why.would_change_topology, "change the topology");
+  add(why.would_part, "exceed --max-error");
+  add(why.would_break_seam, "move ends of seams of textures or materials");
+  return fmt::format("{}", fmt::join(reasons, ", or "));
+}
+
 void warn_of_triangles_left(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   const FewerTrianglesReport& fewer = repair.fewer;
-  if (fewer.asked == 0 || repair.output.triangles <= fewer.asked) return;
-  const DecimationReport& why = fewer.collapses;
+  const std::size_t left = repair.output.triangles;
+  const bool too_many = fewer.asked > 0 && left > fewer.asked;
+  if (fewer.before == 0 || (fewer.done && !fewer.is_unproven && !too_many)) return;
+  const std::string why =
+      !fewer.done ? "no triangles are taken away, as the result is not certified"
+      : fewer.is_unproven
+          ? "no triangles are taken away, as none could be within --max-error for sure"
+          : fmt::format("{} stay, not {}: collapsing more edges would {}",
+                        number_of(left, "triangle"), fewer.asked, reasons_of(fewer.collapses));
   warn(findings.output_name(),
-       {WarningCode::triangles_left,
-        fewer.done
-            ? fmt::format("{} stay, not {}: collapsing more edges would make triangles intersect "
-                          "({}), fold them over ({}), or change the topology ({})",
-                          number_of(repair.output.triangles, "triangle"), fewer.asked,
-                          why.would_meet, why.would_fold, why.would_change_topology)
-            : std::string("no triangles are taken away, as the result is not certified"),
-        {{"asked", fewer.asked}, {"triangles", repair.output.triangles}}});
+       {WarningCode::triangles_left, why, {{"asked", fewer.asked}, {"triangles", left}}});
 }
 
 // Where that is much: in single precision other numbers would have kept it.

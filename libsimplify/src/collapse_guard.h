@@ -35,7 +35,7 @@ struct Collapse {
   std::array<std::uint32_t, 2> gone{};
 };
 
-enum class Refusal { none, topology, fold, meeting };
+enum class Refusal { none, topology, fold, meeting, distance };
 
 class CollapseGuard {
  public:

@@ -65,6 +65,19 @@ std::array<Vec3d, 3> CornerPlaces::corners_of(std::uint32_t triangle) const {
 }
 
 void CornerPlaces::move(std::span<const std::uint32_t> corners, const Vec3d& place) {
+  const std::uint32_t nearest = nearest_from(nearest_of(corners, place), place);
+  for (const std::uint32_t corner : corners) triangle_of_[corner] = nearest;
+}
+
+bool CornerPlaces::is_within(std::span<const std::uint32_t> corners, const Vec3d& place,
+                             double most_squared) {
+  const std::uint32_t nearest = nearest_from(nearest_of(corners, place), place, most_squared);
+  return squared_distance(place, corners_of(nearest)) <= most_squared;
+}
+
+// Of those that the corners lie on.
+std::uint32_t CornerPlaces::nearest_of(std::span<const std::uint32_t> corners,
+                                       const Vec3d& place) const {
   std::uint32_t nearest = triangle_of_[corners[0]];
   double least = squared_distance(place, corners_of(nearest));
   for (const std::uint32_t corner : corners.subspan(1)) {
@@ -73,22 +86,24 @@ void CornerPlaces::move(std::span<const std::uint32_t> corners, const Vec3d& pla
     const double distance = squared_distance(place, corners_of(t));
     if (distance < least) std::tie(nearest, least) = std::pair(t, distance);
   }
-  nearest = nearest_from(nearest, place);
-  for (const std::uint32_t corner : corners) triangle_of_[corner] = nearest;
+  return nearest;
 }
 
-std::uint32_t CornerPlaces::nearest_from(std::uint32_t triangle, const Vec3d& place) {
+std::uint32_t CornerPlaces::nearest_from(std::uint32_t triangle, const Vec3d& place,
+                                         double enough_squared) {
   ++search_;
   std::uint32_t nearest = triangle;
   double least = squared_distance(place, corners_of(triangle));
   looked_at_by_[triangle] = search_;
   to_look_at_.assign(1, triangle);
+  if (least <= enough_squared) return nearest;
   for (std::size_t i = 0; i < to_look_at_.size() && to_look_at_.size() < kMostLookedAt; ++i) {
     for (const std::uint32_t t : beyond_[to_look_at_[i]]) {
       if (t == kNone || looked_at_by_[t] == search_) continue;
       looked_at_by_[t] = search_;
       const double distance = squared_distance(place, corners_of(t));
       if (distance < least) {  // all that is farther is forgotten
+        if (distance <= enough_squared) return t;
         std::tie(nearest, least) = std::pair(t, distance);
         to_look_at_.assign(1, t);
         i = ~std::size_t{0};

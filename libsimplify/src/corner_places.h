@@ -26,6 +26,10 @@ class CornerPlaces {
   // `place`. All of them have one place on the first surface from now on.
   void move(std::span<const std::uint32_t> corners, const Vec3d& place);
 
+  // Whether one of the corners would not be farther from the first surface there, squared.
+  [[nodiscard]] bool is_within(std::span<const std::uint32_t> corners, const Vec3d& place,
+                               double most_squared);
+
   // The triangle of the first surface that a corner lies on.
   [[nodiscard]] std::uint32_t triangle(std::uint32_t corner) const { return triangle_of_[corner]; }
   // The nearest point of that triangle.
@@ -33,7 +37,10 @@ class CornerPlaces {
 
  private:
   [[nodiscard]] std::array<Vec3d, 3> corners_of(std::uint32_t triangle) const;
-  [[nodiscard]] std::uint32_t nearest_from(std::uint32_t triangle, const Vec3d& place);
+  [[nodiscard]] std::uint32_t nearest_of(std::span<const std::uint32_t> corners,
+                                         const Vec3d& place) const;
+  [[nodiscard]] std::uint32_t nearest_from(std::uint32_t triangle, const Vec3d& place,
+                                           double enough_squared = -1);
 
   std::vector<IndexTriangle> triangles_;
   std::vector<Vec3d> points_;

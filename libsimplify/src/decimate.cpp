@@ -24,6 +24,7 @@
 
 #include "collapse_guard.h"
 #include "corner_places.h"
+#include "distance_guard.h"
 #include "quadric.h"
 
 namespace meshrepair {
@@ -33,6 +34,7 @@ using internal::Collapse;
 using internal::CollapseGuard;
 using internal::CollapsibleMesh;
 using internal::CornerPlaces;
+using internal::DistanceGuard;
 using internal::PointStar;
 using internal::Quadric;
 using internal::Refusal;
@@ -50,6 +52,9 @@ constexpr double kFarthest = 2;
 // Another round through what was refused pays if the last one took away more than one in so many of
 // the triangles that are left.
 constexpr std::size_t kFewOfLeft = 256;
+
+// Where quadrics tell of an error so many times the distance that is allowed, no one has to look.
+constexpr double kHopeless = 2;
 
 // What a point may do.
 enum class Freedom : std::uint8_t { free, on_seam, fixed };
@@ -72,7 +77,9 @@ class Decimator {
         first_(mesh.triangles.size()),
         left_(first_) {
     seams_.assign(options.seams.begin(), options.seams.end());
-    if (options.find_corners) places_.emplace(mesh.triangles, points_, options.seams);
+    const bool has_limit = std::isfinite(options.distance);
+    if (options.find_corners || has_limit) places_.emplace(mesh.triangles, points_, options.seams);
+    if (has_limit) distance_.emplace(points_, mesh.triangles, scale_(options.distance));
     fix_points();
     add_quadrics();
   }
@@ -81,7 +88,8 @@ class Decimator {
     std::size_t gone = left_;  // in the last round
     while (left_ > options_.triangles && gone > left_ / kFewOfLeft) {
       const std::size_t before = left_;
-      report_.would_change_topology = report_.would_fold = report_.would_meet = 0;
+      report_.would_change_topology = report_.would_break_seam = report_.would_fold = 0;
+      report_.would_meet = report_.would_part = 0;
       fill_queue();
       while (left_ > options_.triangles && !queue_.empty()) {
         const Edge edge = queue_.top();
@@ -92,6 +100,7 @@ class Decimator {
         try_to_collapse(edge);
       }
       gone = before - left_;
+      if (distance_) break;  // hardly anything comes of what is too far
     }
   }
 
@@ -111,7 +120,8 @@ class Decimator {
       }
       result.mesh.triangles.push_back(corners);
       result.source.push_back(t);
-      for (std::uint32_t k = 0; places_ && k < 3; ++k) result.corners.push_back(corner_place(t, k));
+      for (std::uint32_t k = 0; options_.find_corners && k < 3; ++k)
+        result.corners.push_back(corner_place(t, k));
     }
     std::vector<std::uint32_t> became = became_;
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
@@ -156,7 +166,7 @@ class Decimator {
 
   void fix_points() {
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
-      if (guard_.is_held(p)) freedom_[p] = Freedom::fixed;
+      if (is_held(p)) freedom_[p] = Freedom::fixed;
     }
     if (seams_.empty()) return;
     std::vector<std::uint8_t> seams_at(points_.size(), 0);  // each from both sides
@@ -173,6 +183,10 @@ class Decimator {
       if (seams_at[p] == 0 || freedom_[p] == Freedom::fixed) continue;
       freedom_[p] = seams_at[p] == 4 ? Freedom::on_seam : Freedom::fixed;
     }
+  }
+
+  [[nodiscard]] bool is_held(std::uint32_t point) const {
+    return guard_.is_held(point) || (!options_.stays.empty() && options_.stays[point] != 0);
   }
 
   [[nodiscard]] bool is_seam(std::size_t triangle, std::uint32_t side) const {
@@ -241,8 +255,12 @@ class Decimator {
   }
 
   void try_to_collapse(const Edge& edge) {
-    if (freedom_[edge.from] == Freedom::fixed || !find_collapse(edge)) {
+    if (is_held(edge.from) || !find_collapse(edge)) {
       ++report_.would_change_topology;
+      return;
+    }
+    if (!seams_.empty() && !keeps_seams(edge)) {
+      ++report_.would_break_seam;
       return;
     }
     Quadric both = quadrics_[edge.from];
@@ -253,11 +271,45 @@ class Decimator {
     for (const Vec3d& place : {best, points_[edge.to], points_[edge.from]}) {
       const double error = std::sqrt(both.at(place) / both.weight());
       collapse_.place = scale_(internal::rounded_to(scale_.back(place), options_.precision));
-      why = guard_.refusal(collapse_);
+      why = stays_near(edge, error) ? guard_.refusal(collapse_) : Refusal::distance;
       if (why == Refusal::none) return make(edge, both, error);
-      if (!may_move) break;
+      if (!may_move || why == Refusal::distance) break;
     }
-    ++(why == Refusal::fold ? report_.would_fold : report_.would_meet);
+    ++(why == Refusal::distance ? report_.would_part
+       : why == Refusal::fold   ? report_.would_fold
+                                : report_.would_meet);
+  }
+
+  [[nodiscard]] bool stays_near(const Edge& edge, double error) {
+    if (!distance_) return true;
+    if (error > kHopeless * scale_(options_.distance)) return false;
+    if (!distance_->allows(collapse_, points_)) return false;
+    list_corners([&](const auto& t) { return t.was_of_to ? edge.to : edge.from; });
+    const double most = scale_(options_.distance);
+    if (!places_->is_within(corners_, collapse_.place, most * most)) return false;
+    return std::all_of(collapse_.fan.begin(), collapse_.fan.end(), [&](const auto& t) {
+      const std::array<std::uint32_t, 2> nearby = {corner_of(t.triangle, t.next),
+                                                   corner_of(t.triangle, t.last)};
+      const Vec3d middle = 0.5 * (collapse_.place + points_[t.next]);
+      const Vec3d centre = (collapse_.place + points_[t.next] + points_[t.last]) / 3;
+      return places_->is_within(nearby, middle, most * most) &&
+             places_->is_within(nearby, centre, most * most);
+    });
+  }
+
+  [[nodiscard]] std::uint32_t corner_of(std::uint32_t triangle, std::uint32_t point) const {
+    const auto& corners = mesh_.triangles()[triangle];
+    const auto k = std::find(corners.begin(), corners.end(), point) - corners.begin();
+    return 3 * triangle + static_cast<std::uint32_t>(k);
+  }
+
+  // Of the triangles of the fan, at their points.
+  template <class PointOf>
+  void list_corners(const PointOf& point_of) {
+    corners_.clear();
+    for (const auto& t : collapse_.fan) {
+      corners_.push_back(corner_of(t.triangle, point_of(t)));
+    }
   }
 
   // False where it may not be.
@@ -267,7 +319,6 @@ class Decimator {
     if (found == star_.link.end()) return false;
     const auto to = static_cast<std::size_t>(found - star_.link.begin());
     if (!mesh_.may_collapse(star_, to)) return false;
-    if (!seams_.empty() && !keeps_seams(edge, to)) return false;
     at_ = to;
     collapse_.from = edge.from;
     collapse_.to = edge.to;
@@ -298,14 +349,15 @@ class Decimator {
   }
 
   // A point of a seam moves along it, and no two seams become one.
-  [[nodiscard]] bool keeps_seams(const Edge& edge, std::size_t to) const {
-    if (freedom_[edge.from] == Freedom::on_seam &&
-        !is_seam_between(star_.triangles[to], edge.from, edge.to)) {
+  [[nodiscard]] bool keeps_seams(const Edge& edge) const {
+    const Freedom freedom = freedom_[edge.from];
+    if (freedom == Freedom::fixed || (freedom == Freedom::on_seam &&
+                                      !is_seam_between(star_.triangles[at_], edge.from, edge.to))) {
       return false;
     }
-    for (const std::size_t side : {to, star_.before(to)}) {
+    for (const std::size_t side : {at_, star_.before(at_)}) {
       const std::uint32_t t = star_.triangles[side];
-      const std::uint32_t third = star_.link[side == to ? star_.after(to) : side];
+      const std::uint32_t third = star_.link[side == at_ ? star_.after(at_) : side];
       if (is_seam_between(t, edge.from, third) && is_seam_between(t, edge.to, third)) return false;
     }
     return true;
@@ -336,6 +388,7 @@ class Decimator {
     mesh_.collapse(star_, at_);
     points_[edge.to] = collapse_.place;
     guard_.note_made(collapse_);
+    if (distance_) distance_->note_made(collapse_);
     if (places_) move_corners(edge.to);
     quadrics_[edge.to] = both;
     became_[edge.from] = edge.to;
@@ -352,20 +405,20 @@ class Decimator {
   // Those between two seams together.
   void move_corners(std::uint32_t point) {
     const auto& fan = collapse_.fan;
+    list_corners([&](const auto&) { return point; });
     const auto is_last = [&](std::size_t i) {
       return !seams_.empty() && is_seam_between(fan[i].triangle, point, fan[i].last);
     };
     std::size_t first = 0;
     while (first < fan.size() && !is_last(first)) ++first;
-    corners_.clear();
-    for (std::size_t i = 0; i < fan.size(); ++i) {
-      const std::size_t at = (first + 1 + i) % fan.size();
-      const auto& corners = mesh_.triangles()[fan[at].triangle];
-      const auto k = std::find(corners.begin(), corners.end(), point) - corners.begin();
-      corners_.push_back(3 * fan[at].triangle + static_cast<std::uint32_t>(k));
-      if (!is_last(at) && i + 1 < fan.size()) continue;
-      places_->move(corners_, points_[point]);
-      corners_.clear();
+    if (first < fan.size()) {
+      const auto middle = static_cast<std::ptrdiff_t>(first) + 1;
+      std::rotate(corners_.begin(), corners_.begin() + middle, corners_.end());
+    }
+    for (std::size_t i = 0, begin = 0; i < fan.size(); ++i) {
+      if (i + 1 < fan.size() && !is_last((first + 1 + i) % fan.size())) continue;
+      places_->move(std::span(corners_).subspan(begin, i + 1 - begin), points_[point]);
+      begin = i + 1;
     }
   }
 
@@ -385,7 +438,8 @@ class Decimator {
   std::vector<Vec3d> points_;  // scaled
   CollapsibleMesh mesh_;
   CollapseGuard guard_;
-  std::optional<CornerPlaces> places_;  // if they are wanted
+  std::optional<CornerPlaces> places_;     // if they are wanted, or there is
+  std::optional<DistanceGuard> distance_;  // a limit
   std::vector<Quadric> quadrics_;
   std::vector<Freedom> freedom_;
   std::vector<std::uint8_t> seams_;     // of each triangle, a bit for each side; empty: none

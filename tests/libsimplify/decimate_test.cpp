@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -234,6 +236,65 @@ TEST(Decimate, CornersThatDidNotMoveAreWhereTheyWere) {
       if (halves.mesh.points[p] != corner) continue;
       EXPECT_EQ(few.corners[c].place, corner);
     }
+  }
+}
+
+// Each triangle into four.
+TriangleSoup divided(const TriangleSoup& soup) {
+  TriangleSoup result{soup.points, {}};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto next = static_cast<std::uint32_t>(result.points.size());
+    const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), next);
+    if (is_new) result.points.emplace_back(0.5 * (result.points[a] + result.points[b]));
+    return found->second;
+  };
+  for (const auto& [a, b, c] : soup.triangles) {
+    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    result.triangles.insert(result.triangles.end(),
+                            {{{a, ab, ca}}, {{ab, b, bc}}, {{ca, bc, c}}, {{bc, ca, ab}}});
+  }
+  return result;
+}
+
+TEST(Decimate, FlatFacesCostNoDistance) {
+  DecimationOptions options;
+  options.distance = 1e-9;
+  DecimationReport report;
+  const DecimatedMesh few = decimate(divided(divided(divided(cube()))), options, report);
+  EXPECT_EQ(few.mesh.triangles.size(), 12u);
+}
+
+TEST(Decimate, PointsStayWithinTheDistance) {
+  const TriangleSoup mesh = noisy_sphere(3000, 0.01, 1);
+  std::size_t last = 0;
+  for (const double most : {0.03, 0.01, 0.003}) {
+    DecimationOptions options;
+    options.distance = most;
+    DecimationReport report;
+    const DecimatedMesh few = decimate(mesh, options, report);
+    expect_same_kind(mesh, few.mesh);
+    EXPECT_GT(few.mesh.triangles.size(), last);
+    last = few.mesh.triangles.size();
+    EXPECT_GT(report.would_part, 0u);
+    // Corners of the one and of the other, from all of the surface.
+    DistanceOptions corners;
+    corners.samples = 1;
+    EXPECT_LE(mesh_distance(mesh, few.mesh, corners).largest(), most * (1 + 1e-12));
+  }
+}
+
+TEST(Decimate, PointsThatAreToStayDo) {
+  const TriangleSoup mesh = sphere(2000);
+  std::vector<char> stays(mesh.points.size(), 0);
+  for (std::size_t p = 0; p < stays.size(); p += 50) stays[p] = 1;
+  DecimationOptions options;
+  options.triangles = 4;
+  options.stays = stays;
+  DecimationReport report;
+  const DecimatedMesh few = decimate(mesh, options, report);
+  for (std::size_t p = 0; p < stays.size(); p += 50) {
+    EXPECT_EQ(few.mesh.points[few.point[p]], mesh.points[p]);
   }
 }
 

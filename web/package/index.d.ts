@@ -65,6 +65,7 @@ export interface RepairOptions extends FileOptions {
   keep?: 'all' | 'outer' | 'largest' | number;
   simplify?: number;
   triangles?: number | string;
+  maxError?: number | string;
   always?: boolean;
   precision?: 'float32' | 'float64';
   /** Make the page that --html writes, too. Of files. */

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <base/progress.h>
 #include <mesh/soup.h>
@@ -56,6 +57,13 @@ struct MeshDistance {
 // The one way alone: from the points of one mesh to the other. As above; `bound` too.
 [[nodiscard]] OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup& to,
                                                   const DistanceOptions& options = {});
+
+// Triangles of `from`, in their order, some point of which may be farther than that from `to`; all
+// others are proven to be within, rounding included. Cheaper than a bound. All corners are finite.
+// The same for any number of threads. Throws as above.
+[[nodiscard]] std::vector<std::uint32_t> triangles_beyond(const TriangleSoup& from,
+                                                          const TriangleSoup& to, double distance,
+                                                          ProgressObserver* progress = nullptr);
 
 // Of the box around the triangles that are finite. Throws InputError where there is none.
 [[nodiscard]] double bounding_diagonal(const TriangleSoup& soup);

@@ -32,6 +32,8 @@ constexpr std::size_t kPiecesPerTask = 512;
 constexpr int kMostLevels = 80;
 constexpr double kCoordinateRounding = (24 * kMostLevels + 64) * 0x1p-53;
 constexpr double kDistanceRounding = 1 + 16 * 0x1p-53;
+// What is cut into more pieces than so many for each triangle, on the average, is given up.
+constexpr std::size_t kPiecesOfEach = 256;
 // Less of a piece is not worth taking away: it would leave slivers.
 constexpr double kFairShare = 0.125;
 // What lies beside a triangle by less than this share of the distance that is good enough is taken
@@ -42,11 +44,21 @@ struct Piece {
   Corners corners;
   std::uint32_t hint = 0;  // a triangle near it
   int level = 0;
+  std::uint32_t origin = 0;  // the triangle that it is a piece of
   double bound = 0;
 };
 
-// Fills in hint and bound; returns the distance of the piece's middle.
-double examine(Piece& piece, const NearestTriangle& to) {
+double farthest_corner(const Piece& piece, const Corners& triangle) {
+  double largest = 0;
+  for (const Vec3d& corner : piece.corners) {
+    largest = std::max(largest, squared_distance(corner, triangle));
+  }
+  return std::sqrt(largest);
+}
+
+// Fills in hint and bound, by the triangle that is nearest to the piece's middle; returns the
+// distance of that.
+double examine_middle(Piece& piece, const NearestTriangle& to) {
   const auto& [a, b, c] = piece.corners;
   const Vec3d middle = a / 3 + b / 3 + c / 3;
   const Nearest nearest = to.find(middle, piece.hint);
@@ -56,25 +68,25 @@ double examine(Piece& piece, const NearestTriangle& to) {
     radius = std::max(radius, (corner - middle).squaredNorm());
   }
   piece.hint = nearest.triangle;
-  piece.bound = distance + std::sqrt(radius);
-  const auto try_triangle = [&](std::uint32_t t) {
-    double largest = 0;
-    for (const Vec3d& corner : piece.corners) {
-      largest = std::max(largest, squared_distance(corner, to.triangles()[t]));
-    }
-    piece.bound = std::min(piece.bound, std::sqrt(largest));
-  };
-  try_triangle(nearest.triangle);
+  piece.bound =
+      std::min(distance + std::sqrt(radius), farthest_corner(piece, to.triangles()[piece.hint]));
+  return distance;
+}
+
+// The same by those that are nearest to its corners, too.
+double examine(Piece& piece, const NearestTriangle& to) {
+  const double distance = examine_middle(piece, to);
   if (piece.bound <= distance) return distance;
   for (const Vec3d& corner : piece.corners) {
     const std::uint32_t t = to.find(corner, piece.hint).triangle;
-    if (t != piece.hint) try_triangle(t);
+    if (t == piece.hint) continue;
+    piece.bound = std::min(piece.bound, farthest_corner(piece, to.triangles()[t]));
   }
   return distance;
 }
 
 void add_piece(const Piece& whole, const Corners& corners, std::vector<Piece>& pieces) {
-  pieces.push_back({corners, whole.hint, whole.level + 1, 0});
+  pieces.push_back({corners, whole.hint, whole.level + 1, whole.origin, 0});
 }
 
 void cut_at_middles(const Piece& piece, std::vector<Piece>& pieces) {
@@ -159,6 +171,22 @@ double take_away(const Piece& piece, const Corners& triangle, double enough, dou
   return -1;
 }
 
+// Every fourth level makes the pieces smaller for sure: to take away much of the area may leave a
+// long rest. Returns the distance of what was taken away, or a negative number.
+double cut(const Piece& piece, const NearestTriangle& to, double enough,
+           std::vector<Piece>& pieces) {
+  double taken = -1;
+  if (piece.level % 4 != 3) {
+    const Corners& triangle = to.triangles()[piece.hint];
+    taken = take_away(piece, triangle, enough, kMargin * enough, pieces);
+    if (taken < 0) taken = take_away(piece, triangle, enough, 0, pieces);
+  }
+  if (taken < 0) cut_at_middles(piece, pieces);
+  return taken;
+}
+
+double rounding_of(double magnitude) { return magnitude * kCoordinateRounding; }
+
 class Bounder {
  public:
   Bounder(const NearestTriangle& to, const BoundOptions& options)
@@ -199,7 +227,7 @@ class Bounder {
     }
   }
 
-  [[nodiscard]] double rounding() const { return options_.magnitude * kCoordinateRounding; }
+  [[nodiscard]] double rounding() const { return rounding_of(options_.magnitude); }
   [[nodiscard]] double enough() const { return std::max(options_.factor * known_, rounding()); }
 
   // Pieces that are good enough, or as good as rounding allows, are done with.
@@ -225,23 +253,10 @@ class Bounder {
     if (examined_ + 5 * bad > options_.most_pieces) return fresh;
     for (const Piece& piece : open_) {
       if (!is_bad(piece)) continue;
-      cut(piece, fresh);
+      settled_ = std::max(settled_, cut(piece, to_, enough(), fresh));
     }
     std::erase_if(open_, is_bad);
     return fresh;
-  }
-
-  // Every fourth level makes the pieces smaller for sure: to take away much of the area may leave a
-  // long rest.
-  void cut(const Piece& piece, std::vector<Piece>& fresh) {
-    double taken = -1;
-    if (piece.level % 4 != 3) {
-      const Corners& triangle = to_.triangles()[piece.hint];
-      taken = take_away(piece, triangle, enough(), kMargin * enough(), fresh);
-      if (taken < 0) taken = take_away(piece, triangle, enough(), 0, fresh);
-      settled_ = std::max(settled_, taken);
-    }
-    if (taken < 0) cut_at_middles(piece, fresh);
   }
 
   // Asks for the caller whether to stop; a round is no measure of the whole.
@@ -265,6 +280,45 @@ class Bounder {
 double distance_bound(std::span<const Corners> from, const NearestTriangle& to,
                       const BoundOptions& options) {
   return Bounder(to, options).run(from);
+}
+
+std::vector<char> are_beyond(std::span<const Corners> from, const NearestTriangle& to,
+                             double distance, double magnitude, ProgressObserver* progress) {
+  const double most = (distance - rounding_of(magnitude)) / kDistanceRounding;
+  std::vector<char> beyond(from.size(), 0);
+  std::vector<Piece> pieces(from.size()), fresh;
+  for (std::uint32_t i = 0; i < from.size(); ++i) {
+    pieces[i].corners = from[i];
+    pieces[i].origin = i;
+  }
+  CancelCheck check(progress);
+  std::size_t left = kPiecesOfEach * from.size();
+  while (!pieces.empty()) {
+    const bool is_last = pieces.size() > left;
+    left -= std::min(left, pieces.size());
+    std::vector<double> of_middle(pieces.size());
+    parallel_tasks(pieces.size(), kPiecesPerTask,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) {
+                       Piece& piece = pieces[i];
+                       if (piece.level == 0 && i > first) piece.hint = pieces[i - 1].hint;
+                       piece.bound = farthest_corner(piece, to.triangles()[piece.hint]);
+                       if (piece.bound > most) of_middle[i] = examine_middle(piece, to);
+                     }
+                   });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const bool is_hopeless = pieces[i].level >= kMostLevels || is_last;
+      if (pieces[i].bound <= most) continue;
+      if (is_hopeless || of_middle[i] > most) beyond[pieces[i].origin] = 1;
+    }
+    fresh.clear();
+    for (const Piece& piece : pieces) {
+      check.tick();
+      if (beyond[piece.origin] == 0 && piece.bound > most) cut(piece, to, most, fresh);
+    }
+    pieces.swap(fresh);
+  }
+  return beyond;
 }
 
 }  // namespace meshrepair::internal

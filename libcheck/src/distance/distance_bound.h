@@ -24,4 +24,10 @@ struct BoundOptions {
 [[nodiscard]] double distance_bound(std::span<const Corners> from, const NearestTriangle& to,
                                     const BoundOptions& options);
 
+// Of each triangle of `from` whether some point of it may be farther than `distance`; no coordinate
+// is larger than `magnitude`.
+[[nodiscard]] std::vector<char> are_beyond(std::span<const Corners> from, const NearestTriangle& to,
+                                           double distance, double magnitude,
+                                           ProgressObserver* progress);
+
 }  // namespace meshrepair::internal

@@ -370,6 +370,21 @@ OneSidedDistance one_sided_distance(const TriangleSoup& from, const TriangleSoup
   return scaled_back(distance_between(a, b, options), scale);
 }
 
+std::vector<std::uint32_t> triangles_beyond(const TriangleSoup& from, const TriangleSoup& to,
+                                            double distance, ProgressObserver* progress) {
+  FiniteMesh a = finite_mesh(from, "A");
+  FiniteMesh b = finite_mesh(to, "B");
+  const UnitScale scale = bring_to_unit(a, b);
+  const NearestTriangle nearest(b.triangles);
+  const std::vector<char> beyond = internal::are_beyond(
+      a.triangles, nearest, scale(distance), std::max(a.magnitude(), b.magnitude()), progress);
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < beyond.size(); ++t) {
+    if (beyond[t] != 0) triangles.push_back(t);
+  }
+  return triangles;
+}
+
 double bounding_diagonal(const TriangleSoup& soup) {
   Box all;
   for (const auto& t : soup.triangles) {

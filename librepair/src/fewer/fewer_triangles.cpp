@@ -9,6 +9,7 @@
 
 #include <base/error.h>
 #include <base/ids.h>
+#include <check/mesh_distance.h>
 #include <repair/explain_repair.h>
 #include <repair/transfer_attributes.h>
 #include <repair/valid_solid.h>
@@ -22,7 +23,7 @@ namespace meshrepair::internal {
 namespace {
 
 std::size_t asked_of(const FewerTrianglesOptions& fewer, std::size_t triangles) {
-  if (fewer.most > 0) return fewer.most;
+  if (fewer.most > 0 || fewer.share == 0) return fewer.most;
   constexpr long long kFewest = 4;  // a tetrahedron has so many
   return static_cast<std::size_t>(
       std::max(kFewest, std::llround(fewer.share * static_cast<double>(triangles))));
@@ -72,6 +73,45 @@ void keep_origins(const std::vector<std::uint32_t>& source, RepairExplanation& e
   explanation.origins = std::move(origins);
 }
 
+// Corners of the triangles stay.
+void hold(const TriangleSoup& mesh, const std::vector<std::uint32_t>& triangles,
+          std::vector<char>& stays) {
+  for (const std::uint32_t t : triangles) {
+    for (const std::uint32_t p : mesh.triangles[t]) stays[p] = 1;
+  }
+}
+
+// As few as are asked for, no farther from the surface than that. Collapses promise it of points,
+// and it is proven of all between them: where that fails, points stay in the next try, and in later
+// ones the others are held nearer, too. Without a collapse where nothing is proven.
+DecimatedMesh decimate_within(double most, const TriangleSoup& mesh, DecimationOptions options,
+                              FewerTrianglesReport& told) {
+  constexpr double kOfPoints = 0.9;  // leaves something for what lies between
+  constexpr int kMostReductions = 10, kAsFar = 4;
+  CancelOnly quiet(options.progress);
+  std::vector<char> stays(mesh.points.size(), 0);
+  options.distance = kOfPoints * most;
+  options.find_corners = true;
+  options.stays = stays;
+  for (int i = 0; i < kMostReductions; ++i) {
+    DecimatedMesh fewer = decimate(mesh, options, told.collapses);
+    if (told.collapses.collapses == 0) return fewer;
+    std::vector<std::uint32_t> far = triangles_beyond(mesh, fewer.mesh, most, &quiet);
+    const std::vector<std::uint32_t> far_of_fewer =
+        triangles_beyond(fewer.mesh, mesh, most, &quiet);
+    if (far.empty() && far_of_fewer.empty()) return fewer;
+    for (const std::uint32_t t : far_of_fewer) {
+      far.push_back(fewer.source[t]);
+      for (std::size_t k = 0; k < 3; ++k) far.push_back(fewer.corners[3 * t + k].triangle);
+    }
+    hold(mesh, far, stays);
+    if (i >= kAsFar) options.distance /= 2;
+  }
+  told.collapses.collapses = 0;
+  told.is_unproven = true;
+  return {};
+}
+
 }  // namespace
 
 void take_triangles_away(const TriangleSoup& input, Surface& surface, const RepairOptions& options,
@@ -93,7 +133,14 @@ void take_triangles_away(const TriangleSoup& input, Surface& surface, const Repa
   }
   decimation.seams = seams;
   decimation.progress = options.progress;
-  DecimatedMesh fewer = decimate(surface.mesh, decimation, told.collapses);
+  const FewerTrianglesOptions& asked = options.fewer;
+  if (asked.distance > 0) {
+    told.most_distance =
+        asked.distance * (asked.distance_is_share ? bounding_diagonal(surface.mesh) : 1);
+  }
+  DecimatedMesh fewer = asked.distance > 0
+                            ? decimate_within(told.most_distance, surface.mesh, decimation, told)
+                            : decimate(surface.mesh, decimation, told.collapses);
   told.done = true;
   if (told.collapses.collapses == 0) return;
   CancelOnly quiet(options.progress);

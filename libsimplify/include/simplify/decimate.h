@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,11 @@ namespace meshrepair {
 struct DecimationOptions {
   // No more than so many are wanted; there may be one fewer.
   std::size_t triangles = 0;
+  // Points of the input are to stay so near the mesh, and points of the mesh so near the input; in
+  // the mesh's units. What lies between them may be a little farther: see mesh_distance().
+  double distance = std::numeric_limits<double>::infinity();
+  // Of each point, whether it stays. Not owned. Empty: all may go.
+  std::span<const char> stays = {};
   // Of new points.
   Precision precision = Precision::float64;
   // Of each triangle, a bit for each side that is a seam, 1 << k for the one from corner k to the
@@ -38,8 +44,10 @@ struct DecimationReport {
   double largest_error = 0;
   // Edges that are left because their collapse would ...
   std::size_t would_change_topology = 0;  // join surfaces or holes, or leave no solid
+  std::size_t would_break_seam = 0;       // move the end of a seam, or join two
   std::size_t would_fold = 0;             // turn a triangle over, or make a needle of it
   std::size_t would_meet = 0;             // make triangles meet, or a part swallow another one
+  std::size_t would_part = 0;             // part the surfaces farther than they may be
 };
 
 // A place on a triangle of the input.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -128,6 +131,30 @@ TEST(MeshDistance, BoundHoldsHoweverLittleWorkIsAllowed) {
     EXPECT_LE(bound, last);
     last = bound;
   }
+}
+
+TEST(TrianglesBeyond, AreThoseThatSamplesFind) {
+  const TriangleSoup a = testing::noisy_sphere(2000, 0.05, 1), b = testing::sphere(1500);
+  DistanceOptions fine;
+  fine.samples = 300000;
+  const double largest = mesh_distance(a, b, fine).forth.largest;
+  EXPECT_TRUE(triangles_beyond(a, b, 1.05 * largest).empty());
+  EXPECT_FALSE(triangles_beyond(a, b, 0.95 * largest).empty());
+  const std::vector<std::uint32_t> far = triangles_beyond(a, b, 0.5 * largest);
+  for (std::uint32_t t = 0; t < a.triangles.size(); ++t) {
+    if (std::binary_search(far.begin(), far.end(), t)) continue;
+    TriangleSoup one{a.points, {a.triangles[t]}};
+    EXPECT_LE(one_sided_distance(one, b, with_bound(100)).largest, 0.5 * largest);
+  }
+}
+
+TEST(TrianglesBeyond, KnowTheSameSurfaceInOtherTriangles) {
+  const TriangleSoup one = square(0);
+  TriangleSoup other = square(0);
+  other.triangles = {{{0, 1, 3}}, {{1, 2, 3}}};
+  EXPECT_TRUE(triangles_beyond(one, other, 1e-9).empty());
+  EXPECT_EQ(triangles_beyond(one, square(0.5), 0.49).size(), 2u);
+  EXPECT_TRUE(triangles_beyond(one, square(0.5), 0.51).empty());
 }
 
 TEST(MeshDistance, SeedAndThreadsDecideEverything) {

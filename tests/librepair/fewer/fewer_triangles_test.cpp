@@ -4,6 +4,7 @@
 
 #include <base/parallel.h>
 #include <check/check_surface.h>
+#include <check/mesh_distance.h>
 #include <mesh/precision.h>
 #include <repair/repair.h>
 
@@ -95,6 +96,28 @@ TEST(FewerTriangles, ExplanationsAreOfWhatIsLeft) {
   options.explain = true;
   const RepairResult result = repair(two_overlapping_spheres(2000), options);
   EXPECT_EQ(result.report.explanation.origins.size(), result.surface.mesh.triangles.size());
+}
+
+// By a way that proves it otherwise, too.
+TEST(FewerTriangles, NoPointIsFartherThanAskedFor) {
+  const TriangleSoup soup = repair(noisy_sphere(4000, 0.01, 3), {}).surface.mesh;
+  for (const double share : {0.01, 0.003, 0.001}) {
+    RepairOptions options;
+    options.fewer.distance = share;
+    options.fewer.distance_is_share = true;
+    const RepairResult result = repair(soup, options);
+    const FewerTrianglesReport& fewer = result.report.fewer;
+    EXPECT_FALSE(fewer.is_unproven);
+    EXPECT_NEAR(fewer.most_distance, share * bounding_diagonal(soup), 1e-12);
+    EXPECT_LT(result.surface.mesh.triangles.size(), soup.triangles.size());
+    EXPECT_TRUE(check_surface(result.surface.mesh).valid_solid());
+    DistanceOptions measuring;
+    measuring.bound = true;
+    measuring.bound_factor = 1.02;
+    const MeshDistance distance = mesh_distance(soup, result.surface.mesh, measuring);
+    EXPECT_LE(distance.largest(), fewer.most_distance);
+    EXPECT_LE(*distance.bound(), 1.02 * fewer.most_distance);
+  }
 }
 
 }  // namespace
