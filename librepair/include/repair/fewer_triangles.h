@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <mesh/attributes.h>
+#include <repair/corner_origin.h>
 #include <simplify/decimate.h>
 
 namespace meshrepair {
@@ -26,13 +27,6 @@ struct FewerTrianglesOptions {
   const Attributes* attributes = nullptr;
 
   [[nodiscard]] bool wanted() const { return most > 0 || share > 0 || distance > 0; }
-};
-
-// A place on a triangle of the input, from which a corner of the result has its values.
-struct CornerOrigin {
-  std::uint32_t source = ~std::uint32_t{0};  // all ones: see Surface::source
-  bool turned = false;                       // the result faces the other way there
-  Vec3d place = Vec3d::Zero();
 };
 
 struct FewerTrianglesReport {

@@ -9,7 +9,7 @@
 #include <extract/surface.h>
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
-#include <repair/fewer_triangles.h>
+#include <repair/corner_origin.h>
 #include <repair/repair_options.h>
 
 namespace meshrepair {
