@@ -12,6 +12,7 @@
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -26,6 +27,7 @@
 #include "corner_places.h"
 #include "distance_guard.h"
 #include "quadric.h"
+#include "value_quadrics.h"
 
 namespace meshrepair {
 namespace {
@@ -38,6 +40,7 @@ using internal::DistanceGuard;
 using internal::PointStar;
 using internal::Quadric;
 using internal::Refusal;
+using internal::ValueQuadrics;
 
 // Where the surface is flat, what collapses cost is rounding, and short edges go first: so much of
 // the squared length is added.
@@ -82,6 +85,7 @@ class Decimator {
     if (has_limit) distance_.emplace(points_, mesh.triangles, scale_(options.distance));
     fix_points();
     add_quadrics();
+    if (options.values_of_corner > 0) add_values();
   }
 
   void run() {
@@ -152,15 +156,20 @@ class Decimator {
             nearest == p ? place_of(mesh_.triangles()[t][k]) : scale_.back(nearest)};
   }
 
+  // Where both points go. The ends come into the queue with what they cost when the best place was
+  // refused.
+  enum class Way : std::uint8_t { best, to, from };
+
   struct Edge {
     double cost;
     std::uint32_t from, to;
     std::uint32_t version;  // of both ends, added: either only grows
+    Way way;
 
     // Of a queue whose top is the largest.
     bool operator<(const Edge& other) const {
       if (cost != other.cost) return cost > other.cost;
-      return std::pair(from, to) > std::pair(other.from, other.to);
+      return std::tuple(from, to, way) > std::tuple(other.from, other.to, other.way);
     }
   };
 
@@ -217,6 +226,31 @@ class Decimator {
     }
   }
 
+  // But of points of seams, where corners have others on the other side.
+  void add_values() {
+    const std::size_t each = 3 * options_.values_of_corner;
+    values_.emplace(points_.size(), options_.values_of_corner);
+    std::vector<double> values(each);
+    for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) {
+      const auto& corners = mesh_.triangles()[t];
+      const std::array<Vec3d, 3> at = {points_[corners[0]], points_[corners[1]],
+                                       points_[corners[2]]};
+      for (std::size_t i = 0; i < each; ++i) values[i] = scale_(options_.values[each * t + i]);
+      const double weight = (at[1] - at[0]).cross(at[2] - at[0]).norm() / 6;
+      for (const std::uint32_t p : corners) {
+        if (freedom_[p] == Freedom::free) values_->add_triangle(p, at, values, weight);
+      }
+    }
+  }
+
+  // Of both points together, with what their values cost.
+  [[nodiscard]] Quadric cost_of(std::uint32_t a, std::uint32_t b) const {
+    Quadric both = quadrics_[a];
+    both.add(quadrics_[b]);
+    if (values_) values_->add_to(both, a, b);
+    return both;
+  }
+
   void fill_queue() {
     std::vector<Edge> edges;
     const auto& triangles = mesh_.triangles();
@@ -233,12 +267,20 @@ class Decimator {
   // From the one that is to move, as far as it matters.
   [[nodiscard]] Edge edge_between(std::uint32_t a, std::uint32_t b) const {
     if (freedom_[a] > freedom_[b] || (freedom_[a] == freedom_[b] && a < b)) std::swap(a, b);
-    Edge edge{0, a, b, version_[a] + version_[b]};
-    Quadric both = quadrics_[a];
-    both.add(quadrics_[b]);
-    edge.cost = both.at(best_place(both, a, b)) +
-                kShare * both.weight() * (points_[a] - points_[b]).squaredNorm();
+    Edge edge{0, a, b, version_[a] + version_[b], Way::best};
+    set_cost(edge);
     return edge;
+  }
+
+  void set_cost(Edge& edge) const {
+    const Quadric both = cost_of(edge.from, edge.to);
+    edge.cost = both.at(place_for(edge, both)) +
+                kShare * both.weight() * (points_[edge.from] - points_[edge.to]).squaredNorm();
+  }
+
+  [[nodiscard]] Vec3d place_for(const Edge& edge, const Quadric& both) const {
+    if (edge.way == Way::best) return best_place(both, edge.from, edge.to);
+    return points_[edge.way == Way::to ? edge.to : edge.from];
   }
 
   [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to) const {
@@ -265,19 +307,22 @@ class Decimator {
     }
     Quadric both = quadrics_[edge.from];
     both.add(quadrics_[edge.to]);
-    const Vec3d best = best_place(both, edge.from, edge.to);
-    const bool may_move = freedom_[edge.from] == freedom_[edge.to];
-    Refusal why = Refusal::topology;
-    for (const Vec3d& place : {best, points_[edge.to], points_[edge.from]}) {
-      const double error = std::sqrt(both.at(place) / both.weight());
-      collapse_.place = scale_(internal::rounded_to(scale_.back(place), options_.precision));
-      why = stays_near(edge, error) ? guard_.refusal(collapse_) : Refusal::distance;
-      if (why == Refusal::none) return make(edge, both, error);
-      if (!may_move || why == Refusal::distance) break;
-    }
+    const Vec3d place = place_for(edge, cost_of(edge.from, edge.to));
+    const double error = std::sqrt(both.at(place) / both.weight());
+    collapse_.place = scale_(internal::rounded_to(scale_.back(place), options_.precision));
+    const Refusal why = stays_near(edge, error) ? guard_.refusal(collapse_) : Refusal::distance;
+    if (why == Refusal::none) return make(edge, both, error);
+    if (edge.way != Way::best) return;
     ++(why == Refusal::distance ? report_.would_part
        : why == Refusal::fold   ? report_.would_fold
                                 : report_.would_meet);
+    if (why == Refusal::distance || freedom_[edge.from] != freedom_[edge.to]) return;
+    for (const Way way : {Way::to, Way::from}) {
+      Edge other = edge;
+      other.way = way;
+      set_cost(other);
+      queue_.push(other);
+    }
   }
 
   [[nodiscard]] bool stays_near(const Edge& edge, double error) {
@@ -391,6 +436,7 @@ class Decimator {
     if (distance_) distance_->note_made(collapse_);
     if (places_) move_corners(edge.to);
     quadrics_[edge.to] = both;
+    if (values_) values_->join(edge.to, edge.from);
     became_[edge.from] = edge.to;
     ++version_[edge.to];
     left_ -= 2;
@@ -441,6 +487,7 @@ class Decimator {
   std::optional<CornerPlaces> places_;     // if they are wanted, or there is
   std::optional<DistanceGuard> distance_;  // a limit
   std::vector<Quadric> quadrics_;
+  std::optional<ValueQuadrics> values_;  // if there are any
   std::vector<Freedom> freedom_;
   std::vector<std::uint8_t> seams_;     // of each triangle, a bit for each side; empty: none
   std::vector<std::uint32_t> version_;  // of each point: how often its quadric has changed

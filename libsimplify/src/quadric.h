@@ -16,19 +16,31 @@ class Quadric {
  public:
   // `normal` has length 1; the plane goes through `at`.
   void add_plane(const Vec3d& normal, const Vec3d& at, double weight) {
-    const double offset = -normal.dot(at);
-    xx_ += weight * normal.x() * normal.x();
-    xy_ += weight * normal.x() * normal.y();
-    xz_ += weight * normal.x() * normal.z();
-    yy_ += weight * normal.y() * normal.y();
-    yz_ += weight * normal.y() * normal.z();
-    zz_ += weight * normal.z() * normal.z();
-    b_ += weight * offset * normal;
-    c_ += weight * offset * offset;
+    add_square(normal, -normal.dot(at), weight);
     weight_ += weight;
   }
 
+  // factor * (g x + offset)^2, of no weight.
+  void add_square(const Vec3d& g, double offset, double factor) {
+    xx_ += factor * g.x() * g.x();
+    xy_ += factor * g.x() * g.y();
+    xz_ += factor * g.x() * g.z();
+    yy_ += factor * g.y() * g.y();
+    yz_ += factor * g.y() * g.z();
+    zz_ += factor * g.z() * g.z();
+    b_ += factor * offset * g;
+    c_ += factor * offset * offset;
+  }
+
+  void add_weight(double weight) { weight_ += weight; }
+
   void add(const Quadric& other) {
+    add_squares(other);
+    weight_ += other.weight_;
+  }
+
+  // Without its weight.
+  void add_squares(const Quadric& other) {
     xx_ += other.xx_;
     xy_ += other.xy_;
     xz_ += other.xz_;
@@ -37,7 +49,6 @@ class Quadric {
     zz_ += other.zz_;
     b_ += other.b_;
     c_ += other.c_;
-    weight_ += other.weight_;
   }
 
   [[nodiscard]] double weight() const { return weight_; }

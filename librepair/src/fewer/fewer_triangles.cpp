@@ -14,6 +14,7 @@
 #include <repair/transfer_attributes.h>
 #include <repair/valid_solid.h>
 
+#include "appearance.h"
 #include "attributes/facing_sources.h"
 #include "report/describe_result.h"
 #include "seams.h"
@@ -126,12 +127,17 @@ void take_triangles_away(const TriangleSoup& input, Surface& surface, const Repa
   decimation.triangles = told.asked;
   decimation.precision = options.certify.precision;
   std::vector<std::uint8_t> seams;
+  Appearance appearance;
   if (const Attributes* const given = options.fewer.attributes; given != nullptr) {
     const bool has_walls = report.thicken.triangles > 0;
-    seams = find_seams(surface, transfer_attributes(input, *given, surface, has_walls));
+    const Attributes carried = transfer_attributes(input, *given, surface, has_walls);
+    seams = find_seams(surface, carried);
+    appearance = appearance_of(surface, carried);
     decimation.find_corners = !given->corners.empty();
   }
   decimation.seams = seams;
+  decimation.values = appearance.values;
+  decimation.values_of_corner = appearance.of_corner;
   decimation.progress = options.progress;
   const FewerTrianglesOptions& asked = options.fewer;
   if (asked.distance > 0) {

@@ -33,6 +33,11 @@ struct DecimationOptions {
   // next: seams stay where they are as well as the surface does, and no two become one. An edge is
   // a seam on both sides or on none. Not owned. Empty: there are none.
   std::span<const std::uint8_t> seams = {};
+  // Of each corner, so many numbers that matter as much as being off the surface by them, in the
+  // mesh's units, would: colours and places in pictures. They may differ on both sides of a seam.
+  // Not owned. Empty: there are none.
+  std::span<const double> values = {};
+  std::size_t values_of_corner = 0;
   bool find_corners = false;             // whether DecimatedMesh::corners is wanted
   ProgressObserver* progress = nullptr;  // not owned; no stage is begun
 };
