@@ -265,29 +265,49 @@ class Decimator {
   }
 
   // From the one that is to move, as far as it matters.
-  [[nodiscard]] Edge edge_between(std::uint32_t a, std::uint32_t b) const {
+  [[nodiscard]] Edge edge_between(std::uint32_t a, std::uint32_t b) {
     if (freedom_[a] > freedom_[b] || (freedom_[a] == freedom_[b] && a < b)) std::swap(a, b);
     Edge edge{0, a, b, version_[a] + version_[b], Way::best};
     set_cost(edge);
     return edge;
   }
 
-  void set_cost(Edge& edge) const {
+  void set_cost(Edge& edge) {
     const Quadric both = cost_of(edge.from, edge.to);
     edge.cost = both.at(place_for(edge, both)) +
                 kShare * both.weight() * (points_[edge.from] - points_[edge.to]).squaredNorm();
   }
 
-  [[nodiscard]] Vec3d place_for(const Edge& edge, const Quadric& both) const {
+  [[nodiscard]] Vec3d place_for(const Edge& edge, const Quadric& both) {
     if (edge.way == Way::best) return best_place(both, edge.from, edge.to);
     return points_[edge.way == Way::to ? edge.to : edge.from];
   }
 
-  [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to) const {
+  // The places at which the two points together enclose the volume that they enclose now (P.
+  // Lindstrom and G. Turk: Fast and memory efficient polygonal simplification, 1998).
+  [[nodiscard]] Quadric::Plane same_volume(std::uint32_t from, std::uint32_t to) {
+    Quadric::Plane plane;
+    const Vec3d at = points_[to];
+    for (const std::uint32_t p : {from, to}) {
+      mesh_.visit_corners(p, [&](std::uint32_t, std::uint32_t next, std::uint32_t last) {
+        const Vec3d b = points_[next] - at, c = points_[last] - at;
+        const Vec3d across = b.cross(c);
+        if (p == from) plane.offset += (points_[from] - at).dot(across);
+        if (p == from ? next != to && last != to : next != from && last != from) {
+          plane.normal += across;
+        }
+      });
+    }
+    plane.offset += plane.normal.dot(at);
+    return plane;
+  }
+
+  [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to) {
     if (freedom_[to] == Freedom::fixed || freedom_[from] != freedom_[to]) return points_[to];
     const Vec3d &a = points_[from], &b = points_[to];
     Vec3d middle = 0.5 * (a + b);
-    Vec3d place = both.least_near(middle);
+    Vec3d place = both.least_near(
+        middle, freedom_[to] == Freedom::free ? same_volume(from, to) : Quadric::Plane());
     if ((place - middle).squaredNorm() <= kFarthest * kFarthest * (b - a).squaredNorm()) {
       return place;
     }

@@ -58,9 +58,15 @@ class Quadric {
     return std::max(0.0, x.dot(times(x)) + 2 * b_.dot(x) + c_);
   }
 
-  // Where it is least; in directions in which it hardly changes, as `near` is. What is pulled there
-  // in the others is taken back step by step.
-  [[nodiscard]] Vec3d least_near(const Vec3d& near) const {
+  // Of a plane.
+  struct Plane {
+    Vec3d normal = Vec3d::Zero();  // of any length; none: there is no plane
+    double offset = 0;             // of x on it: normal x = offset
+  };
+
+  // Where it is least on the plane; in directions in which it hardly changes, as `near` is. What is
+  // pulled there in the others is taken back step by step.
+  [[nodiscard]] Vec3d least_near(const Vec3d& near, const Plane& plane) const {
     constexpr double kHardly = 1e-5;
     constexpr int kSteps = 3;
     const double pull = kHardly * (xx_ + yy_ + zz_);
@@ -70,6 +76,9 @@ class Quadric {
     const Eigen::Matrix3d inverse = a.inverse();
     Vec3d x = near;
     for (int step = 0; step < kSteps; ++step) x -= inverse * (times(x) + b_);
+    const Vec3d across = inverse * plane.normal;
+    const double size = plane.normal.dot(across);
+    if (size > 0) x += (plane.offset - plane.normal.dot(x)) / size * across;
     return x;
   }
 

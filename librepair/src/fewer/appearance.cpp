@@ -15,7 +15,7 @@ namespace {
 using Kind = CornerAttribute::Kind;
 
 // A picture that is shifted along the surface is seen less than one that is bent with it.
-constexpr double kOfTexture = 0.3;
+constexpr double kOfTexture = 0.1;
 
 // Black beside white is as bad as a surface that is off by this share of the diagonal.
 constexpr double kOfColour = 0.02;
