@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A queue has each edge, by what its collapse costs: the least value that the quadrics of its two
-// points take together. The cheapest is collapsed to that place, or to one of its ends, if the
-// guard lets it. Edges of a point whose quadric has changed come into the queue again; what is in
-// it of earlier states of a point is passed over. What was refused is tried again when nothing else
-// is left, as its surroundings may have changed.
+// A queue has each edge, by what its collapse costs: the least value that the quadric of the planes
+// around its two points takes where the volume stays. The cheapest is collapsed to that place, or
+// to one of its ends, if the guard lets it. Edges of a point that has moved come into the queue
+// again, and so do those that turn out to cost more than they did; what is in it of earlier states
+// of a point is passed over. What was refused is tried again when nothing else is left, as its
+// surroundings may have changed.
 //
 // All of this is done with the mesh scaled by a power of two to about unit size, which is exact.
 // Points that have not moved keep their coordinates.
@@ -11,8 +12,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <queue>
-#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -25,6 +24,7 @@
 
 #include "collapse_guard.h"
 #include "corner_places.h"
+#include "cost_queue.h"
 #include "distance_guard.h"
 #include "quadric.h"
 #include "value_quadrics.h"
@@ -36,6 +36,7 @@ using internal::Collapse;
 using internal::CollapseGuard;
 using internal::CollapsibleMesh;
 using internal::CornerPlaces;
+using internal::CostQueue;
 using internal::DistanceGuard;
 using internal::PointStar;
 using internal::Quadric;
@@ -86,6 +87,8 @@ class Decimator {
     fix_points();
     add_quadrics();
     if (options.values_of_corner > 0) add_values();
+    planes_now_ = quadrics_;
+    has_changed_.assign(points_.size(), 0);
   }
 
   void run() {
@@ -96,12 +99,11 @@ class Decimator {
       report_.would_meet = report_.would_part = 0;
       fill_queue();
       while (left_ > options_.triangles && !queue_.empty()) {
-        const Edge edge = queue_.top();
-        queue_.pop();
+        const Edge edge = queue_.pop();
         check_.tick();
         if (edge.version != version_[edge.from] + version_[edge.to]) continue;
         if (became_[edge.from] != kNone || became_[edge.to] != kNone) continue;
-        try_to_collapse(edge);
+        if (!costs_more_now(edge)) try_to_collapse(edge);
       }
       gone = before - left_;
       if (distance_) break;  // hardly anything comes of what is too far
@@ -165,12 +167,6 @@ class Decimator {
     std::uint32_t from, to;
     std::uint32_t version;  // of both ends, added: either only grows
     Way way;
-
-    // Of a queue whose top is the largest.
-    bool operator<(const Edge& other) const {
-      if (cost != other.cost) return cost > other.cost;
-      return std::tuple(from, to, way) > std::tuple(other.from, other.to, other.way);
-    }
   };
 
   void fix_points() {
@@ -243,25 +239,50 @@ class Decimator {
     }
   }
 
-  // Of both points together, with what their values cost.
-  [[nodiscard]] Quadric cost_of(std::uint32_t a, std::uint32_t b) const {
-    Quadric both = quadrics_[a];
-    both.add(quadrics_[b]);
+  // Of the planes of the triangles around a point, as they are now: what earlier collapses moved
+  // does not count again, which leaves the surface nearer in the mean (H. Hoppe, as in
+  // value_quadrics.h).
+  [[nodiscard]] const Quadric& planes_now(std::uint32_t p) {
+    if (has_changed_[p] == 0) return planes_now_[p];
+    Quadric planes;
+    mesh_.visit_corners(p, [&](std::uint32_t, std::uint32_t next, std::uint32_t last) {
+      const Vec3d across = (points_[next] - points_[p]).cross(points_[last] - points_[p]);
+      const double doubled_area = across.norm();
+      if (doubled_area > 0) planes.add_plane(across / doubled_area, points_[p], doubled_area / 6);
+    });
+    has_changed_[p] = 0;
+    return planes_now_[p] = planes;
+  }
+
+  // From the first on.
+  [[nodiscard]] Quadric all_planes_of(std::uint32_t a, std::uint32_t b) const {
+    Quadric planes = quadrics_[a];
+    planes.add(quadrics_[b]);
+    return planes;
+  }
+
+  // With what their values cost. What is to stay near the first surface is held to its planes: a
+  // seam, and all where there is a limit.
+  [[nodiscard]] Quadric cost_of(std::uint32_t a, std::uint32_t b) {
+    const bool is_free = !distance_ && freedom_[a] == Freedom::free && freedom_[b] == Freedom::free;
+    Quadric both = all_planes_of(a, b);
+    if (is_free) {
+      both = planes_now(a);
+      both.add(planes_now(b));
+    }
     if (values_) values_->add_to(both, a, b);
     return both;
   }
 
   void fill_queue() {
-    std::vector<Edge> edges;
     const auto& triangles = mesh_.triangles();
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       if (!mesh_.is_left(t)) continue;
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-        if (a < b) edges.push_back(edge_between(a, b));
+        if (a < b) queue_.push(edge_between(a, b));
       }
     }
-    queue_ = std::priority_queue<Edge>({}, std::move(edges));
   }
 
   // From the one that is to move, as far as it matters.
@@ -272,14 +293,23 @@ class Decimator {
     return edge;
   }
 
+  // Triangles around it may have changed: then it comes into the queue again.
+  [[nodiscard]] bool costs_more_now(Edge edge) {
+    set_cost(edge);
+    if (!queue_.has_cheaper(edge.cost)) return false;
+    queue_.push(edge);
+    return true;
+  }
+
   void set_cost(Edge& edge) {
     const Quadric both = cost_of(edge.from, edge.to);
-    edge.cost = both.at(place_for(edge, both)) +
+    edge.cost = both.at(place_for(edge, both, Quadric::Plane())) +
                 kShare * both.weight() * (points_[edge.from] - points_[edge.to]).squaredNorm();
   }
 
-  [[nodiscard]] Vec3d place_for(const Edge& edge, const Quadric& both) {
-    if (edge.way == Way::best) return best_place(both, edge.from, edge.to);
+  [[nodiscard]] Vec3d place_for(const Edge& edge, const Quadric& both,
+                                const Quadric::Plane& on) const {
+    if (edge.way == Way::best) return best_place(both, edge.from, edge.to, on);
     return points_[edge.way == Way::to ? edge.to : edge.from];
   }
 
@@ -302,12 +332,12 @@ class Decimator {
     return plane;
   }
 
-  [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to) {
+  [[nodiscard]] Vec3d best_place(const Quadric& both, std::uint32_t from, std::uint32_t to,
+                                 const Quadric::Plane& on) const {
     if (freedom_[to] == Freedom::fixed || freedom_[from] != freedom_[to]) return points_[to];
     const Vec3d &a = points_[from], &b = points_[to];
     Vec3d middle = 0.5 * (a + b);
-    Vec3d place = both.least_near(
-        middle, freedom_[to] == Freedom::free ? same_volume(from, to) : Quadric::Plane());
+    Vec3d place = both.least_near(middle, on);
     if ((place - middle).squaredNorm() <= kFarthest * kFarthest * (b - a).squaredNorm()) {
       return place;
     }
@@ -325,9 +355,10 @@ class Decimator {
       ++report_.would_break_seam;
       return;
     }
-    Quadric both = quadrics_[edge.from];
-    both.add(quadrics_[edge.to]);
-    const Vec3d place = place_for(edge, cost_of(edge.from, edge.to));
+    const Quadric both = all_planes_of(edge.from, edge.to);
+    const Quadric::Plane on =
+        freedom_[edge.to] == Freedom::free ? same_volume(edge.from, edge.to) : Quadric::Plane();
+    const Vec3d place = place_for(edge, cost_of(edge.from, edge.to), on);
     const double error = std::sqrt(both.at(place) / both.weight());
     collapse_.place = scale_(internal::rounded_to(scale_.back(place), options_.precision));
     const Refusal why = stays_near(edge, error) ? guard_.refusal(collapse_) : Refusal::distance;
@@ -456,6 +487,8 @@ class Decimator {
     if (distance_) distance_->note_made(collapse_);
     if (places_) move_corners(edge.to);
     quadrics_[edge.to] = both;
+    has_changed_[edge.to] = 1;
+    for (const auto& t : collapse_.fan) has_changed_[t.next] = 1;
     if (values_) values_->join(edge.to, edge.from);
     became_[edge.from] = edge.to;
     ++version_[edge.to];
@@ -506,15 +539,17 @@ class Decimator {
   CollapseGuard guard_;
   std::optional<CornerPlaces> places_;     // if they are wanted, or there is
   std::optional<DistanceGuard> distance_;  // a limit
-  std::vector<Quadric> quadrics_;
-  std::optional<ValueQuadrics> values_;  // if there are any
+  std::vector<Quadric> quadrics_;          // of the planes that each point has come to stand for
+  std::vector<Quadric> planes_now_;        // of those around it, where
+  std::vector<std::uint8_t> has_changed_;  // is 0; empty:
+  std::optional<ValueQuadrics> values_;    // if there are any
   std::vector<Freedom> freedom_;
   std::vector<std::uint8_t> seams_;     // of each triangle, a bit for each side; empty: none
   std::vector<std::uint32_t> version_;  // of each point: how often its quadric has changed
   std::vector<std::uint32_t> became_;   // of each point that went, the one that it is now
   const std::size_t first_;             // triangles
   std::size_t left_;
-  std::priority_queue<Edge> queue_;
+  CostQueue<Edge> queue_;
   PointStar star_, star_of_to_;
   std::size_t at_ = 0;  // in the link of star_, the other end of the edge
   Collapse collapse_;
