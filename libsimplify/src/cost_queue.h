@@ -14,7 +14,8 @@
 
 namespace meshrepair::internal {
 
-// Of items with a member `cost` that is no number below 0.
+// Of items with a member `cost`, not below 0, as meshes of unit size have it: the smallest are
+// alike.
 template <class Item>
 class CostQueue {
  public:
@@ -48,7 +49,9 @@ class CostQueue {
 
  private:
   static constexpr int kMantissaBits = 5;
-  static constexpr std::size_t kBuckets = std::size_t{1} << (11 + kMantissaBits);
+  static constexpr std::size_t kOfOne = std::size_t{1023} << kMantissaBits;
+  static constexpr std::size_t kBuckets = std::size_t{256} << kMantissaBits;
+  static constexpr std::size_t kSmallest = kOfOne - kBuckets * 3 / 4;
 
   struct Bucket {
     std::vector<Item> items;
@@ -57,7 +60,8 @@ class CostQueue {
 
   // Numbers that are not negative are in the order of their bits.
   static std::size_t bucket_of(double cost) {
-    return std::bit_cast<std::uint64_t>(cost) >> (52 - kMantissaBits) & (kBuckets - 1);
+    const std::size_t place = std::bit_cast<std::uint64_t>(cost) >> (52 - kMantissaBits);
+    return std::clamp(place, kSmallest, kSmallest + kBuckets - 1) - kSmallest;
   }
 
   void find_first() {

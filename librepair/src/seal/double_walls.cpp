@@ -84,7 +84,7 @@ std::vector<Vec3d> ray_directions() {
 }
 
 // What one opening of a wall ends at.
-struct Rim {
+struct PinholeRim {
   std::size_t edges = 0;
   double length = 0;
   [[nodiscard]] double width() const { return length / std::numbers::pi; }
@@ -123,7 +123,7 @@ class BodyWalls {
     return inner;
   }
 
-  [[nodiscard]] const std::vector<Rim>& pinholes() const { return rims_; }
+  [[nodiscard]] const std::vector<PinholeRim>& pinholes() const { return rims_; }
 
  private:
   enum class Sight : char { none, seen, unseen };
@@ -244,9 +244,10 @@ class BodyWalls {
     });
     std::vector<double> area(body_.triangles.size(), 0);
     for (std::uint32_t t = 0; t < area_.size(); ++t) area[pieces.root(t)] += area_[t];
-    std::map<std::uint32_t, std::map<std::uint32_t, Rim>> rims_of;  // of each piece
+    std::map<std::uint32_t, std::map<std::uint32_t, PinholeRim>> rims_of;  // of each piece
     for (const std::uint32_t side : rim_sides) {
-      Rim& rim = rims_of[pieces.root(side / 3)][rims.root(side_start(body_.triangles, side))];
+      PinholeRim& rim =
+          rims_of[pieces.root(side / 3)][rims.root(side_start(body_.triangles, side))];
       ++rim.edges;
       rim.length += length_at(side);
     }
@@ -263,7 +264,8 @@ class BodyWalls {
     }
   }
 
-  [[nodiscard]] bool are_pinholes(const std::map<std::uint32_t, Rim>& rims, double wall) const {
+  [[nodiscard]] bool are_pinholes(const std::map<std::uint32_t, PinholeRim>& rims,
+                                  double wall) const {
     double area = 0;
     std::size_t narrow = 0, of_some_edges = 0;
     for (const auto& [root, rim] : rims) {
@@ -315,7 +317,7 @@ class BodyWalls {
   std::optional<TriangleRays> rays_;
   std::optional<EdgeTable> sides_;
   std::vector<Sample> samples_;
-  std::vector<Rim> rims_;  // of the inner wall
+  std::vector<PinholeRim> rims_;  // of the inner wall
 };
 
 // The parts that may have two walls, each a group.
@@ -362,7 +364,7 @@ DoubleWalls find_double_walls(const Surface& solid, ProgressObserver* progress) 
     if (inner[b].empty()) continue;
     ++found.bodies;
     found.pinholes += walls.pinholes().size();
-    for (const Rim& rim : walls.pinholes()) {
+    for (const PinholeRim& rim : walls.pinholes()) {
       found.widest = std::max(found.widest, scale.back(rim.width()));
     }
   }
