@@ -426,9 +426,10 @@ std::vector<std::string> reduced(const RepairReport& repair) {
   std::string text = fmt::format("{} to {}", number_of(fewer.before, "triangle"),
                                  grouped(repair.output.triangles));
   if (fewer.asked > 0) text += fmt::format(" of {} asked for", grouped(fewer.asked));
-  text += fewer.most_distance > 0
-              ? fmt::format(", proven to be at most {:.3g} away", fewer.most_distance)
-              : fmt::format(", quadric error up to {:.2g}", fewer.collapses.largest_error);
+  text +=
+      fewer.most_distance > 0
+          ? fmt::format(", proven to be at most {:.3g} from the repaired mesh", fewer.most_distance)
+          : fmt::format(", quadric error up to {:.2g}", fewer.collapses.largest_error);
   return {text};
 }
 

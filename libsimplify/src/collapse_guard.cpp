@@ -18,7 +18,7 @@ constexpr double kMostTurned = 0.2;
 
 // The shape of a triangle, 1 for three equal sides and 0 for none: below this it is a needle, which
 // a collapse must not make of a better one.
-constexpr double kNeedle = 0.02;
+constexpr double kNeedle = 0.001;
 
 // Of the volume of a part, what one collapse may change.
 constexpr double kMostVolume = 0.25;

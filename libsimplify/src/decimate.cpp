@@ -56,12 +56,15 @@ constexpr double kFarthest = 2;
 // Another round through what was refused pays if the last one took away more than one in so many of
 // the triangles that are left.
 constexpr std::size_t kFewOfLeft = 256;
+constexpr std::size_t kFewWithin = 16;  // where there is a distance, as the tests are dear
 
 // Where quadrics tell of an error so many times the distance that is allowed, no one has to look.
 constexpr double kHopeless = 2;
 
 // What a point may do.
 enum class Freedom : std::uint8_t { free, on_seam, fixed };
+
+using Stay = DecimationOptions::Stay;
 
 class Decimator {
  public:
@@ -93,7 +96,8 @@ class Decimator {
 
   void run() {
     std::size_t gone = left_;  // in the last round
-    while (left_ > options_.triangles && gone > left_ / kFewOfLeft) {
+    const std::size_t few = distance_ ? kFewWithin : kFewOfLeft;
+    while (left_ > options_.triangles && gone > left_ / few) {
       const std::size_t before = left_;
       report_.would_change_topology = report_.would_break_seam = report_.would_fold = 0;
       report_.would_meet = report_.would_part = 0;
@@ -106,7 +110,6 @@ class Decimator {
         if (!costs_more_now(edge)) try_to_collapse(edge);
       }
       gone = before - left_;
-      if (distance_) break;  // hardly anything comes of what is too far
     }
   }
 
@@ -190,8 +193,12 @@ class Decimator {
     }
   }
 
+  [[nodiscard]] Stay stays(std::uint32_t point) const {
+    return options_.stays.empty() ? Stay::no : options_.stays[point];
+  }
+
   [[nodiscard]] bool is_held(std::uint32_t point) const {
-    return guard_.is_held(point) || (!options_.stays.empty() && options_.stays[point] != 0);
+    return guard_.is_held(point) || stays(point) != Stay::no;
   }
 
   [[nodiscard]] bool is_seam(std::size_t triangle, std::uint32_t side) const {
@@ -351,17 +358,19 @@ class Decimator {
       ++report_.would_change_topology;
       return;
     }
-    if (!seams_.empty() && !keeps_seams(edge)) {
+    if (stays(edge.to) == Stay::alone || (!seams_.empty() && !keeps_seams(edge))) {
       ++report_.would_break_seam;
       return;
     }
     const Quadric both = all_planes_of(edge.from, edge.to);
     const Quadric::Plane on =
         freedom_[edge.to] == Freedom::free ? same_volume(edge.from, edge.to) : Quadric::Plane();
-    const Vec3d place = place_for(edge, cost_of(edge.from, edge.to), on);
+    const Quadric cost = cost_of(edge.from, edge.to);
+    const Vec3d place = place_for(edge, cost, on);
     const double error = std::sqrt(both.at(place) / both.weight());
     collapse_.place = scale_(internal::rounded_to(scale_.back(place), options_.precision));
-    const Refusal why = stays_near(edge, error) ? guard_.refusal(collapse_) : Refusal::distance;
+    const Refusal why = stays_near(edge, cost.at(place) / cost.weight()) ? guard_.refusal(collapse_)
+                                                                         : Refusal::distance;
     if (why == Refusal::none) return make(edge, both, error);
     if (edge.way != Way::best) return;
     ++(why == Refusal::distance ? report_.would_part
@@ -376,12 +385,15 @@ class Decimator {
     }
   }
 
-  [[nodiscard]] bool stays_near(const Edge& edge, double error) {
+  // Values are as far from what they were as places may be; that is asked of the square of the
+  // mean.
+  [[nodiscard]] bool stays_near(const Edge& edge, double squared_error) {
     if (!distance_) return true;
-    if (error > kHopeless * scale_(options_.distance)) return false;
+    const double most = scale_(options_.distance);
+    const double hopeless = values_ ? most : kHopeless * most;
+    if (squared_error > hopeless * hopeless) return false;
     if (!distance_->allows(collapse_, points_)) return false;
     list_corners([&](const auto& t) { return t.was_of_to ? edge.to : edge.from; });
-    const double most = scale_(options_.distance);
     if (!places_->is_within(corners_, collapse_.place, most * most)) return false;
     return std::all_of(collapse_.fan.begin(), collapse_.fan.end(), [&](const auto& t) {
       const std::array<std::uint32_t, 2> nearby = {corner_of(t.triangle, t.next),

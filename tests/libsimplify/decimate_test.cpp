@@ -319,8 +319,8 @@ TEST(Decimate, PointsStayWithinTheDistance) {
 
 TEST(Decimate, PointsThatAreToStayDo) {
   const TriangleSoup mesh = sphere(2000);
-  std::vector<char> stays(mesh.points.size(), 0);
-  for (std::size_t p = 0; p < stays.size(); p += 50) stays[p] = 1;
+  std::vector<DecimationOptions::Stay> stays(mesh.points.size());
+  for (std::size_t p = 0; p < stays.size(); p += 50) stays[p] = DecimationOptions::Stay::yes;
   DecimationOptions options;
   options.triangles = 4;
   options.stays = stays;

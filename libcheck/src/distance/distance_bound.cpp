@@ -32,7 +32,7 @@ constexpr std::size_t kPiecesPerTask = 512;
 constexpr int kMostLevels = 80;
 constexpr double kCoordinateRounding = (24 * kMostLevels + 64) * 0x1p-53;
 constexpr double kDistanceRounding = 1 + 16 * 0x1p-53;
-// What is cut into more pieces than so many for each triangle, on the average, is given up.
+// What is cut into more pieces than so many for each triangle of both, on the average, is given up.
 constexpr std::size_t kPiecesOfEach = 256;
 // Less of a piece is not worth taking away: it would leave slivers.
 constexpr double kFairShare = 0.125;
@@ -292,7 +292,7 @@ std::vector<char> are_beyond(std::span<const Corners> from, const NearestTriangl
     pieces[i].origin = i;
   }
   CancelCheck check(progress);
-  std::size_t left = kPiecesOfEach * from.size();
+  std::size_t left = kPiecesOfEach * (from.size() + to.triangles().size());
   while (!pieces.empty()) {
     const bool is_last = pieces.size() > left;
     left -= std::min(left, pieces.size());

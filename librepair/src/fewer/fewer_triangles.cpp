@@ -74,11 +74,13 @@ void keep_origins(const std::vector<std::uint32_t>& source, RepairExplanation& e
   explanation.origins = std::move(origins);
 }
 
+using Stay = DecimationOptions::Stay;
+
 // Corners of the triangles stay.
 void hold(const TriangleSoup& mesh, const std::vector<std::uint32_t>& triangles,
-          std::vector<char>& stays) {
+          std::vector<Stay>& stays) {
   for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t p : mesh.triangles[t]) stays[p] = 1;
+    for (const std::uint32_t p : mesh.triangles[t]) stays[p] = std::max(stays[p], Stay::yes);
   }
 }
 
@@ -90,7 +92,8 @@ DecimatedMesh decimate_within(double most, const TriangleSoup& mesh, DecimationO
   constexpr double kOfPoints = 0.9;  // leaves something for what lies between
   constexpr int kMostReductions = 10, kAsFar = 4;
   CancelOnly quiet(options.progress);
-  std::vector<char> stays(mesh.points.size(), 0);
+  std::vector<Stay> stays(options.stays.begin(), options.stays.end());
+  stays.resize(mesh.points.size(), Stay::no);
   options.distance = kOfPoints * most;
   options.find_corners = true;
   options.stays = stays;
@@ -126,7 +129,7 @@ void take_triangles_away(const TriangleSoup& input, Surface& surface, const Repa
   DecimationOptions decimation;
   decimation.triangles = told.asked;
   decimation.precision = options.certify.precision;
-  std::vector<std::uint8_t> seams;
+  Seams seams;
   Appearance appearance;
   if (const Attributes* const given = options.fewer.attributes; given != nullptr) {
     const bool has_walls = report.thicken.triangles > 0;
@@ -135,7 +138,8 @@ void take_triangles_away(const TriangleSoup& input, Surface& surface, const Repa
     appearance = appearance_of(surface, carried);
     decimation.find_corners = !given->corners.empty();
   }
-  decimation.seams = seams;
+  decimation.seams = seams.sides;
+  decimation.stays = seams.stays;
   decimation.values = appearance.values;
   decimation.values_of_corner = appearance.of_corner;
   decimation.progress = options.progress;

@@ -98,14 +98,15 @@ class Jumps {
 
 using Edges = std::vector<std::array<std::uint32_t, 2>>;  // the two sides of each, 3 t + k
 
-// Of each edge.
-std::vector<char> jumps_at(const Edges& edges, const CornerAttribute& attribute) {
+// Of each edge a bit for each end: that of its first side, and the other one.
+std::vector<std::uint8_t> jumps_at(const Edges& edges, const CornerAttribute& attribute) {
   const Jumps is_jump(attribute);
-  std::vector<char> jumps;
+  std::vector<std::uint8_t> jumps;
   jumps.reserve(edges.size());
   const auto end_of = [](std::uint32_t side) { return side - side % 3 + (side + 1) % 3; };
   for (const auto& [one, other] : edges) {
-    jumps.push_back(is_jump(one, end_of(other)) || is_jump(end_of(one), other) ? 1 : 0);
+    jumps.push_back(static_cast<std::uint8_t>((is_jump(one, end_of(other)) ? 1 : 0) |
+                                              (is_jump(end_of(one), other) ? 2 : 0)));
   }
   return jumps;
 }
@@ -116,31 +117,42 @@ bool may_jump(const CornerAttribute& attribute) {
 
 }  // namespace
 
-std::vector<std::uint8_t> find_seams(const Surface& surface, const Attributes& carried) {
+Seams find_seams(const Surface& surface, const Attributes& carried) {
+  const auto& triangles = surface.mesh.triangles;
   Edges edges;
-  EdgeTable(surface.mesh.triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
+  EdgeTable(triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
     if (sides.size() == 2) edges.push_back({sides[0], sides[1]});
   });
-  std::vector<char> is_seam(edges.size(), 0);
+  constexpr std::uint8_t kBoth = 3;
+  std::vector<std::uint8_t> ends(edges.size(), 0);  // at which something jumps
   const std::vector<std::uint32_t> labels = labels_of(surface, carried);
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    is_seam[e] = labels[edges[e][0] / 3] != labels[edges[e][1] / 3] ? 1 : 0;
+    if (labels[edges[e][0] / 3] != labels[edges[e][1] / 3]) ends[e] = kBoth;
   }
   for (const CornerAttribute& attribute : carried.corners) {
     if (!may_jump(attribute)) continue;
-    const std::vector<char> jumps = jumps_at(edges, attribute);
-    const auto count = static_cast<std::size_t>(std::count(jumps.begin(), jumps.end(), 1));
+    const std::vector<std::uint8_t> jumps = jumps_at(edges, attribute);
+    const auto calm = static_cast<std::size_t>(std::count(jumps.begin(), jumps.end(), 0));
     const bool is_held = attribute.kind == Kind::texture || attribute.kind == Kind::normal;
-    if (!is_held && count > edges.size() / kFewOfEdges) continue;
-    for (std::size_t e = 0; e < edges.size(); ++e) is_seam[e] |= jumps[e];
+    if (!is_held && edges.size() - calm > edges.size() / kFewOfEdges) continue;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      ends[e] = static_cast<std::uint8_t>(ends[e] | jumps[e]);
+    }
   }
-  std::vector<std::uint8_t> seams;
-  if (std::find(is_seam.begin(), is_seam.end(), 1) == is_seam.end()) return seams;
-  seams.assign(surface.mesh.triangles.size(), 0);
+  Seams seams;
+  if (std::all_of(ends.begin(), ends.end(), [](std::uint8_t end) { return end == 0; }))
+    return seams;
+  seams.sides.assign(triangles.size(), 0);
+  seams.stays.assign(surface.mesh.points.size(), DecimationOptions::Stay::no);
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (is_seam[e] == 0) continue;
-    for (const std::uint32_t side : edges[e]) {
-      seams[side / 3] = static_cast<std::uint8_t>(seams[side / 3] | 1u << side % 3);
+    const std::uint32_t first = edges[e][0];
+    if (ends[e] == kBoth) {
+      for (const std::uint32_t side : edges[e]) {
+        seams.sides[side / 3] = static_cast<std::uint8_t>(seams.sides[side / 3] | 1u << side % 3);
+      }
+    } else if (ends[e] != 0) {
+      const std::uint32_t at = ends[e] == 1 ? first % 3 : (first + 1) % 3;
+      seams.stays[triangles[first / 3][at]] = DecimationOptions::Stay::alone;
     }
   }
   return seams;

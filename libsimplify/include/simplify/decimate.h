@@ -25,8 +25,13 @@ struct DecimationOptions {
   // Points of the input are to stay so near the mesh, and points of the mesh so near the input; in
   // the mesh's units. What lies between them may be a little farther: see mesh_distance().
   double distance = std::numeric_limits<double>::infinity();
-  // Of each point, whether it stays. Not owned. Empty: all may go.
-  std::span<const char> stays = {};
+  // Of each point whether it may go. Not owned. Empty: all may.
+  enum class Stay : std::uint8_t {
+    no,
+    yes,
+    alone,  // and no other one comes to it: its corners have values of their own
+  };
+  std::span<const Stay> stays = {};
   // Of new points.
   Precision precision = Precision::float64;
   // Of each triangle, a bit for each side that is a seam, 1 << k for the one from corner k to the

@@ -26,7 +26,7 @@ class CollapsibleMesh {
   // Stars of more triangles are left alone, and so are those with a neighbour of many more: to look
   // through all of that one's for every collapse beside would be quadratic.
   static constexpr std::size_t kMostOfStar = 32;
-  static constexpr std::size_t kMostOfNeighbour = 256;
+  static constexpr std::size_t kMostOfNeighbour = 4096;
 
   CollapsibleMesh(std::vector<std::array<std::uint32_t, 3>> triangles, std::size_t points);
 
