@@ -266,6 +266,22 @@ TEST(Decimate, FlatFacesGoFirst) {
   }
 }
 
+// Its sides are of slivers, which must not stay at the cost of everything else.
+TEST(Decimate, ThinPlatesOfManyTrianglesKeepTheirShape) {
+  TriangleSoup mesh = divided(divided(divided(divided(cube()))));
+  for (Vec3d& p : mesh.points) p = p.cwiseProduct(Vec3d(60, 60, 0.1));
+  const DecimatedMesh few = reduced(mesh, mesh.triangles.size() / 20);
+  EXPECT_LE(few.mesh.triangles.size(), mesh.triangles.size() / 20);
+  EXPECT_LT(mesh_distance(mesh, few.mesh).largest(), 1e-6);
+}
+
+TEST(Decimate, FansOfManyTrianglesDoNotStopWhatIsAround) {
+  const TriangleSoup mesh = cone(1000);
+  const DecimatedMesh few = reduced(mesh, mesh.triangles.size() / 5);
+  expect_same_kind(mesh, few.mesh);
+  EXPECT_LE(few.mesh.triangles.size(), mesh.triangles.size() / 5);
+}
+
 // Linear on both sides of a plane: no triangle reaches over it.
 TEST(Decimate, ValuesCountOnFlatFaces) {
   const TriangleSoup mesh = divided(divided(divided(cube())));

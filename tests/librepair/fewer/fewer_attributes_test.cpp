@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What triangles carry, where many of them go.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +103,55 @@ TEST(FewerAttributes, AChartDoesNotReachOverItsOwnSeam) {
     if (nearest_to_axis < 0.3) continue;  // the angle is no function of the place there
     EXPECT_LT(std::abs(u[1] - u[0]), 0.25);
     EXPECT_LT(std::abs(u[2] - u[0]), 0.25);
+  }
+}
+
+// As modelling programs unwrap spheres: each triangle at a pole has a place of its own there.
+TEST(FewerAttributes, PolesOfATextureDoNotHoldTheirFans) {
+  constexpr std::uint32_t kAround = 60, kRings = 30;
+  TexturedSoup input;
+  CornerAttribute texture;
+  texture.kind = CornerAttribute::Kind::texture;
+  const auto point = [&](std::uint32_t ring, std::uint32_t i) {
+    if (ring == 0) return 0u;
+    if (ring == kRings) return 1u;
+    return 2 + (ring - 1) * kAround + i % kAround;
+  };
+  input.soup.points.resize(2 + (kRings - 1) * kAround);
+  const auto add = [&](std::array<std::array<std::uint32_t, 2>, 3> corners, double middle) {
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& [ring, i] = corners[k];
+      triangle[k] = point(ring, i);
+      const double across = 3.141592653589793 * ring / kRings,
+                   around = 2 * 3.141592653589793 * i / kAround;
+      input.soup.points[triangle[k]] = {std::sin(across) * std::cos(around),
+                                        std::sin(across) * std::sin(around), std::cos(across)};
+      const bool is_pole = ring == 0 || ring == kRings;
+      texture.of_corner.push_back(static_cast<std::uint32_t>(texture.count()));
+      texture.values.push_back((is_pole ? middle : i) / kAround);
+      texture.values.push_back(static_cast<double>(ring) / kRings);
+    }
+    input.soup.triangles.push_back(triangle);
+  };
+  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double middle = i + 0.5;
+      if (ring + 1 < kRings) add({{{ring, i}, {ring + 1, i}, {ring + 1, i + 1}}}, middle);
+      if (ring > 0) add({{{ring, i}, {ring + 1, i + 1}, {ring, i + 1}}}, middle);
+    }
+  }
+  ASSERT_TRUE(check_surface(input.soup).valid_solid());
+  input.attributes.corners = {texture};
+  const TexturedSurface result = reduced(input, 0.05);
+  const TriangleSoup& mesh = result.surface.mesh;
+  EXPECT_LT(mesh.triangles.size(), 200u);
+  const CornerAttribute& carried = result.attributes.corners.at(0);
+  for (std::size_t c = 0; c < carried.of_corner.size(); ++c) {
+    const Vec3d& at = mesh.points[mesh.triangles[c / 3][c % 3]];
+    ASSERT_NE(carried.of_corner[c], kNone);
+    const double v = carried.values[2 * carried.of_corner[c] + 1];
+    EXPECT_NEAR(v, std::acos(std::clamp(at.normalized().z(), -1.0, 1.0)) / 3.141592653589793, 0.03);
   }
 }
 
