@@ -339,7 +339,9 @@ Surface repair(const TriangleSoup& soup, const RepairOptions& options, RepairRep
   report.stages.insert(report.stages.begin(), before.stages.begin(), before.stages.end());
   if (options.fewer.wanted()) {
     internal::take_triangles_away(soup, surface, options, report);
-    internal::compare_with_input(soup, surface, report);
+    if (report.fewer.collapses.collapses > 0) {
+      internal::compare_with_input(soup, surface, report);
+    }
   }
   return surface;
 }

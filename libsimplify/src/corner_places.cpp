@@ -5,8 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include <base/ids.h>
 #include <check/internal/nearest_triangle.h>
 #include <mesh/edge_table.h>
@@ -16,30 +14,6 @@ namespace {
 
 // Around a point, many triangles may be as near as one another, with a nearer one behind them.
 constexpr std::size_t kMostLookedAt = 48;  // since the last that was nearer
-
-Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d ab = b - a;
-  const double length = ab.squaredNorm();
-  if (!(length > 0)) return a;
-  return a + std::clamp((p - a).dot(ab) / length, 0.0, 1.0) * ab;
-}
-
-// As squared_distance() finds how far it is.
-Vec3d nearest_on_triangle(const Vec3d& p, const Corners& triangle) {
-  const auto& [a, b, c] = triangle;
-  if (p == a || p == b || p == c) return p;
-  const Vec3d ab = b - a, ac = c - a, ap = p - a;
-  const Vec3d normal = ab.cross(ac);
-  const double size = normal.squaredNorm();
-  const double v = ap.cross(ac).dot(normal), w = ab.cross(ap).dot(normal);
-  if (v >= 0 && w >= 0 && v + w <= size && size > 0) return a + v / size * ab + w / size * ac;
-  Vec3d nearest = a;
-  for (const Vec3d& q :
-       {nearest_on_segment(p, a, b), nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)}) {
-    if ((q - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = q;
-  }
-  return nearest;
-}
 
 }  // namespace
 
@@ -116,7 +90,9 @@ std::uint32_t CornerPlaces::nearest_from(std::uint32_t triangle, const Vec3d& pl
 }
 
 Vec3d CornerPlaces::nearest(std::uint32_t corner, const Vec3d& place) const {
-  return nearest_on_triangle(place, corners_of(triangle_of_[corner]));
+  const std::array<Vec3d, 3> corners = corners_of(triangle_of_[corner]);
+  const bool is_corner = std::find(corners.begin(), corners.end(), place) != corners.end();
+  return is_corner ? place : nearest_point(place, corners);
 }
 
 }  // namespace meshrepair::internal

@@ -27,6 +27,7 @@
 #include "cost_queue.h"
 #include "distance_guard.h"
 #include "quadric.h"
+#include "seam_edges.h"
 #include "value_quadrics.h"
 
 namespace meshrepair {
@@ -41,6 +42,7 @@ using internal::DistanceGuard;
 using internal::PointStar;
 using internal::Quadric;
 using internal::Refusal;
+using internal::SeamEdges;
 using internal::ValueQuadrics;
 
 // Where the surface is flat, what collapses cost is rounding, and short edges go first: so much of
@@ -77,20 +79,20 @@ class Decimator {
         points_(scaled(mesh.points, scale_)),
         mesh_(mesh.triangles, mesh.points.size()),
         guard_(mesh_, points_, find_parts(mesh)),
+        seams_(mesh_, options.seams),
         quadrics_(mesh.points.size()),
         freedom_(mesh.points.size(), Freedom::free),
         version_(mesh.points.size(), 0),
         became_(mesh.points.size(), kNone),
         first_(mesh.triangles.size()),
         left_(first_) {
-    seams_.assign(options.seams.begin(), options.seams.end());
     const bool has_limit = std::isfinite(options.distance);
     if (options.find_corners || has_limit) places_.emplace(mesh.triangles, points_, options.seams);
     if (has_limit) distance_.emplace(points_, mesh.triangles, scale_(options.distance));
     fix_points();
     add_quadrics();
     if (options.values_of_corner > 0) add_values();
-    planes_now_ = quadrics_;
+    if (!distance_) planes_now_ = quadrics_;
     has_changed_.assign(points_.size(), 0);
   }
 
@@ -129,8 +131,8 @@ class Decimator {
       }
       result.mesh.triangles.push_back(corners);
       result.source.push_back(t);
-      for (std::uint32_t k = 0; options_.find_corners && k < 3; ++k)
-        result.corners.push_back(corner_place(t, k));
+      if (!options_.find_corners) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) result.corners.push_back(corner_place(t, k));
     }
     std::vector<std::uint32_t> became = became_;
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
@@ -177,19 +179,10 @@ class Decimator {
       if (is_held(p)) freedom_[p] = Freedom::fixed;
     }
     if (seams_.empty()) return;
-    std::vector<std::uint8_t> seams_at(points_.size(), 0);  // each from both sides
-    const auto& triangles = mesh_.triangles();
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        if (!is_seam(t, k)) continue;
-        for (const std::uint32_t p : {triangles[t][k], triangles[t][(k + 1) % 3]}) {
-          seams_at[p] = static_cast<std::uint8_t>(std::min(seams_at[p] + 1, 255));
-        }
-      }
-    }
+    const std::vector<std::uint8_t> ends = seams_.count_ends(points_.size());
     for (std::size_t p = 0; p < points_.size(); ++p) {
-      if (seams_at[p] == 0 || freedom_[p] == Freedom::fixed) continue;
-      freedom_[p] = seams_at[p] == 4 ? Freedom::on_seam : Freedom::fixed;
+      if (ends[p] == 0 || freedom_[p] == Freedom::fixed) continue;
+      freedom_[p] = ends[p] == 2 ? Freedom::on_seam : Freedom::fixed;
     }
   }
 
@@ -199,10 +192,6 @@ class Decimator {
 
   [[nodiscard]] bool is_held(std::uint32_t point) const {
     return guard_.is_held(point) || stays(point) != Stay::no;
-  }
-
-  [[nodiscard]] bool is_seam(std::size_t triangle, std::uint32_t side) const {
-    return !seams_.empty() && (seams_[triangle] >> side & 1) != 0;
   }
 
   void add_quadrics() {
@@ -219,7 +208,7 @@ class Decimator {
         quadrics_[p].add_plane(normal, at[0], doubled_area / 6);
       }
       for (std::uint32_t k = 0; k < 3; ++k) {
-        if (!is_seam(t, k)) continue;
+        if (!seams_.is_seam(t, k)) continue;
         const Vec3d along = at[(k + 1) % 3] - at[k];
         const Vec3d wall = along.cross(normal).normalized();
         for (const std::uint32_t p : {corners[k], corners[(k + 1) % 3]}) {
@@ -261,22 +250,12 @@ class Decimator {
     return planes_now_[p] = planes;
   }
 
-  // From the first on.
-  [[nodiscard]] Quadric all_planes_of(std::uint32_t a, std::uint32_t b) const {
-    Quadric planes = quadrics_[a];
-    planes.add(quadrics_[b]);
-    return planes;
-  }
-
   // With what their values cost. What is to stay near the first surface is held to its planes: a
   // seam, and all where there is a limit.
   [[nodiscard]] Quadric cost_of(std::uint32_t a, std::uint32_t b) {
     const bool is_free = !distance_ && freedom_[a] == Freedom::free && freedom_[b] == Freedom::free;
-    Quadric both = all_planes_of(a, b);
-    if (is_free) {
-      both = planes_now(a);
-      both.add(planes_now(b));
-    }
+    Quadric both = is_free ? planes_now(a) : quadrics_[a];
+    both.add(is_free ? planes_now(b) : quadrics_[b]);
     if (values_) values_->add_to(both, a, b);
     return both;
   }
@@ -362,7 +341,8 @@ class Decimator {
       ++report_.would_break_seam;
       return;
     }
-    const Quadric both = all_planes_of(edge.from, edge.to);
+    Quadric both = quadrics_[edge.from];
+    both.add(quadrics_[edge.to]);
     const Quadric::Plane on =
         freedom_[edge.to] == Freedom::free ? same_volume(edge.from, edge.to) : Quadric::Plane();
     const Quadric cost = cost_of(edge.from, edge.to);
@@ -385,8 +365,7 @@ class Decimator {
     }
   }
 
-  // Values are as far from what they were as places may be; that is asked of the square of the
-  // mean.
+  // Values may be off by as much as places may: in the mean square, by their quadrics alone.
   [[nodiscard]] bool stays_near(const Edge& edge, double squared_error) {
     if (!distance_) return true;
     const double most = scale_(options_.distance);
@@ -446,53 +425,19 @@ class Decimator {
     }
   }
 
-  [[nodiscard]] bool is_seam_between(std::uint32_t triangle, std::uint32_t a,
-                                     std::uint32_t b) const {
-    const auto& corners = mesh_.triangles()[triangle];
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t p = corners[k], q = corners[(k + 1) % 3];
-      if ((p == a && q == b) || (p == b && q == a)) return is_seam(triangle, k);
-    }
-    return false;
-  }
-
   // A point of a seam moves along it, and no two seams become one.
   [[nodiscard]] bool keeps_seams(const Edge& edge) const {
     const Freedom freedom = freedom_[edge.from];
-    if (freedom == Freedom::fixed || (freedom == Freedom::on_seam &&
-                                      !is_seam_between(star_.triangles[at_], edge.from, edge.to))) {
+    if (freedom == Freedom::fixed) return false;
+    if (freedom == Freedom::on_seam &&
+        !seams_.is_seam_between(star_.triangles[at_], edge.from, edge.to)) {
       return false;
     }
-    for (const std::size_t side : {at_, star_.before(at_)}) {
-      const std::uint32_t t = star_.triangles[side];
-      const std::uint32_t third = star_.link[side == at_ ? star_.after(at_) : side];
-      if (is_seam_between(t, edge.from, third) && is_seam_between(t, edge.to, third)) return false;
-    }
-    return true;
-  }
-
-  // Two edges of a triangle that goes become one: if one is a seam, so is that.
-  void join_seams(const Edge& edge) {
-    for (const std::size_t side : {at_, star_.before(at_)}) {
-      const std::uint32_t t = star_.triangles[side];
-      const std::uint32_t third = star_.link[side == at_ ? star_.after(at_) : side];
-      if (!is_seam_between(t, edge.from, third) && !is_seam_between(t, edge.to, third)) continue;
-      for (const auto& f : collapse_.fan) {
-        const auto& corners = mesh_.triangles()[f.triangle];
-        for (std::uint32_t k = 0; k < 3; ++k) {
-          const std::uint32_t p = corners[k], q = corners[(k + 1) % 3];
-          const bool is_ours = p == third || q == third;
-          const bool is_of_edge = p == edge.from || q == edge.from || p == edge.to || q == edge.to;
-          if (is_ours && is_of_edge) {
-            seams_[f.triangle] = static_cast<std::uint8_t>(seams_[f.triangle] | 1u << k);
-          }
-        }
-      }
-    }
+    return !seams_.would_join(star_, at_);
   }
 
   void make(const Edge& edge, const Quadric& both, double error) {
-    if (!seams_.empty()) join_seams(edge);
+    if (!seams_.empty()) seams_.collapse(star_, at_, collapse_);
     mesh_.collapse(star_, at_);
     points_[edge.to] = collapse_.place;
     guard_.note_made(collapse_);
@@ -518,7 +463,7 @@ class Decimator {
     const auto& fan = collapse_.fan;
     list_corners([&](const auto&) { return point; });
     const auto is_last = [&](std::size_t i) {
-      return !seams_.empty() && is_seam_between(fan[i].triangle, point, fan[i].last);
+      return !seams_.empty() && seams_.is_seam_between(fan[i].triangle, point, fan[i].last);
     };
     std::size_t first = 0;
     while (first < fan.size() && !is_last(first)) ++first;
@@ -549,14 +494,14 @@ class Decimator {
   std::vector<Vec3d> points_;  // scaled
   CollapsibleMesh mesh_;
   CollapseGuard guard_;
+  SeamEdges seams_;
   std::optional<CornerPlaces> places_;     // if they are wanted, or there is
   std::optional<DistanceGuard> distance_;  // a limit
   std::vector<Quadric> quadrics_;          // of the planes that each point has come to stand for
-  std::vector<Quadric> planes_now_;        // of those around it, where
-  std::vector<std::uint8_t> has_changed_;  // is 0; empty:
+  std::vector<Quadric> planes_now_;        // of those around each point; empty: there is a limit
+  std::vector<std::uint8_t> has_changed_;  // of each point, whether these are older than the mesh
   std::optional<ValueQuadrics> values_;    // if there are any
   std::vector<Freedom> freedom_;
-  std::vector<std::uint8_t> seams_;     // of each triangle, a bit for each side; empty: none
   std::vector<std::uint32_t> version_;  // of each point: how often its quadric has changed
   std::vector<std::uint32_t> became_;   // of each point that went, the one that it is now
   const std::size_t first_;             // triangles

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -11,11 +13,11 @@ namespace {
 
 constexpr std::size_t kBoxedPerTask = 8192;
 
-double squared_distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
   const double length = along.squaredNorm();
   const double t = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (a + t * along - p).squaredNorm();
+  return a + t * along;
 }
 
 double squared_distance_to_box(const Vec3d& p, const Box& box) {
@@ -40,25 +42,41 @@ RawVector<Box> boxes_of(std::span<const Corners> triangles) {
   return boxes;
 }
 
-}  // namespace
-
 // Above the inside of the triangle its plane is nearest, else one of its sides. The inside is told
 // by the barycentric coordinates of the foot of the perpendicular, which are clamped so that a foot
 // beside the triangle, by rounding, is moved onto it.
-double squared_distance(const Vec3d& p, const Corners& triangle) {
+std::optional<Vec3d> foot_inside(const Vec3d& p, const Corners& triangle) {
   const auto& [a, b, c] = triangle;
   const Vec3d ab = b - a, ac = c - a, ap = p - a;
   const Vec3d normal = ab.cross(ac);
   const double size = normal.squaredNorm();
   const double v = ap.cross(ac).dot(normal);
   const double w = ab.cross(ap).dot(normal);
-  if (v >= 0 && w >= 0 && v + w <= size && size > 0) {
-    const double v_share = std::min(v / size, 1.0);
-    const double w_share = std::min(w / size, 1.0 - v_share);
-    return (a + v_share * ab + w_share * ac - p).squaredNorm();
-  }
-  return std::min({squared_distance_to_segment(p, a, b), squared_distance_to_segment(p, b, c),
-                   squared_distance_to_segment(p, c, a)});
+  if (!(v >= 0 && w >= 0 && v + w <= size && size > 0)) return std::nullopt;
+  const double v_share = std::min(v / size, 1.0);
+  const double w_share = std::min(w / size, 1.0 - v_share);
+  return a + v_share * ab + w_share * ac;
+}
+
+std::array<Vec3d, 3> nearest_on_sides(const Vec3d& p, const Corners& triangle) {
+  const auto& [a, b, c] = triangle;
+  return {nearest_on_segment(p, a, b), nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)};
+}
+
+}  // namespace
+
+Vec3d nearest_point(const Vec3d& p, const Corners& triangle) {
+  if (const std::optional<Vec3d> foot = foot_inside(p, triangle)) return *foot;
+  const std::array<Vec3d, 3> nearest = nearest_on_sides(p, triangle);
+  return *std::min_element(nearest.begin(), nearest.end(), [&](const Vec3d& q, const Vec3d& r) {
+    return (q - p).squaredNorm() < (r - p).squaredNorm();
+  });
+}
+
+double squared_distance(const Vec3d& p, const Corners& triangle) {
+  if (const std::optional<Vec3d> foot = foot_inside(p, triangle)) return (*foot - p).squaredNorm();
+  const auto& [q, r, s] = nearest_on_sides(p, triangle);
+  return std::min({(q - p).squaredNorm(), (r - p).squaredNorm(), (s - p).squaredNorm()});
 }
 
 NearestTriangle::NearestTriangle(std::span<const Corners> triangles)

@@ -12,34 +12,18 @@
 #include <base/parallel.h>
 #include <repair/transfer_attributes.h>
 
+#include "common/continuity.h"
+
 namespace meshrepair {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The largest of what its components span.
-double extent_of(const CornerAttribute& attribute) {
-  if (attribute.kind == CornerAttribute::Kind::normal ||
-      attribute.kind == CornerAttribute::Kind::tangent) {
-    return 1;
-  }
-  double extent = 0;
-  for (std::size_t c = 0; c < attribute.components; ++c) {
-    double least = kInfinity, most = -kInfinity;
-    for (std::size_t i = c; i < attribute.values.size(); i += attribute.components) {
-      least = std::min(least, attribute.values[i]);
-      most = std::max(most, attribute.values[i]);
-    }
-    if (most > least) extent = std::max(extent, most - least);
-  }
-  return extent;
-}
-
 // How much attributes change along each triangle.
 class Steepness {
  public:
   Steepness(const TriangleSoup& input, const CornerAttribute& attribute)
-      : input_(input), attribute_(attribute), extent_(extent_of(attribute)) {}
+      : input_(input), attribute_(attribute), extent_(internal::extent_of(attribute)) {}
 
   // Shares of the extent for a unit of length, in the steepest direction. Infinite where the
   // triangle has no area, as then it is no function of the place.

@@ -18,6 +18,8 @@
 #include <mesh/skins.h>
 #include <repair/transfer_attributes.h>
 
+#include "common/continuity.h"
+
 namespace meshrepair::internal {
 namespace {
 
@@ -166,8 +168,6 @@ class PatchFiller {
 
  private:
   static constexpr std::uint32_t kOnRim = kNone - 1;
-  // The cosine of the angle from which on two triangles look as with an edge between them.
-  static constexpr double kCrease = 0.7;
   using PointValues = std::map<std::uint32_t, std::uint32_t>;
 
   // Of each point of the rim. Nothing where a point has none; of texture coordinates also where it

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -12,6 +11,8 @@
 #include <base/ids.h>
 #include <mesh/edge_table.h>
 #include <mesh/triangle_paint.h>
+
+#include "common/continuity.h"
 
 namespace meshrepair::internal {
 namespace {
@@ -21,9 +22,6 @@ using Kind = CornerAttribute::Kind;
 // Values of neighbours that are nearer are one, made in two triangles: a share of their extent, a
 // pixel of a usual picture.
 constexpr double kJump = 1.0 / 1024;
-
-// The cosine of the angle from which on two normals are those of an edge that is seen.
-constexpr double kCrease = 0.7;
 
 // Values that jump at more than one in so many of the edges are those of faces.
 constexpr std::size_t kFewOfEdges = 4;
@@ -63,16 +61,8 @@ std::vector<std::uint32_t> labels_of(const Surface& surface, const Attributes& c
 // Whether values at two corners differ by more than a texture's neighbours or a smooth surface do.
 class Jumps {
  public:
-  explicit Jumps(const CornerAttribute& attribute) : attribute_(attribute) {
-    for (std::size_t c = 0; c < attribute.components; ++c) {
-      double least = std::numeric_limits<double>::infinity(), most = -least;
-      for (std::size_t i = c; i < attribute.values.size(); i += attribute.components) {
-        least = std::min(least, attribute.values[i]);
-        most = std::max(most, attribute.values[i]);
-      }
-      if (most > least) extent_ = std::max(extent_, most - least);
-    }
-  }
+  explicit Jumps(const CornerAttribute& attribute)
+      : attribute_(attribute), jump_(kJump * extent_of(attribute)) {}
 
   [[nodiscard]] bool operator()(std::uint32_t corner, std::uint32_t other) const {
     const std::uint32_t a = attribute_.of_corner[corner], b = attribute_.of_corner[other];
@@ -86,14 +76,14 @@ class Jumps {
       return dot < kCrease;
     }
     for (std::size_t i = 0; i < attribute_.components; ++i) {
-      if (!(std::abs(first[i] - second[i]) <= kJump * extent_)) return true;
+      if (!(std::abs(first[i] - second[i]) <= jump_)) return true;
     }
     return false;
   }
 
  private:
   const CornerAttribute& attribute_;
-  double extent_ = 0;
+  double jump_;
 };
 
 using Edges = std::vector<std::array<std::uint32_t, 2>>;  // the two sides of each, 3 t + k

@@ -15,9 +15,11 @@ namespace meshrepair::internal {
 
 using Corners = std::array<Vec3d, 3>;
 
-// The square of the distance to a point of the triangle that is the nearest but for rounding. The
-// point is on the triangle whatever was rounded, so the true distance is not larger by more than
-// the rounding of one sum of coordinates.
+// A point of the triangle that is the nearest but for rounding.
+[[nodiscard]] Vec3d nearest_point(const Vec3d& p, const Corners& triangle);
+
+// The square of the distance to that. The point is on the triangle whatever was rounded, so the
+// true distance is not larger by more than the rounding of one sum of coordinates.
 [[nodiscard]] double squared_distance(const Vec3d& p, const Corners& triangle);
 
 struct Nearest {
