@@ -42,7 +42,8 @@ constexpr auto kWarningKinds = std::to_array<WarningKind>({
     {"W-PARTS-ALL-KEPT", false, "No part is removed, as the surface is not closed"},
     {"W-ONE-BLOCK", false, "The input is a single block, and several machines do not help"},
     {"W-STATES-NOT-SAVED", false, "Saved states are ignored, or none are saved"},
-    {"W-TRIANGLES-LEFT", false, "More triangles stay than `--triangles` or `--max-error` asked for"},
+    {"W-TRIANGLES-LEFT", false,
+     "More triangles stay than `--triangles` or `--max-error` asked for"},
     {"W-REPORT-NOT-WRITTEN", false, "The report cannot be written"},
 });
 static_assert(kWarningKinds.size() ==
