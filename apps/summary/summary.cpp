@@ -426,10 +426,12 @@ std::vector<std::string> reduced(const RepairReport& repair) {
   std::string text = fmt::format("{} to {}", number_of(fewer.before, "triangle"),
                                  grouped(repair.output.triangles));
   if (fewer.asked > 0) text += fmt::format(" of {} asked for", grouped(fewer.asked));
-  text +=
-      fewer.most_distance > 0
-          ? fmt::format(", proven to be at most {:.3g} from the repaired mesh", fewer.most_distance)
-          : fmt::format(", quadric error up to {:.2g}", fewer.collapses.largest_error);
+  if (fewer.most_distance > 0) {
+    text +=
+        fmt::format(", proven to be at most {:.3g} from the repaired mesh", fewer.most_distance);
+  }
+  const double change = repair.output_volume / fewer.volume_before - 1;
+  if (std::isfinite(change)) text += fmt::format("; volume {:+.1f} %", 100 * change);
   return {text};
 }
 

@@ -341,17 +341,14 @@ class Decimator {
       ++report_.would_break_seam;
       return;
     }
-    Quadric both = quadrics_[edge.from];
-    both.add(quadrics_[edge.to]);
     const Quadric::Plane on =
         freedom_[edge.to] == Freedom::free ? same_volume(edge.from, edge.to) : Quadric::Plane();
     const Quadric cost = cost_of(edge.from, edge.to);
     const Vec3d place = place_for(edge, cost, on);
-    const double error = std::sqrt(both.at(place) / both.weight());
     collapse_.place = scale_(internal::rounded_to(scale_.back(place), options_.precision));
     const Refusal why = stays_near(edge, cost.at(place) / cost.weight()) ? guard_.refusal(collapse_)
                                                                          : Refusal::distance;
-    if (why == Refusal::none) return make(edge, both, error);
+    if (why == Refusal::none) return make(edge);
     if (edge.way != Way::best) return;
     ++(why == Refusal::distance ? report_.would_part
        : why == Refusal::fold   ? report_.would_fold
@@ -436,14 +433,14 @@ class Decimator {
     return !seams_.would_join(star_, at_);
   }
 
-  void make(const Edge& edge, const Quadric& both, double error) {
+  void make(const Edge& edge) {
     if (!seams_.empty()) seams_.collapse(star_, at_, collapse_);
     mesh_.collapse(star_, at_);
     points_[edge.to] = collapse_.place;
     guard_.note_made(collapse_);
     if (distance_) distance_->note_made(collapse_);
     if (places_) move_corners(edge.to);
-    quadrics_[edge.to] = both;
+    quadrics_[edge.to].add(quadrics_[edge.from]);
     has_changed_[edge.to] = 1;
     for (const auto& t : collapse_.fan) has_changed_[t.next] = 1;
     if (values_) values_->join(edge.to, edge.from);
@@ -452,7 +449,6 @@ class Decimator {
     left_ -= 2;
     ++report_.collapses;
     tell_progress();
-    report_.largest_error = std::max(report_.largest_error, scale_.back(error));
     mesh_.visit_corners(edge.to, [&](std::uint32_t, std::uint32_t next, std::uint32_t) {
       queue_.push(edge_between(edge.to, next));
     });

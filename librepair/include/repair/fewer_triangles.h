@@ -35,6 +35,7 @@ struct FewerTrianglesReport {
   double most_distance = 0;  // asked for; 0: none was
   bool is_unproven = false;  // so all triangles stay
   std::size_t before = 0;    // triangles that there were
+  double volume_before = 0;  // in the input's units, cubed
   DecimationReport collapses;
   // Of corner k of triangle t of the result at 3 t + k; empty where no values were given.
   std::vector<CornerOrigin> corners;

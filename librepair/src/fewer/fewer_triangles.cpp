@@ -123,6 +123,7 @@ void take_triangles_away(const TriangleSoup& input, Surface& surface, const Repa
   FewerTrianglesReport& told = report.fewer;
   told.before = surface.mesh.triangles.size();
   told.asked = asked_of(options.fewer, told.before);
+  told.volume_before = report.output_volume;
   if (!report.certify.passed()) return;
   StageMeter meter(report.stages, options.progress);
   meter.begin("fewer");

@@ -49,9 +49,6 @@ struct DecimationOptions {
 
 struct DecimationReport {
   std::size_t collapses = 0;
-  // The root of the mean square of distances to the planes that a point stands for, the largest of
-  // all collapses that were made: as far as quadrics tell. In the mesh's units.
-  double largest_error = 0;
   // Edges that are left because their collapse would ...
   std::size_t would_change_topology = 0;  // join surfaces or holes, or leave no solid
   std::size_t would_break_seam = 0;       // move the end of a seam, or join two
