@@ -9,6 +9,7 @@
 
 #include <base/error.h>
 #include <base/ids.h>
+#include <check/check_surface.h>
 #include <check/mesh_distance.h>
 #include <repair/explain_repair.h>
 #include <repair/transfer_attributes.h>
@@ -72,6 +73,17 @@ void keep_origins(const std::vector<std::uint32_t>& source, RepairExplanation& e
   origins.reserve(source.size());
   for (const std::uint32_t t : source) origins.push_back(explanation.origins[t]);
   explanation.origins = std::move(origins);
+}
+
+// Rounding turns triangles about an edge along which solids touch, so that some of these are joined
+// there and others not: that is none of the faults.
+bool is_solid(const TriangleSoup& mesh, const RepairOptions& options) {
+  CancelOnly quiet(options.progress);
+  if (valid_solid(mesh, written_as(options), &quiet)) return true;
+  CheckOptions check;
+  check.weld = options.certify.welded;
+  check.progress = &quiet;
+  return check_surface(mesh, check).valid_solid();
 }
 
 using Stay = DecimationOptions::Stay;
@@ -154,8 +166,7 @@ void take_triangles_away(const TriangleSoup& input, Surface& surface, const Repa
                             : decimate(surface.mesh, decimation, told.collapses);
   told.done = true;
   if (told.collapses.collapses == 0) return;
-  CancelOnly quiet(options.progress);
-  if (!valid_solid(fewer.mesh, written_as(options), &quiet)) {
+  if (!is_solid(fewer.mesh, options)) {
     throw InternalError("with fewer triangles the surface is no boundary of a solid any more");
   }
   keep_origins(fewer.source, report.explanation);

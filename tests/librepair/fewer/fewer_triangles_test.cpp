@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // repair() with fewer triangles: certified as without, and told.
+#include "fewer/fewer_triangles.h"
+
 #include <gtest/gtest.h>
 
 #include <base/parallel.h>
@@ -43,6 +45,25 @@ TEST(FewerTriangles, ASolidThatIsSmallEnoughStaysAsItIs) {
   EXPECT_EQ(result.surface.mesh.triangles, soup.triangles);
   EXPECT_EQ(result.surface.mesh.points, soup.points);
   EXPECT_TRUE(result.report.kept_valid);
+}
+
+// Rounding can leave a surface that is joined along one edge that solids share, and not along
+// another.
+TEST(FewerTriangles, SolidsThatTouchInTwoWaysAreReduced) {
+  const TriangleSoup two = together(cube(), box({1, 1, 0}, {2, 2, 1}));
+  RepairOptions join;
+  join.extract.touching = Touching::join;
+  Surface surface;
+  surface.mesh =
+      together(repair(two).surface.mesh, moved(repair(two, join).surface.mesh, Vec3d(5, 0, 0)));
+  const TriangleSoup given = surface.mesh;
+  surface.source.assign(given.triangles.size(), 0);
+  surface.input_point.assign(given.points.size(), 1);
+  RepairReport report;
+  report.certify.done = true;
+  internal::take_triangles_away(given, surface, of_at_most(40), report);
+  EXPECT_LE(surface.mesh.triangles.size(), 40u);
+  EXPECT_TRUE(check_surface(surface.mesh).valid_solid());
 }
 
 TEST(FewerTriangles, AShareIsOfTheRepairedSurface) {
