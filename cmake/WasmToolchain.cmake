@@ -1,4 +1,4 @@
-# How CMake builds for WebAssembly with Debian's emscripten: for the libraries of others that scripts/make_wasm_dependencies.sh makes,
+# How CMake builds for WebAssembly with Debian's emscripten: for the libraries of others that scripts/make_dependencies.sh makes,
 # and for the preset wasm. All that is linked together has the same kind of exceptions, those of WebAssembly itself.
 if(NOT DEFINED ENV{NODE_PATH})
   set(ENV{NODE_PATH} /usr/share/nodejs) # where Debian's emscripten finds acorn, whichever node runs it

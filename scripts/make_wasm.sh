@@ -13,7 +13,7 @@ export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
 case "${1:-}" in
   -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
 esac
-"$root/scripts/make_wasm_dependencies.sh"
+"$root/scripts/make_dependencies.sh" wasm
 cd "$root"
 cmake --preset wasm
 cmake --build --preset wasm --parallel "${1:-$(nproc)}"

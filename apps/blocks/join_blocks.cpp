@@ -187,11 +187,12 @@ struct Between {
   std::size_t inside_out = 0;  // parts that lie in the solid of another block
 };
 
-std::size_t pairs_between(const Joined& joined, const std::vector<std::uint32_t>& near, Run& run) {
+std::size_t pairs_between(const Joined& joined, const std::vector<std::uint32_t>& nearby,
+                          Run& run) {
   SelfIntersectionOptions options;
   options.most_pairs = joined.soup.triangles.size();
   options.progress = &run.progress;
-  const SelfIntersections found = self_intersections(joined.soup, near, options);
+  const SelfIntersections found = self_intersections(joined.soup, nearby, options);
   return static_cast<std::size_t>(std::count_if(
       found.pairs.begin(), found.pairs.end(),
       [&](const auto& pair) { return block_of(joined, pair[0]) != block_of(joined, pair[1]); }));
@@ -199,9 +200,9 @@ std::size_t pairs_between(const Joined& joined, const std::vector<std::uint32_t>
 
 Between look_between(const Joined& joined, Run& run) {
   Between between;
-  const std::vector<std::uint32_t> near = triangles_near_others(joined);
-  if (near.empty()) return between;
-  between.pairs = pairs_between(joined, near, run);
+  const std::vector<std::uint32_t> nearby = triangles_near_others(joined);
+  if (nearby.empty()) return between;
+  between.pairs = pairs_between(joined, nearby, run);
   // What crosses has no inside.
   if (between.pairs > 0 || !joined.uncertified.empty()) return between;
   const PartOrientation parts = examine_part_orientation(joined.soup, &run.progress);

@@ -62,7 +62,7 @@ std::string resume_folder(const RunOptions& options) {
   if (options.resume.empty()) return {};
   std::error_code failed;
   std::filesystem::create_directories(options.resume, failed);
-  return std::filesystem::path(options.resume) / std::to_string(options.block);
+  return (std::filesystem::path(options.resume) / std::to_string(options.block)).string();
 }
 
 // What belongs to the whole mesh.

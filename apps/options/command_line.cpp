@@ -201,6 +201,7 @@ CommandLine::CommandLine(const std::string& description, const std::string& name
     : app_(std::make_unique<CLI::App>(description, name)) {
   app_->formatter(std::make_shared<HelpFormatter>());
   app_->set_help_flag();
+  app_->allow_windows_style_options(false);  // a path may begin with a slash there, too
 }
 
 CommandLine::~CommandLine() = default;

@@ -2,13 +2,13 @@
 #include "process/exit_code.h"
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
 #include <new>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 #include "process/signals.h"
 
@@ -55,11 +55,11 @@ Failure describe_exception(const std::exception_ptr& error) {
 
 std::optional<Failure> failure_of_signal() {
   switch (received_signal()) {
-    case SIGHUP:
+    case internal::kHangUp:
       return Failure{ExitCode::hung_up, "hung up"};
-    case SIGINT:
+    case internal::kInterrupt:
       return Failure{ExitCode::interrupted, "interrupted"};
-    case SIGTERM:
+    case internal::kTerminate:
       return Failure{ExitCode::terminated, "terminated"};
     default:
       return std::nullopt;

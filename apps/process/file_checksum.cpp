@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 namespace meshrepair {
 namespace {
@@ -28,13 +29,13 @@ std::uint64_t file_checksum(const std::filesystem::path& file) {
   std::uint64_t sum = 0, size = 0;
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     const auto count = static_cast<std::size_t>(in.gcount());
-    sum = ::crc32_z(sum, reinterpret_cast<const Bytef*>(block.data()), count);
+    sum = ::crc32_z(static_cast<uLong>(sum), reinterpret_cast<const Bytef*>(block.data()), count);
     size += count;
   }
   if (in.bad()) throw InputError(file.string() + ": cannot be read to its end");
   return size << 32 ^ sum;
 }
 
-std::uint64_t program_checksum() { return file_checksum("/proc/self/exe"); }
+std::uint64_t program_checksum() { return file_checksum(internal::program_file()); }
 
 }  // namespace meshrepair

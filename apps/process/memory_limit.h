@@ -20,19 +20,6 @@ struct MemoryLimit {
 // The same without shares, of another option, which messages name.
 [[nodiscard]] std::uint64_t parse_size(const std::string& text, const std::string& option);
 
-// What can be taken without swapping: of the machine, or of the control groups that the process
-// lives in. Empty where the system does not tell.
-[[nodiscard]] std::optional<std::uint64_t> free_memory();
-
-// What the process has in memory now; 0 where the system does not tell.
-[[nodiscard]] std::uint64_t resident_memory();
-
-// The part of it that is no file's: it cannot be let go of.
-[[nodiscard]] std::uint64_t private_memory();
-
-// What the process has reserved of its own, in use or not; 0 where the system does not tell.
-[[nodiscard]] std::uint64_t reserved_memory();
-
 // Makes the system refuse more than this to the process, so that it meets std::bad_alloc in place
 // of the system's killer. `threads` are those to be started from now on: what their stacks reserve
 // does not count. Throws UsageError if the program needs more than this for itself, LimitError if

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/logger.h>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 #include "process/memory_limit.h"
 #include "process/signals.h"
@@ -33,9 +32,9 @@ double clamp_share(double share) {
 int percent_of(double share) { return static_cast<int>(clamp_share(share) * 100); }
 
 int columns_of(std::FILE* terminal) {
-  winsize size = {};
-  if (ioctl(fileno(terminal), TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 80;
+  constexpr int kUsual = 80;
+  const int columns = internal::terminal_columns(fileno(terminal));
+  return columns > 0 ? columns : kUsual;
 }
 
 }  // namespace
@@ -104,7 +103,8 @@ std::optional<std::string> ProgressBar::limit_reached() const {
   if (options_.time_limit > 0 && seconds() > options_.time_limit) {
     return fmt::format("time limit of {:g} s reached {}", options_.time_limit, where());
   }
-  const std::uint64_t memory = options_.spills ? private_memory() : resident_memory();
+  const internal::ProcessMemory now = internal::process_memory();
+  const std::uint64_t memory = options_.spills ? now.own : now.resident;
   if (options_.memory_limit > 0 && memory > options_.memory_limit) {
     return out_of_memory();
   }
@@ -159,7 +159,7 @@ void ProgressBar::tell() {
   if (options_.told < 0 || percent <= told_percent_) return;
   told_percent_ = percent;
   const std::string line = fmt::format("{} {}\n", stage_, percent);
-  (void)!::write(options_.told, line.data(), line.size());
+  (void)internal::write_some(options_.told, line.data(), line.size());
 }
 
 void ProgressBar::draw() {

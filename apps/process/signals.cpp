@@ -2,10 +2,9 @@
 #include "process/signals.h"
 
 #include <atomic>
-#include <csignal>
-#include <unistd.h>
 
 #include <base/atomic_file.h>
+#include <base/internal/system.h>
 
 #include "terminal/raw_terminal.h"
 
@@ -20,28 +19,18 @@ extern "C" void handle_signal(int number) {
   if (first_signal.compare_exchange_strong(none, number)) return;
   remove_unfinished_file();
   restore_terminal();
-  _exit(128 + number);
+  internal::end_process_now(128 + number);
 }
 
 }  // namespace
 
-// Without SA_RESTART: a program that waits for its standard input must wake up.
-void install_signal_handler(int number) {
-  struct sigaction action = {};
-  sigaction(number, nullptr, &action);
-  if (action.sa_handler == SIG_IGN) return;
-  action = {};
-  action.sa_handler = handle_signal;
-  sigemptyset(&action.sa_mask);
-  sigaction(number, &action, nullptr);
-}
+void install_signal_handler(int number) { internal::handle_request_to_end(number, handle_signal); }
 
 void install_signal_handlers() {
-  install_signal_handler(SIGHUP);
-  install_signal_handler(SIGINT);
-  install_signal_handler(SIGTERM);
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  install_signal_handler(internal::kHangUp);
+  install_signal_handler(internal::kInterrupt);
+  install_signal_handler(internal::kTerminate);
+  internal::make_refused_writes_errors();
 }
 
 int received_signal() noexcept { return first_signal.load(); }

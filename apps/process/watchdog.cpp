@@ -2,14 +2,12 @@
 #include "process/watchdog.h"
 
 #include <chrono>
-#include <csignal>
 #include <new>
 #include <optional>
-#include <poll.h>
-#include <unistd.h>
 #include <utility>
 
 #include <base/atomic_file.h>
+#include <base/internal/system.h>
 
 #include "terminal/raw_terminal.h"
 
@@ -19,28 +17,11 @@ namespace {
 constexpr std::chrono::milliseconds kBetweenLooks(50);
 constexpr int kMostLooks = 15;  // with a reason to stop
 
-// Signals are for the threads that wait for input and output: they are to wake up.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
- private:
-  sigset_t before_;
-};
-
 }  // namespace
 
 Watchdog::Watchdog(std::string program, const ProgressBar& progress)
     : program_(std::move(program)), progress_(progress) {
-  const SignalsBlocked blocked;
-  thread_ = std::thread([this] { watch(); });
+  thread_ = internal::thread_without_signals([this] { watch(); });
 }
 
 Watchdog::~Watchdog() {
@@ -70,14 +51,12 @@ void Watchdog::watch() {
 // anyone to read. The file goes last: the work may have made it just now.
 void Watchdog::end_process(const Failure& reason) const {
   const std::string line = progress_.clearing() + program_ + ": " + reason.message + "\n";
-  pollfd standard_error = {STDERR_FILENO, POLLOUT, 0};
-  if (::poll(&standard_error, 1, 0) > 0) {
-    const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
-    static_cast<void>(written);
+  if (internal::is_ready(internal::kStandardError, internal::Direction::out)) {
+    (void)internal::write_some(internal::kStandardError, line.data(), line.size());
   }
   remove_unfinished_file();
   restore_terminal();
-  _exit(static_cast<int>(reason.code));
+  internal::end_process_now(static_cast<int>(reason.code));
 }
 
 }  // namespace meshrepair

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fcntl.h>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 #include "describe/build_facts.h"
 #include "describe/completions.h"
@@ -51,7 +51,7 @@ std::string why_no_count(const std::string& text) {
 std::string why_no_descriptor(const std::string& text) {
   const std::optional<std::size_t> number = parse_count(text);
   const bool is_open =
-      number && *number <= kMostDescriptor && ::fcntl(static_cast<int>(*number), F_GETFD) != -1;
+      number && *number <= kMostDescriptor && internal::is_open(static_cast<int>(*number));
   return is_open ? std::string() : "'" + text + "' is not the number of an open descriptor";
 }
 

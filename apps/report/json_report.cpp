@@ -2,10 +2,10 @@
 #include "report/json_report.h"
 
 #include <algorithm>
-#include <sys/resource.h>
 #include <utility>
 
 #include <base/assert.h>
+#include <base/internal/system.h>
 
 namespace meshrepair {
 namespace {
@@ -15,9 +15,7 @@ constexpr const char* kTailKeys[] = {"stages",    "seconds", "peak_memory_bytes"
 
 // A program that measures the peak of each stage sets the system's count back in between.
 std::size_t peak_memory_bytes(const Json& stages) {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  std::size_t peak = static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+  std::size_t peak = internal::peak_memory();
   for (const Json& stage : stages.values()) {
     const Json* const bytes = stage.find("peak_bytes");
     if (bytes != nullptr) peak = std::max<std::size_t>(peak, bytes->as_count().value_or(0));

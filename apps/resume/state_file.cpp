@@ -5,15 +5,15 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <istream>
 #include <ostream>
 #include <streambuf>
 #include <string>
 #include <system_error>
-#include <unistd.h>
 #include <vector>
 #include <zlib.h>
+
+#include <base/internal/system.h>
 
 namespace meshrepair {
 namespace {
@@ -33,7 +33,7 @@ constexpr std::size_t kStateBlock = std::size_t{1} << 16;
 constexpr std::size_t kMostOfCall = std::size_t{1} << 24;  // what one call of the system is to take
 
 Checksum continued(Checksum sum, const char* bytes, std::size_t size) {
-  return ::crc32_z(sum, reinterpret_cast<const Bytef*>(bytes), size);
+  return ::crc32_z(static_cast<uLong>(sum), reinterpret_cast<const Bytef*>(bytes), size);
 }
 
 // Small pieces go through a block, large ones directly.
@@ -45,7 +45,7 @@ class ChecksumWriter : public std::streambuf {
   int finish() {
     flush_block();
     write(reinterpret_cast<const char*>(&sum_), sizeof sum_);
-    if (error_ == 0 && ::fsync(file_) != 0) error_ = errno;
+    if (error_ == 0 && !internal::flush_to_disk(file_)) error_ = errno;
     return error_;
   }
 
@@ -88,7 +88,7 @@ class ChecksumWriter : public std::streambuf {
 
   void write(const char* bytes, std::size_t size) {
     while (size > 0 && error_ == 0) {
-      const ssize_t count = ::write(file_, bytes, std::min(size, kMostOfCall));
+      const std::ptrdiff_t count = internal::write_some(file_, bytes, std::min(size, kMostOfCall));
       if (count < 0 && errno == EINTR) continue;
       if (count < 0) error_ = errno;
       if (count <= 0) return;
@@ -145,7 +145,8 @@ class ChecksumReader : public std::streambuf {
   [[nodiscard]] std::size_t read(char* bytes, std::size_t size) const {
     std::size_t done = 0;
     while (done < size) {
-      const ssize_t count = ::read(file_, bytes + done, std::min(size - done, kMostOfCall));
+      const std::ptrdiff_t count =
+          internal::read_some(file_, bytes + done, std::min(size - done, kMostOfCall));
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) break;
       done += static_cast<std::size_t>(count);
@@ -165,7 +166,7 @@ struct Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
-    if (number >= 0) ::close(number);
+    if (number >= 0) internal::close_file(number);
   }
 
   const int number;
@@ -173,7 +174,9 @@ struct Descriptor {
 
 std::optional<Header> read_header(int file) {
   Header header;
-  if (::read(file, &header, sizeof header) != sizeof header) return std::nullopt;
+  if (internal::read_some(file, reinterpret_cast<char*>(&header), sizeof header) != sizeof header) {
+    return std::nullopt;
+  }
   if (header.magic != Header().magic) return std::nullopt;
   return header;
 }
@@ -185,18 +188,21 @@ std::optional<Header> read_header(int file) {
 }  // namespace
 
 std::optional<std::uint64_t> key_of_state(const fs::path& file) {
-  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor in(internal::open_file(file, internal::FileUse::read));
   const auto header = in.number < 0 ? std::nullopt : read_header(in.number);
   return header ? std::optional(header->key) : std::nullopt;
 }
 
 void write_state(const fs::path& file, std::uint64_t key,
                  const std::function<void(std::ostream&)>& write) {
-  const Descriptor to(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+  const Descriptor to(internal::open_file(file, internal::FileUse::own));
   if (to.number < 0) fail_writing(file, errno);
   Header header;
   header.key = key;
-  if (::write(to.number, &header, sizeof header) != sizeof header) fail_writing(file, errno);
+  if (internal::write_some(to.number, reinterpret_cast<const char*>(&header), sizeof header) !=
+      sizeof header) {
+    fail_writing(file, errno);
+  }
   ChecksumWriter writer(to.number);
   std::ostream out(&writer);
   write(out);
@@ -208,7 +214,7 @@ bool read_state(const fs::path& file,
                 const std::function<void(std::istream&, std::uint64_t)>& read) {
   std::error_code failed;
   const std::uint64_t size = fs::file_size(file, failed);
-  const Descriptor from(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor from(internal::open_file(file, internal::FileUse::read));
   if (failed || from.number < 0 || size < sizeof(Header) + sizeof(Checksum)) return false;
   if (!read_header(from.number)) return false;
   const std::uint64_t bytes = size - sizeof(Header) - sizeof(Checksum);

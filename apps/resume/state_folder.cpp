@@ -4,19 +4,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <fcntl.h>
 #include <string_view>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <system_error>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 #include <spdlog/logger.h>
 
 #include <base/error.h>
 #include <base/internal/hash_index.h>
+#include <base/internal/system.h>
 
 #include "process/file_checksum.h"
 #include "resume/state_file.h"
@@ -46,40 +43,16 @@ std::uint64_t key_of(const std::string& options) {
 }
 
 // A run that was killed may take a moment to be gone.
-bool lock(int folder) {
+int held(const fs::path& folder) {
   for (int i = 0; i < kTries; ++i) {
-    if (::flock(folder, LOCK_EX | LOCK_NB) == 0) return true;
-    if (errno != EWOULDBLOCK) return false;
-    std::this_thread::sleep_for(kBetweenTries);
-  }
-  errno = EWOULDBLOCK;
-  return false;
-}
-
-// The run that had the lock may have removed the folder with it.
-bool is_still_there(int descriptor, const fs::path& folder) {
-  struct stat opened {
-  }, named{};
-  return ::fstat(descriptor, &opened) == 0 && ::stat(folder.c_str(), &named) == 0 &&
-         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-}
-
-int locked(const fs::path& folder) {
-  for (;;) {
-    ::mkdir(folder.c_str(), S_IRWXU);  // or it is there
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) {
+    const int lock = internal::hold_folder(folder);
+    if (lock >= 0) return lock;
+    if (errno != EWOULDBLOCK) {
       throw OutputError("--resume: " + folder.string() + " is no folder: " + reason(errno));
     }
-    const bool is_locked = lock(descriptor);
-    const int error = errno;
-    if (is_locked && is_still_there(descriptor, folder)) return descriptor;
-    ::close(descriptor);
-    if (is_locked) continue;
-    throw OutputError(error == EWOULDBLOCK
-                          ? "--resume: another run is at work with " + folder.string()
-                          : "--resume: " + folder.string() + " cannot be locked: " + reason(error));
+    std::this_thread::sleep_for(kBetweenTries);
   }
+  throw OutputError("--resume: another run is at work with " + folder.string());
 }
 
 // meshrepair-<state>-<number>.state, or .part
@@ -110,13 +83,10 @@ void for_each_of_ours(const fs::path& folder, const Act& act) {
 }  // namespace
 
 StateFolder::StateFolder(fs::path folder, const std::string& options)
-    : folder_(std::move(folder)), lock_(locked(folder_)), key_(key_of(options)) {}
+    : folder_(std::move(folder)), lock_(held(folder_)), key_(key_of(options)) {}
 
 // What nothing is kept in goes, also after an error.
-StateFolder::~StateFolder() {
-  ::rmdir(folder_.c_str());
-  ::close(lock_);
-}
+StateFolder::~StateFolder() { internal::release_folder(folder_, lock_); }
 
 fs::path StateFolder::path_of(const std::string& name, std::string_view extension) const {
   return folder_ / (std::string(kPrefix) + name + std::string(extension));
@@ -150,7 +120,7 @@ void StateFolder::save(const std::string& name, const std::function<void(std::os
   try {
     write_state(unfinished, key_, write);
     fs::rename(unfinished, path_of(name, kExtension));
-    ::fsync(lock_);
+    internal::flush_folder(folder_);
     saved_.push_back(name);
   } catch (const fs::filesystem_error& error) {
     may_save_ = false;

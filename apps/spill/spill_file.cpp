@@ -15,8 +15,7 @@
 #include <utility>
 
 #include <base/error.h>
-
-#include "process/memory_limit.h"
+#include <base/internal/system.h>
 
 namespace meshrepair {
 namespace {
@@ -86,7 +85,8 @@ SpillFile::~SpillFile() {
 }
 
 void* SpillFile::take(std::size_t bytes) noexcept try {
-  if (bytes > addresses_ || reserved_memory() + bytes <= most_reserved_) return nullptr;
+  if (bytes > addresses_ || internal::process_memory().reserved + bytes <= most_reserved_)
+    return nullptr;
   const std::uint64_t size = grains(bytes);
   const std::scoped_lock lock(mutex_);
   const Offset at = place_for(size);

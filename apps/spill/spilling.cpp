@@ -13,6 +13,8 @@
 #include <base/block_source.h>
 #include <base/error.h>
 
+#include "spill/resident_limit.h"
+#include "spill/spill_file.h"
 #include "terminal/logging.h"
 
 namespace meshrepair {
@@ -64,13 +66,15 @@ Spilling::Spilling(const std::string& folder, const MemoryLimit& limit)
     logger().debug("{}", error.what());
     return;
   }
-  resident_limit_ = forced > 0 ? std::make_unique<ResidentLimit>(*file_, 1, kTickWhenForced)
-                               : std::make_unique<ResidentLimit>(*file_, limit.bytes);
+  resident_limit_ = forced > 0 ? std::make_shared<ResidentLimit>(*file_, 1, kTickWhenForced)
+                               : std::make_shared<ResidentLimit>(*file_, limit.bytes);
   set_block_source(file_, forced > 0 ? forced : kLeastBlock);
 }
 
 // Blocks that are still in the file are given back to it later.
 Spilling::~Spilling() = default;
+
+std::uint64_t Spilling::most_bytes() const { return is_on() ? file_->most_bytes() : 0; }
 
 std::string Spilling::why_not_more() const {
   return is_on() && file_->was_full() ? ", and the disk of " + folder_ + " is full" : "";

@@ -7,10 +7,11 @@
 #include <string>
 
 #include "process/memory_limit.h"
-#include "spill/resident_limit.h"
-#include "spill/spill_file.h"
 
 namespace meshrepair {
+
+class ResidentLimit;
+class SpillFile;
 
 // As long as it is there, memory that is allocated from a quarter of the limit on comes from a
 // file, and what of it is in memory is kept within the limit. Of a share of the machine it is a
@@ -27,14 +28,14 @@ class Spilling {
 
   [[nodiscard]] bool is_on() const { return file_ != nullptr; }
   // Of blocks in the file at a time; 0 if it was not needed.
-  [[nodiscard]] std::uint64_t most_bytes() const { return is_on() ? file_->most_bytes() : 0; }
+  [[nodiscard]] std::uint64_t most_bytes() const;
   // " and the disk of DIR is full" if it was, for a message.
   [[nodiscard]] std::string why_not_more() const;
 
  private:
   std::string folder_;
   SpillFile* file_ = nullptr;  // never deleted: arrays of the whole process may be in it
-  std::unique_ptr<ResidentLimit> resident_limit_;
+  std::shared_ptr<ResidentLimit> resident_limit_;
 };
 
 }  // namespace meshrepair

@@ -4,11 +4,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <unistd.h>
 #include <utility>
 
 #include <spdlog/logger.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
+
+#include <base/internal/system.h>
 
 namespace meshrepair {
 namespace {
@@ -45,7 +46,7 @@ void set_logger(std::shared_ptr<spdlog::logger> logger) { the_logger() = std::mo
 
 bool stderr_is_terminal() {
   const char* terminal = std::getenv("TERM");  // NOLINT(concurrency-mt-unsafe): never changed
-  return isatty(STDERR_FILENO) == 1 &&
+  return internal::is_terminal(internal::kStandardError) &&
          (terminal == nullptr || std::string_view(terminal) != "dumb");
 }
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cerrno>
-#include <fcntl.h>
 #include <new>
-#include <sys/stat.h>
 #include <system_error>
-#include <unistd.h>
 
 #include <base/error.h>
 #include <base/file_bytes.h>
+#include <base/internal/system.h>
 
 #include "wait_for_descriptor.h"
 
@@ -24,7 +22,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
-    if (owned_) ::close(number_);
+    if (owned_) internal::close_file(number_);
   }
   [[nodiscard]] int number() const { return number_; }
 
@@ -37,12 +35,11 @@ class Descriptor {
   throw InputError(name + ": " + what + ": " + std::generic_category().message(error));
 }
 
-// A pipe that nobody writes into yet would be waited for in open(), where nobody can be asked. What
-// is waited for later has to be waited for as ever.
+// A pipe that nobody writes into yet would be waited for while it is opened, where nobody can be
+// asked.
 int open_to_read(const std::filesystem::path& path, bool at_once) {
-  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (at_once ? O_NONBLOCK : 0));
-  if (number >= 0 && at_once) ::fcntl(number, F_SETFL, ::fcntl(number, F_GETFL) & ~O_NONBLOCK);
-  return number;
+  using internal::FileUse;
+  return internal::open_file(path, at_once ? FileUse::read_at_once : FileUse::read);
 }
 
 }  // namespace
@@ -50,15 +47,20 @@ int open_to_read(const std::filesystem::path& path, bool at_once) {
 FileBytes::FileBytes(const std::filesystem::path& path, ProgressObserver* progress) {
   const bool is_stdin = path == "-";
   const std::string name = is_stdin ? "standard input" : path.string();
-  const int number = is_stdin ? STDIN_FILENO : open_to_read(path, progress != nullptr);
-  if (number < 0) fail(name, "cannot be opened", errno);
+  const int number = is_stdin ? internal::kStandardInput : open_to_read(path, progress != nullptr);
+  const int error = errno;
+  const internal::FileFacts facts =
+      number < 0 ? internal::facts_of_file(path) : internal::facts_of_file(number);
+  if (facts.kind == internal::FileKind::folder)
+    throw InputError(name + ": is a folder, not a file");
+  if (number < 0) fail(name, "cannot be opened", error);
   const Descriptor file(number, !is_stdin);
 
-  struct stat status {};
-  if (::fstat(number, &status) != 0) fail(name, "cannot be read", errno);
-  if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a folder, not a file");
+  if (facts.kind == internal::FileKind::none) fail(name, "cannot be read", errno);
   // One byte more than there should be, to see the end without another step.
-  if (S_ISREG(status.st_mode)) reserve(static_cast<std::size_t>(status.st_size) + 1);
+  if (facts.kind == internal::FileKind::regular) {
+    reserve(static_cast<std::size_t>(facts.bytes) + 1);
+  }
   read_to_end(number, name, progress);
 }
 
@@ -73,9 +75,9 @@ void FileBytes::reserve(std::size_t capacity) {
 void FileBytes::read_to_end(int descriptor, const std::string& name, ProgressObserver* progress) {
   for (;;) {
     if (size_ == capacity_) reserve(2 * capacity_ + kBytesAtOnce);
-    if (progress != nullptr) wait_for_descriptor(descriptor, POLLIN, *progress);
+    if (progress != nullptr) wait_for_descriptor(descriptor, internal::Direction::in, *progress);
     const std::size_t room = std::min(capacity_ - size_, kBytesAtOnce);
-    const ssize_t count = ::read(descriptor, buffer_.get() + size_, room);
+    const std::ptrdiff_t count = internal::read_some(descriptor, buffer_.get() + size_, room);
     // With nobody to ask, an interrupted read is an error like any other: a program that handles
     // signals is to stop then, and a read begun anew would wait on.
     if (count < 0 && errno == EINTR && progress != nullptr) continue;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 namespace meshrepair {
 namespace {
@@ -25,7 +26,7 @@ TEST(MemoryLimit, UnitsArePowersOf1024) {
 }
 
 TEST(MemoryLimit, AShareIsOfWhatIsFree) {
-  const auto free = free_memory();
+  const auto free = internal::free_memory();
   if (!free) GTEST_SKIP() << "the system does not tell how much memory is free";
   const MemoryLimit half = parse_memory_limit("50%");
   EXPECT_TRUE(half.is_share);
@@ -63,8 +64,8 @@ TEST(MemoryLimit, IsToldInUnits) {
 }
 
 TEST(MemoryLimit, TheProcessIsInMemory) {
-  if (!free_memory()) GTEST_SKIP() << "the system does not tell";
-  EXPECT_GT(resident_memory(), 1u << 20);
+  if (!internal::free_memory()) GTEST_SKIP() << "the system does not tell";
+  EXPECT_GT(internal::process_memory().resident, 1u << 20);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
-#include "process/memory_limit.h"
 #include "spill/resident_limit.h"
 
 namespace meshrepair {
@@ -89,12 +89,12 @@ TEST_F(SpillFileTest, WhatIsLetGoOfIsNotInMemory) {
   constexpr std::size_t kBytes = 64 * kMega;
   SpillFile file(folder_, 0);
   void* const block = file.take(kBytes);
-  const std::uint64_t before = resident_memory();
+  const std::uint64_t before = internal::process_memory().resident;
   fill(block, kBytes, 1);
   if (before == 0) GTEST_SKIP() << "the system does not tell how much memory is used";
-  EXPECT_GT(resident_memory(), before + kBytes / 2);
+  EXPECT_GT(internal::process_memory().resident, before + kBytes / 2);
   file.let_go(kBytes);
-  EXPECT_LT(resident_memory(), before + kBytes / 4);
+  EXPECT_LT(internal::process_memory().resident, before + kBytes / 4);
   EXPECT_TRUE(holds(block, kBytes, 1));
   file.give_back(block);
 }
@@ -108,7 +108,7 @@ TEST_F(SpillFileTest, FileHasNoName) {
 }
 
 TEST_F(SpillFileTest, SmallRunsUseNoFile) {
-  SpillFile file(folder_, reserved_memory() + 64 * kMega);
+  SpillFile file(folder_, internal::process_memory().reserved + 64 * kMega);
   EXPECT_EQ(file.take(kMega), nullptr);
   void* const block = file.take(128 * kMega);
   EXPECT_NE(block, nullptr);
@@ -151,17 +151,18 @@ TEST_F(SpillFileTest, AFolderThatIsNotThereIsAnError) {
 // The limit looks from time to time of a process that works.
 TEST_F(SpillFileTest, MemoryComesDownToTheLimit) {
   constexpr std::size_t kBytes = 256 * kMega;
-  const std::uint64_t before = resident_memory();
+  const std::uint64_t before = internal::process_memory().resident;
   if (before == 0) GTEST_SKIP() << "the system does not tell how much memory is used";
   SpillFile file(folder_, 0);
   void* const block = file.take(kBytes);
   fill(block, kBytes, 0);
-  EXPECT_GT(resident_memory(), before + kBytes / 2);
+  EXPECT_GT(internal::process_memory().resident, before + kBytes / 2);
   const ResidentLimit limit(file, before + 160 * kMega);
   const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (resident_memory() > before + 160 * kMega && std::chrono::steady_clock::now() < latest) {
+  while (internal::process_memory().resident > before + 160 * kMega &&
+         std::chrono::steady_clock::now() < latest) {
   }
-  EXPECT_LE(resident_memory(), before + 160 * kMega);
+  EXPECT_LE(internal::process_memory().resident, before + 160 * kMega);
   EXPECT_TRUE(holds(block, kBytes, 0));
   file.give_back(block);
 }

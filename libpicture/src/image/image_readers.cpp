@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "image_readers.h"
 
+#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h needs it before itself
 #include <jpeglib.h>
+#include <limits>
 #include <png.h>
 #include <string>
 
@@ -52,7 +54,10 @@ bool begin(Decoder& decoder, std::string_view bytes) {
   jpeg_create_decompress(&decoder.info);
   decoder.progress.progress_monitor = on_progress;
   decoder.info.progress = &decoder.progress;
-  jpeg_mem_src(&decoder.info, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  // Of more than a number of the library can count, the end is missing.
+  constexpr std::size_t kMost = std::numeric_limits<unsigned long>::max();
+  jpeg_mem_src(&decoder.info, reinterpret_cast<const unsigned char*>(bytes.data()),
+               static_cast<unsigned long>(std::min(bytes.size(), kMost)));
   jpeg_read_header(&decoder.info, TRUE);
   return true;
 }

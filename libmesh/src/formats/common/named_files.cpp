@@ -43,7 +43,7 @@ std::optional<fs::path> entry_in_other_case(const fs::path& folder, const std::s
   fs::directory_iterator entries(folder.empty() ? "." : folder, error), end;
   for (; !error && entries != end; entries.increment(error)) {
     fs::path entry = entries->path().filename();
-    if (!is_same_but_for_case(entry.native(), name)) continue;
+    if (!is_same_but_for_case(entry.string(), name)) continue;
     if (found) return std::nullopt;
     found = std::move(entry);
   }

@@ -1,16 +1,28 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds what the project links, for WebAssembly: Debian's sources with Debian's patches, in the versions that Debian has as libraries, so
-# that a file has the same bytes. They come with apt from the same mirrors as packages do. What is there already is left as it is.
+# Builds what the project links, for another system: Debian's sources with Debian's patches, in the versions that Debian has as
+# libraries, so that a file has the same bytes. They come with apt from the same mirrors as packages do. What is there already is left
+# as it is.
 #
-# Usage: scripts/make_wasm_dependencies.sh
+# Usage: scripts/make_dependencies.sh wasm|windows
 #
-# Needs what scripts/setup.sh wasm installs. The outcome is in build/wasm-dependencies: headers, libraries, and in
+# Needs what scripts/setup.sh installs for this system. The outcome is in build/SYSTEM-dependencies: headers, libraries, and in
 # share/doc/NAME/copyright the licence of each.
 set -euo pipefail
 
+usage() { sed -n '3,11p' "$0" | sed 's/^# \{0,1\}//'; }
+case "${1:-}" in
+  wasm) system=wasm toolchain=WasmToolchain compiler=emcc archiver=emar indexer=emranlib ;;
+  windows)
+    system=windows toolchain=WindowsToolchain compiler=x86_64-w64-mingw32-gcc-posix
+    archiver=x86_64-w64-mingw32-ar indexer=x86_64-w64-mingw32-ranlib
+    ;;
+  -h | --help) usage; exit 0 ;;
+  *) usage >&2; exit 2 ;;
+esac
+
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-prefix=$root/build/wasm-dependencies
+prefix=$root/build/$system-dependencies
 work=$prefix/work
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
 # Lists of sources, and where apt keeps them, apart from those of the machine: this needs no root.
@@ -26,7 +38,7 @@ Dir::Cache "$work/cache";
 APT::Sandbox::User "$(id -un)";
 CONF
   # Each source of packages that is Debian's own, as one of sources.
-  python3 "$root/scripts/wasm/source_lists.py" "$work/parts"
+  python3 "$root/scripts/source_lists.py" "$work/parts"
   apt-get update --quiet --quiet
 }
 
@@ -45,7 +57,7 @@ fetch() {
   done
   if [ -z "$(ls "$download")" ]; then
     tail -n 5 "$work/$1.log" >&2
-    echo "make_wasm_dependencies.sh: the sources of $1 cannot be fetched" >&2
+    echo "make_dependencies.sh: the sources of $1 cannot be fetched" >&2
     exit 1
   fi
   dpkg-source --no-check --extract "$download"/*.dsc "$work/$1.part" >/dev/null
@@ -58,16 +70,16 @@ build() {
   shift 2
   if [ -f "$prefix/share/doc/$name/copyright" ]; then return; fi
   fetch "$name"
-  echo "wasm: $name"
+  echo "$system: $name"
   local tree=$work/$name-build
   rm -rf "$tree"
-  cmake -S "$work/$name/$folder" -B "$tree" -G Ninja -Wno-dev --toolchain "$root/cmake/WasmToolchain.cmake" \
+  cmake -S "$work/$name/$folder" -B "$tree" -G Ninja -Wno-dev --toolchain "$root/cmake/$toolchain.cmake" \
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR:STRING=lib -DBUILD_SHARED_LIBS=OFF \
     -DBUILD_TESTING=OFF "$@" >"$work/$name.log" 2>&1 &&
     cmake --build "$tree" >>"$work/$name.log" 2>&1 &&
     cmake --install "$tree" >>"$work/$name.log" 2>&1 || {
     tail -n 30 "$work/$name.log" >&2
-    echo "make_wasm_dependencies.sh: $name cannot be built: see $work/$name.log" >&2
+    echo "make_dependencies.sh: $name cannot be built: see $work/$name.log" >&2
     exit 1
   }
   mkdir -p "$prefix/share/doc/$name"
@@ -75,22 +87,25 @@ build() {
 }
 
 # Its build by CMake needs a file that Debian leaves out. Neither exceptions nor vectors are in it.
+make_zlib() {
+  ./configure --static --prefix="$prefix" && make install
+}
+
 build_zlib() {
   if [ -f "$prefix/share/doc/zlib/copyright" ]; then return; fi
   fetch zlib
-  echo "wasm: zlib"
-  (cd "$work/zlib" && CC=emcc AR=emar RANLIB=emranlib CFLAGS=-O3 ./configure --static --prefix="$prefix" &&
-    make install) >"$work/zlib.log" 2>&1 || {
+  echo "$system: zlib"
+  (cd "$work/zlib" && CC=$compiler AR=$archiver RANLIB=$indexer CHOST=$system CFLAGS=-O3 make_zlib) >"$work/zlib.log" 2>&1 || {
     tail -n 30 "$work/zlib.log" >&2
-    echo "make_wasm_dependencies.sh: zlib cannot be built: see $work/zlib.log" >&2
+    echo "make_dependencies.sh: zlib cannot be built: see $work/zlib.log" >&2
     exit 1
   }
   mkdir -p "$prefix/share/doc/zlib"
   cp "$work/zlib/debian/copyright" "$prefix/share/doc/zlib/copyright"
 }
 
-command -v emcc >/dev/null || {
-  echo "make_wasm_dependencies.sh: there is no emscripten; run scripts/setup.sh wasm" >&2
+command -v "$compiler" >/dev/null || {
+  echo "make_dependencies.sh: there is no $compiler; run scripts/setup.sh $system" >&2
   exit 1
 }
 
@@ -116,12 +131,13 @@ CMAKE
 }
 
 link_headers boost libboost-dev
-link_headers fast_float libfast-float-dev
+if [ "$system" = wasm ]; then link_headers fast_float libfast-float-dev; fi
 link_headers nanoflann.hpp libnanoflann-dev
 describe_nanoflann
 
 # For what takes no time in the end, and is loaded over networks all the same.
-small=("-DCMAKE_C_FLAGS_RELEASE=-Os -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-Os -DNDEBUG")
+small=()
+if [ "$system" = wasm ]; then small=("-DCMAKE_C_FLAGS_RELEASE=-Os -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-Os -DNDEBUG"); fi
 
 # Its vectors are used as on x86, without the assembler of that.
 fetch eigen3
@@ -147,6 +163,15 @@ build libzip . "${small[@]}" -DENABLE_COMMONCRYPTO=OFF -DENABLE_GNUTLS=OFF -DENA
 fetch meshoptimizer
 sed -i 's/ -Werror)/)/' "$work/meshoptimizer/CMakeLists.txt"
 build meshoptimizer .
-EMSCRIPTEN=/usr/share/emscripten build draco . -DDRACO_TESTS=OFF -DDRACO_JS_GLUE=OFF -DDRACO_WASM=ON -DDRACO_TRANSCODER_SUPPORTED=OFF
+draco_options=()
+if [ "$system" = wasm ]; then
+  export EMSCRIPTEN=/usr/share/emscripten
+  draco_options=(-DDRACO_JS_GLUE=OFF -DDRACO_WASM=ON)
+fi
+build draco . "${draco_options[@]}" -DDRACO_TESTS=OFF -DDRACO_TRANSCODER_SUPPORTED=OFF
 build openmesh . "${small[@]}" -DBUILD_APPS=OFF -DOPENMESH_DOCS=OFF
-echo "wasm: all dependencies are in $prefix"
+if [ "$system" = windows ]; then
+  build onetbb . -DTBB_TEST=OFF -DTBB_STRICT=OFF
+  build googletest . -DBUILD_GMOCK=ON
+fi
+echo "$system: all dependencies are in $prefix"

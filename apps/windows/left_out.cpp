@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What programs do without on Windows: a file for large arrays, questions to the terminal, and the
+// local page and the server of jobs, which start copies of the program.
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <base/error.h>
+
+#include "jobs/work_off_jobs.h"
+#include "process/exit_code.h"
+#include "serve/serve.h"
+#include "spill/spilling.h"
+#include "terminal/raw_terminal.h"
+
+namespace meshrepair {
+namespace {
+
+bool begins_with(int argc, const char* const* argv, std::string_view flag) {
+  return argc > 1 && std::string_view(argv[1]).starts_with(flag);
+}
+
+int refuse(const std::string& flag) {
+  return run_guarded("meshrepair",
+                     [&]() -> ExitCode { throw ValueError(flag + ": cannot be used on Windows"); });
+}
+
+}  // namespace
+
+bool asks_to_serve(int argc, const char* const* argv) { return begins_with(argc, argv, "--serve"); }
+
+int serve(int /*argc*/, const char* const* /*argv*/) { return refuse("--serve"); }
+
+bool asks_for_jobs(int argc, const char* const* argv) {
+  return begins_with(argc, argv, "--jobs-from");
+}
+
+int work_off_jobs(int /*argc*/, const char* const* /*argv*/, Program& /*program*/,
+                  const std::function<int(int, const char* const*)>& /*run*/) {
+  return refuse("--jobs-from");
+}
+
+RawTerminal::RawTerminal() : descriptor_(-1) {}
+RawTerminal::~RawTerminal() = default;
+bool RawTerminal::write(std::string_view /*text*/) const { return false; }
+std::optional<std::string> RawTerminal::read_until(Clock::time_point /*end*/) const { return {}; }
+void restore_terminal() noexcept {}
+
+Spilling::Spilling(const std::string& folder, const MemoryLimit& /*limit*/) {
+  if (!folder.empty() && folder != "none") {
+    throw UsageError("--temp: cannot be used on Windows, whose paging file holds large arrays");
+  }
+}
+Spilling::~Spilling() = default;
+std::uint64_t Spilling::most_bytes() const { return 0; }
+std::string Spilling::why_not_more() const { return {}; }
+
+}  // namespace meshrepair
