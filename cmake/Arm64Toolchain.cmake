@@ -12,7 +12,9 @@ endif()
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
-set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64;-L;${CMAKE_SYSROOT})
+# An address space of 16 GiB: qemu 7.2 keeps a note in memory of each page that is mapped, and --max-memory maps all it can get, without
+# memory, for a file (apps/spill).
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64;-L;${CMAKE_SYSROOT};-R;16G)
 
 # Programs are those of this machine, all else that of the other.
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

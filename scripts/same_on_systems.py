@@ -22,13 +22,13 @@ from pathlib import Path
 MESHES = {".3mf", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl"}
 FORMATS = "obj,stl,ply,glb,3mf"
 REPORT = "report.json"
-OWN_KEYS = {"build", "command", "cpu_seconds", "path", "peak_memory_bytes", "seconds", "threads", "wall_seconds"}
+OWN_KEYS = {"build", "command", "cpu_seconds", "path", "peak_bytes", "peak_memory_bytes", "seconds"}  # of a run
 EXAMPLES = """
 A way is NAME=COMMAND. COMMAND starts a program, whose name replaces each "*"; without a "*", it ends with the folder of the programs.
 
 examples:
   scripts/same_on_systems.py samples/meshes --way x86=build/release/bin \\
-    --way "arm64=qemu-aarch64 -L build/arm64-sysroot build/arm64/bin"
+    --way "arm64=qemu-aarch64 -L build/arm64-sysroot -R 16G build/arm64/bin"
   scripts/same_on_systems.py samples/meshes --way linux=build/release/bin --way "windows=wine build/windows/bin/*.exe" --formats obj,3mf
 """
 
