@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Compares what the programs write on several systems, byte by byte.
 
-Each way to run the programs repairs each mesh of a folder, smallest first, once for each format, and checks it. Files, exit codes and
-reports of the first way are compared with those of the others, reports without times, memory, paths and command lines. Prints a table
-of the differences. The exit code is 1 if there is one, 2 for wrong arguments, else 0.
+Each way to run the programs repairs each mesh of a folder, smallest first, once for each format, and checks it. The outputs of the first
+way are compared with those of the others: exit codes, files and reports, these without times, memory, paths and command lines. Prints a
+table of the differences. The exit code is 1 if there is one, 2 for wrong arguments, else 0.
 """
 
 import argparse
