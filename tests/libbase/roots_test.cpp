@@ -67,13 +67,14 @@ TEST(CubeRoot, OfNoNumberIsItself) {
   EXPECT_TRUE(std::signbit(cube_root(-0.0)));
 }
 
-TEST(CubeRoot, IsNearTheOneOfTheCLibrary) {
+TEST(CubeRoot, IsOffByOneInTheLastPlaceAtMost) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 100000; ++i) {
     const double x =
         std::ldexp(static_cast<double>(random() >> 11U), -static_cast<int>(random() % 1100));
     const double root = cube_root(x);
-    ASSERT_NEAR(root, std::cbrt(x), root * 0x1p-51) << x;
+    const auto rounded = static_cast<double>(std::cbrt(static_cast<long double>(x)));
+    ASSERT_NEAR(root, rounded, root * 0x1p-52) << x;
   }
 }
 
