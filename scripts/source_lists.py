@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes a list of sources for apt into a folder: for each of this machine's sources of Debian's packages the one of its sources.
+"""Writes a list of sources for apt into a folder: for each of this machine's sources of Debian's packages the one of its sources, or,
+with "deb", the same again, for other architectures.
 
-Usage: source_lists.py FOLDER
+Usage: source_lists.py FOLDER [deb-src|deb]
 """
 
 import pathlib
@@ -31,7 +32,8 @@ def stanzas():
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+    kind = sys.argv[2] if len(sys.argv) == 3 else "deb-src"
+    if len(sys.argv) not in (2, 3) or sys.argv[1].startswith("-") or kind not in ("deb-src", "deb"):
         print(__doc__.strip(), file=sys.stderr)
         return 2
     wanted = [fields for fields in stanzas()
@@ -40,7 +42,7 @@ def main():
         print("source_lists.py: apt has no source of Debian's packages", file=sys.stderr)
         return 1
     text = "".join(
-        f"Types: deb-src\nURIs: {fields['uris']}\nSuites: {fields['suites']}\nComponents: {fields['components']}\n"
+        f"Types: {kind}\nURIs: {fields['uris']}\nSuites: {fields['suites']}\nComponents: {fields['components']}\n"
         f"Signed-By: {fields.get('signed-by', '/usr/share/keyrings/debian-archive-keyring.gpg')}\n\n" for fields in wanted)
     (pathlib.Path(sys.argv[1]) / "debian.sources").write_text(text)
     return 0

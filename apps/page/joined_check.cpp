@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <base/roots.h>
+
 #include "page/mesh_facts.h"
 
 namespace meshrepair {
@@ -54,7 +56,7 @@ void append_check(SurfaceCheck check, SurfaceCheck& all) {
 
 SurfaceCheck placed_check(SurfaceCheck check, const Placement& placement) {
   const double volume = std::abs(placement.linear.determinant());
-  const double area = std::cbrt(volume) * std::cbrt(volume);
+  const double area = cube_root(volume) * cube_root(volume);
   for (DefectPlaces& places : check.defects) {
     for (Place& place : places.first) place.at = placement.of(place.at);
   }

@@ -15,6 +15,7 @@
 #include <limits>
 #include <utility>
 
+#include <base/roots.h>
 #include <exact/predicates.h>
 
 #include "predicates_internal.h"
@@ -241,7 +242,7 @@ int turn_by_doubles(const Point& a, const Point& b, const Point& c, const Projec
 int turn_of_loose_points(const Point& a, const Point& b, const Point& c, const Projection& to,
                          double area) {
   const auto distance = [&](const Point& p, const Point& q) {
-    return std::hypot(p.position[to.x] - q.position[to.x], p.position[to.y] - q.position[to.y]);
+    return hypotenuse(p.position[to.x] - q.position[to.x], p.position[to.y] - q.position[to.y]);
   };
   const auto tolerance = static_cast<double>(std::max({a.error, b.error, c.error}));
   const double least = tolerance * std::max({distance(a, b), distance(b, c), distance(c, a)});

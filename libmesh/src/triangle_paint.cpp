@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <base/ids.h>
+#include <base/roots.h>
 #include <mesh/triangle_paint.h>
 
 namespace meshrepair {
@@ -230,7 +231,7 @@ class PaintResample {
   static bool is_beyond(const PaintCorners& triangle, const PaintCorners& other) {
     for (std::size_t k = 0; k < 3; ++k) {
       const PaintPlace &a = triangle[k], &b = triangle[(k + 1) % 3], &c = triangle[(k + 2) % 3];
-      const double x = b[1] - a[1], y = b[2] - a[2], length = std::hypot(x, y);
+      const double x = b[1] - a[1], y = b[2] - a[2], length = hypotenuse(x, y);
       const auto side = [&](const PaintPlace& p) { return x * (p[2] - a[2]) - y * (p[1] - a[1]); };
       const double sign = side(c) < 0 ? -1 : 1;
       if (std::all_of(other.begin(), other.end(),

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <base/roots.h>
 #include <mesh/edge_table.h>
 #include <points/terrain.h>
 
@@ -42,7 +43,7 @@ class ViewFromAbove {
   }
 
   [[nodiscard]] double relief() const { return extent(up_, kStrayShare); }
-  [[nodiscard]] double width() const { return std::hypot(extent(across_, 0), extent(along_, 0)); }
+  [[nodiscard]] double width() const { return hypotenuse(extent(across_, 0), extent(along_, 0)); }
 
   // The mean along all rims.
   [[nodiscard]] double rim_cosine() const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <base/roots.h>
 #include <check/box_tree.h>
 #include <check/part_groups.h>
 #include <mesh/mesh_parts.h>
@@ -33,8 +34,8 @@ std::vector<Box> boxes_of(const TriangleSoup& soup, const MeshParts& parts) {
 }
 
 double length_across(const Box& box) {
-  const double across = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
-  return std::hypot(across, box.high[2] - box.low[2]);  // three at a time make NaN of infinity
+  const double across = hypotenuse(box.high[0] - box.low[0], box.high[1] - box.low[1]);
+  return hypotenuse(across, box.high[2] - box.low[2]);  // three at a time make NaN of infinity
 }
 
 // It stays finite.

@@ -23,8 +23,8 @@ class PlainNames {
   }
 
   [[nodiscard]] std::string plain_name(std::string name) const {
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '_');
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7F; };
+    std::replace_if(name.begin(), name.end(), is_control, '_');
     if (name.ends_with('\\')) name.back() = '_';
     if (lines_ == NameLines::ply || name.empty()) return name;
     if (name.ends_with(' ')) name.back() = '_';

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include <base/error.h>
+#include <base/roots.h>
 #include <mesh/precision.h>
 #include <mesh/skins.h>
 
@@ -195,7 +196,7 @@ void GltfValues::fill(const GltfAccessor& accessor, std::uint32_t vertex,
 // What is added to directions grows no more than these do: they have length 1 before and after.
 void GltfValues::turn_difference(const Placement& placement, std::string_view semantic) {
   const Vec3d difference(value_[0], value_[1], value_[2]);
-  const double scale = std::cbrt(std::abs(placement.linear.determinant()));
+  const double scale = cube_root(std::abs(placement.linear.determinant()));
   Vec3d turned = placement.linear * difference;
   if (semantic == "NORMAL") turned = turned_normal(placement.linear, difference) / (scale * scale);
   if (semantic == "TANGENT") turned /= scale;
