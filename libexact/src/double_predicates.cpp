@@ -95,9 +95,24 @@ LongDouble exact_sum(double x, double y) {
   return {sum, (x - (sum - part)) + (y - part)};
 }
 
+// The number as a sum of two that have half the bits each, so that products of such are exact
+// (Veltkamp).
+LongDouble halves(double x) {
+  constexpr double kSplit = 0x1p27 + 1;
+  const double large = kSplit * x, hi = large - (large - x);
+  return {hi, x - hi};
+}
+
+// What rounding left of it, exactly (Dekker). That is what std::fma() is for, but the one of a C
+// library may round more than once, as that of mingw-w64 does.
+double rest_of_product(double x, double y, double product) {
+  const LongDouble a = halves(x), b = halves(y);
+  return a.lo * b.lo - (((product - a.hi * b.hi) - a.lo * b.hi) - a.hi * b.lo);
+}
+
 LongDouble operator*(const LongDouble& x, const LongDouble& y) {
   const double product = x.hi * y.hi;
-  return exact_sum(product, std::fma(x.hi, y.hi, -product) + (x.hi * y.lo + x.lo * y.hi));
+  return exact_sum(product, rest_of_product(x.hi, y.hi, product) + (x.hi * y.lo + x.lo * y.hi));
 }
 
 // Off by less than 2^-103 of |x| + |y|.
