@@ -41,6 +41,7 @@ NOT_RUN = {
     "scripts/fuzz.sh": "builds with clang, and runs for minutes",
     "scripts/make_site.py": "needs mkdocs and doxygen; site_test.py runs it",
     "scripts/make_wasm.sh": "builds for browsers",
+    "scripts/make_windows.sh": "builds for Windows",
     "scripts/package.sh": "builds packages, and a bare system to try them",
     "bench/compare.py": "takes minutes",
     "bench/make_hard_inputs.py": "needs python3-numpy",
