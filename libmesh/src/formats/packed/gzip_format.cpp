@@ -79,7 +79,7 @@ class Inflater {
   z_stream stream_ = {};
 };
 
-// Ends what zlib has begun.
+// Ends what zlib has begun. The header names the same system everywhere.
 class Deflater {
  public:
   Deflater() {
@@ -88,12 +88,18 @@ class Deflater {
                      Z_DEFAULT_STRATEGY) != Z_OK) {
       throw std::bad_alloc();
     }
+    constexpr int kUnix = 3;
+    header_.os = kUnix;
+    deflateSetHeader(&stream, &header_);
   }
   Deflater(const Deflater&) = delete;
   Deflater& operator=(const Deflater&) = delete;
   ~Deflater() { deflateEnd(&stream); }
 
   z_stream stream = {};
+
+ private:
+  gz_header header_ = {};
 };
 
 }  // namespace
