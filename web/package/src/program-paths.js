@@ -4,8 +4,7 @@ const isWindows = process.platform === 'win32';
 
 export function fromSystem(text) {
   if (!isWindows) return text;
-  const slashes = text.replaceAll('\\', '/');
-  return /^[A-Za-z]:\//.test(slashes) ? `/${slashes}` : slashes;
+  return text.replaceAll('\\', '/').replace(/(^|=)(?=[A-Za-z]:\/)/, '$1/');  // also in --report=C:\report.json
 }
 
 export function toSystem(path) {

@@ -2,10 +2,12 @@
 // Runs a program of the package with the words of the command line: the main thread of node. The program runs in a worker, whose stack is
 // large, and which leaves this thread free for signals, and for standard input, since a worker that waits for that cannot be ended.
 import {readFileSync, unlinkSync, writeSync} from 'node:fs';
+import {isatty} from 'node:tty';
 import {Worker, receiveMessageOnPort, MessageChannel} from 'node:worker_threads';
 
 const STACK_MEGABYTES = 32;  // the work calls itself, deeper than scripts do
 const MILLISECONDS_TO_STOP = 750;  // as the programs have
+const EXIT_LIMIT = 4;
 const EXIT_INTERNAL = 70;
 const SIGNALS = {SIGHUP: [1, 'hung up'], SIGINT: [2, 'interrupted'], SIGTERM: [15, 'terminated']};
 
@@ -17,13 +19,13 @@ function say(line) {
   }
 }
 
+// To ask what is no terminal would make it a stream of node.
+const columnsOf = (from, name, descriptor) => (isatty(descriptor) ? from[name].columns ?? 0 : 0);
+
 // What the worker is sent of standard input, when it asks for some.
 class StandardInput {
-  constructor(port, wake) {
-    this.send = (message) => {
-      port.postMessage(message);
-      wake();
-    };
+  constructor(send) {
+    this.send = send;
   }
 
   open() {
@@ -49,11 +51,15 @@ export function run(name) {
     Atomics.add(shared, 1, 1);
     Atomics.notify(shared, 1);
   };
-  const input = new StandardInput(port, wake);
+  const send = (message) => {
+    port.postMessage(message);
+    wake();
+  };
+  const input = new StandardInput(send);
   const worker = new Worker(new URL('./program-worker.js', import.meta.url), {
     workerData: {
       words: [name, ...process.argv.slice(2)],
-      columns: [0, process.stdout.columns ?? 0, process.stderr.columns ?? 0],
+      columns: {1: columnsOf(process, 'stdout', 1), 2: columnsOf(process, 'stderr', 2)},
       shared,
       port: theirs,
     },
@@ -77,12 +83,16 @@ export function run(name) {
       // It is gone.
     }
   };
-  const fail = (message) => {
+  const fail = (message, code = EXIT_INTERNAL) => {
     clear();
     say(`${name}: ${message}\n`);
-    process.exit(EXIT_INTERNAL);
+    process.exit(code);
   };
-  worker.on('error', (error) => fail(error.message));
+  worker.on('error', (error) => {
+    const isMemory = error.code === 'ERR_WORKER_OUT_OF_MEMORY' || (error.name === 'RangeError' && !/call stack/.test(error.message));
+    if (isMemory) fail('out of memory', EXIT_LIMIT);
+    fail(`the module stopped: ${error.message}`);
+  });
   worker.on('exit', () => fail('the worker of the program ended'));
 
   // What the worker waits for in the system, no thread can end: so the signal itself ends the process.
@@ -104,5 +114,5 @@ export function run(name) {
   }
 
   WebAssembly.compile(readFileSync(new URL('./meshrepair.wasm', import.meta.url))).then(
-      (compiled) => port.postMessage({compiled}), (error) => fail(error.message));
+      (compiled) => send({compiled}), (error) => fail(error.message));
 }
