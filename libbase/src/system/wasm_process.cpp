@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // WebAssembly has no system: what the one around it can tell, JavaScript says. A page says nothing,
 // node what web/package/src/program-worker.js has as `system` of the module.
+#include <array>
 #include <emscripten/em_js.h>
 #include <emscripten/heap.h>
 #include <fcntl.h>
 #include <filesystem>
 #include <unistd.h>
 #include <utility>
+
+#include <climits>
 
 #include <base/internal/system.h>
 
@@ -17,6 +20,7 @@ EM_JS(double, meshrepair_cpu_seconds, (), { return Module["system"] ? Module["sy
 EM_JS(double, meshrepair_free_memory, (), { return Module["system"] ? Module["system"].freeMemory() : -1; })
 EM_JS(void, meshrepair_limit_heap, (double bytes), { Module["heapLimit"] = bytes; })
 EM_JS(int, meshrepair_terminal_columns, (int descriptor), { return Module["system"] ? Module["system"].columns(descriptor) : 0; })
+EM_JS(void, meshrepair_program_file, (char* name, int most), { stringToUTF8(Module["system"] ? Module["system"].programFile : "", name, most); })
 // clang-format on
 
 namespace meshrepair::internal {
@@ -54,7 +58,12 @@ std::uint64_t limit_process_memory(std::uint64_t bytes, std::size_t /*threads*/)
 
 void end_process_now(int code) noexcept { _exit(code); }
 
-std::filesystem::path program_file() { return {}; }
+// That of the module.
+std::filesystem::path program_file() {
+  std::array<char, PATH_MAX> name = {};
+  meshrepair_program_file(name.data(), static_cast<int>(name.size()));
+  return name.data();
+}
 
 bool is_open(int descriptor) noexcept { return ::fcntl(descriptor, F_GETFD) != -1; }
 

@@ -2,6 +2,7 @@
 // The worker in which a program runs, from its first instruction to its exit code.
 import {webcrypto} from 'node:crypto';
 import os from 'node:os';
+import {fileURLToPath} from 'node:url';
 import {receiveMessageOnPort, workerData} from 'node:worker_threads';
 import createModule from './meshrepair.mjs';
 import {useFilesOfNode} from './program-files.js';
@@ -31,6 +32,7 @@ const system = {
     return (user + system) / 1e6;
   },
   freeMemory: () => os.freemem(),
+  programFile: fromSystem(fileURLToPath(new URL('./meshrepair.wasm', import.meta.url))),
   columns: (descriptor) => columns[descriptor] ?? 0,
 };
 
