@@ -124,10 +124,12 @@ function functions(FS, port, shared) {
     return typeof path === 'number' ? fs.fstatSync(path) : fs.statSync(toSystem(path));
   }
 
-  // A descriptor that the process was started with.
+  // A descriptor that the process was started with; not what node waits with, which has no type.
   function adopted(fd) {
     try {
-      return new Stream(fd, null, 2, fs.fstatSync(fd));
+      const status = fs.fstatSync(fd);
+      const isOurs = status.isFile() || status.isDirectory() || status.isFIFO() || status.isSocket() || status.isCharacterDevice();
+      return isOurs ? new Stream(fd, null, 2, status) : undefined;
     } catch {
       return undefined;
     }

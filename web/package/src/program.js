@@ -3,6 +3,7 @@
 // large, and which leaves this thread free for signals, and for standard input, since a worker that waits for that cannot be ended.
 import {readFileSync, unlinkSync, writeSync} from 'node:fs';
 import {isatty} from 'node:tty';
+import v8 from 'node:v8';
 import {Worker, receiveMessageOnPort, MessageChannel} from 'node:worker_threads';
 
 const STACK_MEGABYTES = 32;  // the work calls itself, deeper than scripts do
@@ -113,6 +114,7 @@ export function run(name) {
     });
   }
 
+  v8.setFlagsFromString('--wasm-lazy-compilation');  // the default since node 20: a program uses few of the functions
   WebAssembly.compile(readFileSync(new URL('./meshrepair.wasm', import.meta.url))).then(
       (compiled) => send({compiled}), (error) => fail(error.message));
 }
