@@ -8,6 +8,7 @@ import {Worker, receiveMessageOnPort, MessageChannel} from 'node:worker_threads'
 
 const STACK_MEGABYTES = 32;  // the work calls itself, deeper than scripts do
 const MILLISECONDS_TO_STOP = 750;  // as the programs have
+const MILLISECONDS_OF_ONE_REQUEST = 200;  // npx passes on what the terminal has sent to all
 const EXIT_LIMIT = 4;
 const EXIT_INTERNAL = 70;
 const SIGNALS = {SIGHUP: [1, 'hung up'], SIGINT: [2, 'interrupted'], SIGTERM: [15, 'terminated']};
@@ -103,9 +104,13 @@ export function run(name) {
     process.removeAllListeners(signal);
     process.kill(process.pid, signal);
   };
+  let asked = -Infinity;
   for (const [signal, [number, words]] of Object.entries(SIGNALS)) {
     process.on(signal, () => {
+      const since = performance.now() - asked;
+      if (since < MILLISECONDS_OF_ONE_REQUEST) return;
       if (Atomics.compareExchange(shared, 0, 0, number) !== 0) end(signal);
+      asked = performance.now();
       wake();
       setTimeout(() => {
         say(`${name}: ${words}\n`);
