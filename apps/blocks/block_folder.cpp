@@ -58,6 +58,14 @@ std::uint64_t count_of(const Json& json, const char* key) {
   return present(member(json, key).as_count());
 }
 
+// Of something in memory.
+std::size_t size_of(const Json& json, const char* key) {
+  const std::uint64_t count = count_of(json, key);
+  const auto size = static_cast<std::size_t>(count);
+  if (size != count) throw Damaged();
+  return size;
+}
+
 std::string text_of(const Json& json, const char* key) {
   return present(member(json, key).as_text());
 }
@@ -125,12 +133,12 @@ BlockPlan BlockFolder::read_plan() const try {
                      ": not a plan; meshrepair-blocks plan creates one in a new folder");
   BlockPlan plan;
   plan.input = text_of(*json, "input");
-  plan.triangles = count_of(*json, "triangles");
+  plan.triangles = size_of(*json, "triangles");
   plan.unit = unit_of(member(*json, "unit"));
   std::size_t triangles = 0;
   for (const Json& block : list_of(*json, "blocks")) {
     plan.blocks.push_back(
-        {count_of(block, "triangles"), count_of(block, "groups"), count_of(block, "checksum")});
+        {size_of(block, "triangles"), size_of(block, "groups"), count_of(block, "checksum")});
     triangles += plan.blocks.back().triangles;
   }
   if (plan.blocks.empty() || triangles != plan.triangles) {

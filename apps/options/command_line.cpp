@@ -231,7 +231,12 @@ CommandOption* CommandLine::add_option(const std::string& name, unsigned& value,
   return own(add_value(*app_, name, value, help)->type_name("UINT"));
 }
 
-CommandOption* CommandLine::add_option(const std::string& name, std::size_t& value,
+CommandOption* CommandLine::add_option(const std::string& name, unsigned long& value,
+                                       const std::string& help) {
+  return own(add_value(*app_, name, value, help)->type_name("UINT"));
+}
+
+CommandOption* CommandLine::add_option(const std::string& name, unsigned long long& value,
                                        const std::string& help) {
   return own(add_value(*app_, name, value, help)->type_name("UINT"));
 }

@@ -92,7 +92,10 @@ class CommandLine {
   CommandOption* add_option(const std::string& name, double& value, const std::string& help);
   CommandOption* add_option(const std::string& name, int& value, const std::string& help);
   CommandOption* add_option(const std::string& name, unsigned& value, const std::string& help);
-  CommandOption* add_option(const std::string& name, std::size_t& value, const std::string& help);
+  // std::size_t and std::uint64_t are among these.
+  CommandOption* add_option(const std::string& name, unsigned long& value, const std::string& help);
+  CommandOption* add_option(const std::string& name, unsigned long long& value,
+                            const std::string& help);
   CommandOption* add_option(const std::string& name, std::vector<std::string>& values,
                             const std::string& help);
   // Whose value `set` is given.

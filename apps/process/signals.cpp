@@ -33,6 +33,9 @@ void install_signal_handlers() {
   internal::make_refused_writes_errors();
 }
 
-int received_signal() noexcept { return first_signal.load(); }
+int received_signal() noexcept {
+  const int noted = first_signal.load();
+  return noted != 0 ? noted : internal::request_to_end_without_handler();
+}
 
 }  // namespace meshrepair

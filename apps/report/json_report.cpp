@@ -14,11 +14,11 @@ constexpr const char* kTailKeys[] = {"stages",    "seconds", "peak_memory_bytes"
                                      "exit_code", "error",   "warnings"};
 
 // A program that measures the peak of each stage sets the system's count back in between.
-std::size_t peak_memory_bytes(const Json& stages) {
-  std::size_t peak = internal::peak_memory();
+std::uint64_t peak_memory_bytes(const Json& stages) {
+  std::uint64_t peak = internal::peak_memory();
   for (const Json& stage : stages.values()) {
     const Json* const bytes = stage.find("peak_bytes");
-    if (bytes != nullptr) peak = std::max<std::size_t>(peak, bytes->as_count().value_or(0));
+    if (bytes != nullptr) peak = std::max(peak, bytes->as_count().value_or(0));
   }
   return peak;
 }

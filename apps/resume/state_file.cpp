@@ -136,7 +136,8 @@ class ChecksumReader : public std::streambuf {
 
  private:
   std::size_t take(char* bytes, std::size_t most) {
-    const std::size_t count = read(bytes, std::min<std::uint64_t>(most, left_));
+    const auto at_most = static_cast<std::size_t>(std::min<std::uint64_t>(most, left_));
+    const std::size_t count = read(bytes, at_most);
     sum_ = continued(sum_, bytes, count);
     left_ -= count;
     return count;

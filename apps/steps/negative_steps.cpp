@@ -84,7 +84,7 @@ class NegativeVolumeSubtractor {
       last = std::max(last, *most);
     }
     TriangleSoup soup;
-    const auto point = input_.soup.points.begin();
+    const Vec3d* const point = input_.soup.points.data();
     soup.points.assign(point + first, point + last + 1);
     for (std::size_t t = volume.first; t < volume.first + volume.triangles; ++t) {
       auto corners = triangles[t];

@@ -5,6 +5,7 @@
 Usage: make_package.py
 """
 
+import json
 import pathlib
 import re
 import shutil
@@ -14,6 +15,19 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODULE = ROOT / "build/wasm/web/wasm"
 TARGET = ROOT / "build/wasm/package"
+
+
+# A command of the package for each program. npm makes what starts it on Windows.
+COMMAND = """#!/usr/bin/env node
+// SPDX-License-Identifier: MIT
+import {{run}} from '../program.js';
+
+run('{name}');
+"""
+
+
+def programs():
+    return re.search(r"^set\(programs ([^)]+)\)", (ROOT / "apps/CMakeLists.txt").read_text(), re.MULTILINE)[1].split()
 
 
 def version():
@@ -36,8 +50,14 @@ def main():
     for name in ("README.md", "index.d.ts"):
         shutil.copyfile(ROOT / "web/package" / name, TARGET / name)
     shutil.copyfile(ROOT / "LICENSE", TARGET / "LICENSE")
-    manifest = (ROOT / "web/package/package.json").read_text()
-    (TARGET / "package.json").write_text(manifest.replace("@VERSION@", version()))
+    manifest = json.loads((ROOT / "web/package/package.json").read_text())
+    manifest["version"] = version()
+    manifest["bin"] = {name: f"bin/{name}.js" for name in programs()}
+    (TARGET / "package.json").write_text(json.dumps(manifest, indent=2) + "\n")
+    (TARGET / "bin").mkdir()
+    for name, path in manifest["bin"].items():
+        (TARGET / path).write_text(COMMAND.format(name=name))
+        (TARGET / path).chmod(0o755)
     notice = subprocess.run([ROOT / "scripts/notice.py", "wasm"], check=True, capture_output=True, text=True)
     (TARGET / "NOTICE").write_text(notice.stdout)
     return 0

@@ -64,6 +64,8 @@ void handle_request_to_end(int number, void (*handle)(int number)) noexcept {
   ::sigaction(number, &action, nullptr);
 }
 
+int request_to_end_without_handler() noexcept { return 0; }
+
 void make_refused_writes_errors() noexcept {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);

@@ -93,6 +93,8 @@ void handle_request_to_end(int /*number*/, void (*handle)(int number)) noexcept 
   ::SetConsoleCtrlHandler(handle_console, TRUE);
 }
 
+int request_to_end_without_handler() noexcept { return 0; }
+
 void make_refused_writes_errors() noexcept {}
 
 std::thread thread_without_signals(std::function<void()> work) {

@@ -43,10 +43,7 @@ class OutlineSweep {
         ++last;
       }
       const bool is_alone = first == 0 || place(ends_[first - 1].at) < place(ends_[first].at);
-      if (!is_alone || !pass({ends_.begin() + static_cast<std::ptrdiff_t>(first),
-                              ends_.begin() + static_cast<std::ptrdiff_t>(last)})) {
-        return false;
-      }
+      if (!is_alone || !pass(std::span(ends_).subspan(first, last - first))) return false;
     }
     return true;
   }

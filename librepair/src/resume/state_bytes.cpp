@@ -39,12 +39,12 @@ void StateWriter::operator()(const PlaneTable& planes) {
 }
 
 void StateReader::operator()(PlaneTable& planes) {
-  const std::uint64_t size = take_size(sizeof(Coefficients));
+  const std::size_t size = take_size(sizeof(Coefficients));
   planes = {};
   planes.reserve(size);
   std::vector<Coefficients> some;
-  for (std::uint64_t first = 0; first < size; first += kAtOnce) {
-    some.resize(std::min<std::uint64_t>(size - first, kAtOnce));
+  for (std::size_t first = 0; first < size; first += kAtOnce) {
+    some.resize(std::min(size - first, kAtOnce));
     take(some.data(), some.size());
     for (const Coefficients& c : some) planes.append(plane_of(c));
   }

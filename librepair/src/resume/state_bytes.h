@@ -126,11 +126,12 @@ class StateReader {
     }
     left_ -= bytes;
   }
-  std::uint64_t take_size(std::size_t bytes_each) {
+  std::size_t take_size(std::size_t bytes_each) {
     std::uint64_t size = 0;
     (*this)(size);
-    if (size > left_ / bytes_each) throw BrokenState();
-    return size;
+    const auto count = static_cast<std::size_t>(size);
+    if (size > left_ / bytes_each || count != size) throw BrokenState();
+    return count;
   }
   template <class List>
   void take_list(List& list) {

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,7 +25,10 @@ struct LineEdge {
     std::array<std::int64_t, 3> direction{};  // without a common divisor; the first number that is
                                               // not 0 is above 0
     std::array<std::int64_t, 3> moment{};
-    auto operator<=>(const Line&) const = default;  // NOLINT(modernize-use-nullptr)
+    bool operator==(const Line&) const = default;
+    bool operator<(const Line& other) const {
+      return std::tie(direction, moment) < std::tie(other.direction, other.moment);
+    }
   };
 
   Line line;

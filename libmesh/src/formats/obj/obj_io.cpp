@@ -152,7 +152,8 @@ class ObjReader {
     faces_.add_triangle({a - 1, b - 1, c - 1});
     if (!wants_attributes()) return;
     for (std::size_t k = 0; k < 3; ++k) {
-      attributes_.add_corner({face.line + face.first[k], face.line + face.last[k]});
+      const auto length = static_cast<std::size_t>(face.last[k] - face.first[k]);
+      attributes_.add_corner({face.line + face.first[k], length});
     }
     attributes_.end_face();
   }

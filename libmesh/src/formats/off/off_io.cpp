@@ -78,7 +78,8 @@ class OffReader {
     };
     const auto take = [&](std::span<const Vec3d> read, std::size_t position) {
       std::vector<Vec3d>& points = result_.soup.points;
-      const std::size_t count = std::min(read.size(), header_.points - points.size());
+      const auto count = static_cast<std::size_t>(
+          std::min<std::uint64_t>(read.size(), header_.points - points.size()));
       for (const Vec3d& p : read.first(count)) {
         guard_.step(0, position);
         points.push_back(p);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What programs do without on Windows: a file for large arrays, questions to the terminal, and the
-// local page and the server of jobs, which start copies of the program.
+// What programs do without on some systems: a file for large arrays, questions to the terminal, and
+// the local page and the server of jobs, which start copies of the program. MESHREPAIR_WHERE says
+// where, such as "on Windows", MESHREPAIR_NO_SPILLING why there is no file for large arrays.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +22,9 @@ bool begins_with(int argc, const char* const* argv, std::string_view flag) {
 }
 
 int refuse(const std::string& flag) {
-  return run_guarded("meshrepair",
-                     [&]() -> ExitCode { throw ValueError(flag + ": cannot be used on Windows"); });
+  return run_guarded("meshrepair", [&]() -> ExitCode {
+    throw ValueError(flag + ": cannot be used " MESHREPAIR_WHERE);
+  });
 }
 
 }  // namespace
@@ -48,7 +50,7 @@ void restore_terminal() noexcept {}
 
 Spilling::Spilling(const std::string& folder, const MemoryLimit& /*limit*/) {
   if (!folder.empty() && folder != "none") {
-    throw UsageError("--temp: cannot be used on Windows, whose paging file holds large arrays");
+    throw UsageError("--temp: cannot be used " MESHREPAIR_WHERE ", " MESHREPAIR_NO_SPILLING);
   }
 }
 Spilling::~Spilling() = default;
