@@ -1,6 +1,6 @@
 # meshrepair_describe(NAME): the manual page of a program and its completions, which the program prints itself, so that
 # they say what --help says. They are made below share of the build folder, and installed from there. A program that is
-# built for another system is asked through CMAKE_CROSSCOMPILING_EMULATOR, and without one not at all.
+# built for another system is asked through CMAKE_CROSSCOMPILING_EMULATOR, and without one not at all; Windows has neither kind of file.
 #
 # Run as a script, -P with PROGRAM, EMULATOR, NAME and FOLDER, it makes those of one program.
 if(CMAKE_SCRIPT_MODE_FILE)
@@ -28,7 +28,7 @@ endif()
 set(describe_script ${CMAKE_CURRENT_LIST_FILE})
 
 function(meshrepair_describe NAME)
-  if(EMSCRIPTEN OR (CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR))
+  if(EMSCRIPTEN OR WIN32 OR (CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR))
     return()
   endif()
   set(files "")

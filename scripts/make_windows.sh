@@ -22,9 +22,8 @@ folder=build/windows/package/$name
 rm -rf "build/windows/package" "build/packages/$name.zip"
 mkdir -p "$folder" build/packages
 cp build/windows/bin/*.exe LICENSE README.md CHANGELOG.md "$folder"
-x86_64-w64-mingw32-strip "$folder"/*.exe
 python3 scripts/notice.py windows >"$folder/NOTICE"
 # The same in, the same out.
 find "$folder" -exec touch --date="@${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}" {} +
-(cd build/windows/package && zip --quiet --recurse-paths -X "$root/build/packages/$name.zip" "$name")
+(cd build/windows/package && find "$name" -type f | LC_ALL=C sort | zip --quiet -X "$root/build/packages/$name.zip" -@)
 ls -l "build/packages/$name.zip"

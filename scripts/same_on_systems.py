@@ -29,7 +29,8 @@ A way is NAME=COMMAND. COMMAND starts a program, whose name replaces each "*"; w
 examples:
   scripts/same_on_systems.py samples/meshes --way x86=build/release/bin \\
     --way "arm64=qemu-aarch64 -L build/arm64-sysroot -R 16G build/arm64/bin"
-  scripts/same_on_systems.py samples/meshes --way linux=build/release/bin --way "windows=wine build/windows/bin/*.exe" --formats obj,3mf
+  scripts/same_on_systems.py samples/meshes --way linux=build/release/bin \\
+    --way "windows=scripts/run_wine.sh build/windows/bin/*.exe" --formats obj,3mf
 """
 
 

@@ -28,7 +28,6 @@
 namespace meshrepair {
 namespace {
 
-constexpr std::string_view kFlag = "--jobs-from";
 constexpr std::size_t kMostJobs = 9999;
 constexpr double kShareOfMemory = 80;  // percent, of all jobs together
 
@@ -57,7 +56,7 @@ struct JobsOptions {
 };
 
 void add_options(CommandLine& app, JobsOptions& options) {
-  app.add_option(std::string(kFlag), options.file,
+  app.add_option(std::string(kJobsFlag), options.file,
                  "File of jobs, one in each line; - is standard input")
       ->type_name("FILE")
       ->required();
@@ -76,7 +75,7 @@ std::vector<std::string> own_words(const std::vector<std::string>& words) {
     return at < words.size() && (words[at] == "--help" || words[at] == "-h");
   };
   if (asks_for_help(1)) return {words[1]};
-  std::size_t count = words[0] == kFlag ? 2 : 1;  // with the file
+  std::size_t count = words[0] == kJobsFlag ? 2 : 1;  // with the file
   if (count < words.size() && words[count].starts_with("--jobs=")) count += 1;
   if (count < words.size() && words[count] == "--jobs") count += 2;
   if (asks_for_help(count)) count += 1;
@@ -154,12 +153,6 @@ std::string answer_of(const Json& report) {
 }
 
 }  // namespace
-
-bool asks_for_jobs(int argc, const char* const* argv) {
-  if (argc < 2) return false;
-  const std::string_view first = argv[1];
-  return first == kFlag || first.starts_with(std::string(kFlag) + "=");
-}
 
 int work_off_jobs(int argc, const char* const* argv, Program& program,
                   const std::function<int(int, const char* const*)>& run) {

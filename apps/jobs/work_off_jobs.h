@@ -3,13 +3,21 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <string_view>
 
 #include "program/program.h"
 
 namespace meshrepair {
 
-// Whether the command line asks for many jobs.
-[[nodiscard]] bool asks_for_jobs(int argc, const char* const* argv);
+inline constexpr std::string_view kJobsFlag = "--jobs-from";
+
+// Whether the command line asks for many jobs: by its first argument.
+[[nodiscard]] inline bool asks_for_jobs(int argc, const char* const* argv) {
+  if (argc < 2) return false;
+  const std::string_view first = argv[1];
+  return first == kJobsFlag || first.starts_with(std::string(kJobsFlag) + "=");
+}
 
 // Reads jobs, one in each line, and prints their answers. Each is worked off by `run`, in a copy of
 // this process, with the command line of a job: the other options of this one, those of the job, IN

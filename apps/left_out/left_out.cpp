@@ -17,29 +17,19 @@
 namespace meshrepair {
 namespace {
 
-bool begins_with(int argc, const char* const* argv, std::string_view flag) {
-  return argc > 1 && std::string_view(argv[1]).starts_with(flag);
-}
-
-int refuse(const std::string& flag) {
+int refuse(std::string_view flag) {
   return run_guarded("meshrepair", [&]() -> ExitCode {
-    throw ValueError(flag + ": cannot be used " MESHREPAIR_WHERE);
+    throw ValueError(std::string(flag) + ": cannot be used " MESHREPAIR_WHERE);
   });
 }
 
 }  // namespace
 
-bool asks_to_serve(int argc, const char* const* argv) { return begins_with(argc, argv, "--serve"); }
-
-int serve(int /*argc*/, const char* const* /*argv*/) { return refuse("--serve"); }
-
-bool asks_for_jobs(int argc, const char* const* argv) {
-  return begins_with(argc, argv, "--jobs-from");
-}
+int serve(int /*argc*/, const char* const* /*argv*/) { return refuse(kServeFlag); }
 
 int work_off_jobs(int /*argc*/, const char* const* /*argv*/, Program& /*program*/,
                   const std::function<int(int, const char* const*)>& /*run*/) {
-  return refuse("--jobs-from");
+  return refuse(kJobsFlag);
 }
 
 RawTerminal::RawTerminal() : descriptor_(-1) {}

@@ -48,7 +48,10 @@ int held(const fs::path& folder) {
     const int lock = internal::hold_folder(folder);
     if (lock >= 0) return lock;
     if (errno != EWOULDBLOCK) {
-      throw OutputError("--resume: " + folder.string() + " is no folder: " + reason(errno));
+      const int error = errno;
+      const bool is_folder = internal::facts_of_file(folder).kind == internal::FileKind::folder;
+      throw OutputError("--resume: " + folder.string() +
+                        (is_folder ? " cannot be locked: " : " is no folder: ") + reason(error));
     }
     std::this_thread::sleep_for(kBetweenTries);
   }

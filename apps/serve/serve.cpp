@@ -33,8 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFlag = "--serve";
-
 struct ServeOptions {
   std::size_t port = 0;
   std::string max_upload = "2G";
@@ -45,7 +43,7 @@ struct ServeOptions {
 
 void add_options(CommandLine& app, ServeOptions& options) {
   app.add_flag_callback(
-      std::string(kFlag), [] {}, "Serve a local web page until Ctrl-C");
+      std::string(kServeFlag), [] {}, "Serve a local web page until Ctrl-C");
   app.add_option("--port", options.port, "Port; 0: any free one")
       ->check(count_between(0, 65535))
       ->type_name("N")
@@ -146,8 +144,6 @@ ExitCode serve_until_signal(const ServeOptions& options) {
 }
 
 }  // namespace
-
-bool asks_to_serve(int argc, const char* const* argv) { return argc > 1 && argv[1] == kFlag; }
 
 int serve(int argc, const char* const* argv) {
   return run_guarded("meshrepair", [&] {

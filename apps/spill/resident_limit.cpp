@@ -46,10 +46,9 @@ std::uint64_t share_of(std::uint64_t bytes, double share) {
 // much as there may be, letting go has to wait until it brings something, or nothing else would be
 // done.
 void keep(SpillFile& file) noexcept {
-  const std::uint64_t most = most_resident.load(), resident = internal::process_memory().resident;
-  if (resident <= most) return;
-  const std::uint64_t held = internal::process_memory().own;
-  if (resident <= held + share_of(most, kBeyondHeld)) return;
+  const std::uint64_t most = most_resident.load();
+  const auto [resident, held, reserved] = internal::process_memory();
+  if (resident <= most || resident <= held + share_of(most, kBeyondHeld)) return;
   const std::uint64_t end = std::max(share_of(most, kEnd), held + share_of(most, kEndBeyondHeld));
   for (std::size_t passed = 0; passed < file.extent(); passed += kAtOnce) {
     file.let_go(kAtOnce);

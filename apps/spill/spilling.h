@@ -35,7 +35,7 @@ class Spilling {
  private:
   std::string folder_;
   SpillFile* file_ = nullptr;  // never deleted: arrays of the whole process may be in it
-  std::shared_ptr<ResidentLimit> resident_limit_;
+  std::shared_ptr<ResidentLimit> resident_limit_;  // shared, as not all systems know the type
 };
 
 }  // namespace meshrepair

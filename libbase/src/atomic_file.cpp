@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using internal::FileFacts, internal::FileKind, internal::FileUse;
+using internal::FileKind, internal::FileUse;
 using Letter = fs::path::value_type;
 
 // The name of the unfinished file; null if there is none. Read by signal handlers and from other

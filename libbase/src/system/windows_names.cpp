@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Names of files are UTF-8 in this project, and std::filesystem::path gives them as such. What it
-// is made of it takes, with libstdc++, for the code page of the C library, which with msvcrt cannot
-// be UTF-8. So the conversion that it asks, which a library of its own would define, is defined
-// here; linked before that library, which nobody needs then. A part of it in each source that uses
-// files: these functions must come into a program together with longest_path().
+// Text that becomes a std::filesystem::path is UTF-8, as is the text that a path gives. libstdc++
+// converts what it is given by the facet codecvt<wchar_t, char>, which follows the code page of the
+// C library; that of msvcrt cannot be UTF-8. So the functions of this facet are defined here, and
+// the linker takes them instead of those of libstdc++. longest_path() is here, too, because
+// whatever writes files calls it: that brings this object into each program.
 #include <codecvt>
 #include <cwchar>
 #include <locale>
