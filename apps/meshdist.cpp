@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// meshdist A B: how far two meshes are apart.
+// meshdist A B...: how far meshes are from the first of them.
+#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -27,7 +29,7 @@ namespace {
 
 struct Options {
   std::string first;
-  std::string second;
+  std::vector<std::string> others;
   bool json = false;
   DistanceOptions distance;
   HtmlRequest html;
@@ -41,10 +43,16 @@ struct Read {
   View::Up up = View::Up::z;
 };
 
-Read read(const std::string& path, const std::string& key, Run& run, std::string& lines) {
+// What is compared with A.
+struct Other {
+  Read read;
+  MeshDistance distance;
+};
+
+Read read(const std::string& path, Run& run, Json& section, std::string& lines) {
   Findings findings(path, "");
   TriangleSoup soup = read_mesh_stage(read_options(run), run, findings).soup;
-  run.report.set_section(key, read_section(*findings.mesh_read));
+  section = read_section(*findings.mesh_read);
   lines +=
       fmt::format("{}: {}, {}\n", findings.input_name(),
                   format_words(format_name(findings.mesh_read->format), findings.mesh_read->packed),
@@ -74,41 +82,78 @@ Json sections_of(Run& run) {
   return sections;
 }
 
-void write_page_stage(const Options& options, const Read& first, const Read& second,
-                      const MeshDistance& distance, Run& run) {
+void write_page_stage(const Options& options, const Read& first, const std::vector<Other>& others,
+                      Run& run) {
   if (!options.html.wanted()) return;
-  const bool y_is_up = first.up == View::Up::y && second.up == View::Up::y;
-  write_distance_page_stage(options.html,
-                            {{first.name, first.soup},
-                             {second.name, second.soup},
-                             distance,
-                             y_is_up ? View::Up::y : View::Up::z,
-                             first.unit ? first.unit : second.unit,
-                             sections_of(run)},
-                            run);
+  DistancePage page{{first.name, first.soup}, {}, first.up, first.unit, sections_of(run)};
+  for (const auto& [b, distance] : others) {
+    page.others.push_back({{b.name, b.soup}, distance});
+    if (b.up != View::Up::y) page.up = View::Up::z;
+    if (!page.unit) page.unit = b.unit;
+  }
+  write_distance_page_stage(options.html, std::move(page), run);
+}
+
+void check_all_files(const Options& options, Run& run) {
+  std::vector<std::string> files = options.others;
+  files.push_back(options.first);
+  if (std::count(files.begin(), files.end(), "-") > 1) {
+    throw UsageError("only one of the meshes can be standard input");
+  }
+  for (const std::string& file : files) check_files(file, "", run);
+  check_html(options.html, files, run);
+}
+
+Other compare(const Options& options, const Read& first, const std::string& file, Run& run,
+              Json& section, std::string& lines) {
+  Other other;
+  Json read_b;
+  other.read = read(file, run, read_b, lines);
+  bring_to_same_unit(first, other.read, lines);
+  bring_to_same_origin(first, other.read);
+  other.distance = mesh_distance(first.soup, other.read.soup, options.distance);
+  lines += distance_table(other.distance);
+  section = {{"read_b", std::move(read_b)},
+             {"distance", distance_section(other.distance, options.distance)}};
+  return other;
+}
+
+// Of one comparison its sections, else a list.
+void report_comparisons(const Options& options, std::vector<Json> comparisons, Run& run) {
+  if (comparisons.size() == 1) {
+    for (const auto& [key, section] : comparisons[0].items()) run.report.set_section(key, section);
+    return;
+  }
+  Json list = Json::array();
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    comparisons[i]["b"] = options.others[i];
+    list.push_back(std::move(comparisons[i]));
+  }
+  run.report.set_section("comparisons", std::move(list));
 }
 
 ExitCode measure(Options& options, Run& run) {
-  if (options.first == "-" && options.second == "-") {
-    throw UsageError("only one of the meshes can be standard input");
-  }
-  check_files(options.first, "", run);
-  check_files(options.second, "", run);
-  check_html(options.html, {options.first, options.second}, run);
-  run.report.set_input({{"a", options.first}, {"b", options.second}});
+  check_all_files(options, run);
+  run.report.set_input({{"a", options.first}, {"b", options.others.front()}});
+  if (options.others.size() > 1)
+    run.report.set_input({{"a", options.first}, {"b", options.others}});
   options.distance.progress = &run.progress;
   std::string lines;
-  const Read first = read(options.first, "read", run, lines);
-  Read second = read(options.second, "read_b", run, lines);
-  bring_to_same_unit(first, second, lines);
-  bring_to_same_origin(first, second);
-  const MeshDistance distance = mesh_distance(first.soup, second.soup, options.distance);
-  run.report.set_section("distance", distance_section(distance, options.distance));
-  write_page_stage(options, first, second, distance, run);
-  run.progress.finish();
-  if (run.options.report != "-" && !run.options.quiet) {
-    std::cout << lines << distance_table(distance);
+  Json section;
+  const Read first = read(options.first, run, section, lines);
+  run.report.set_section("read", std::move(section));
+  std::vector<Other> others;
+  std::vector<Json> comparisons;
+  for (const std::string& file : options.others) {
+    if (!others.empty()) lines += "\n";
+    Other other = compare(options, first, file, run, comparisons.emplace_back(), lines);
+    if (!options.html.wanted()) other.read.soup = {};
+    others.push_back(std::move(other));
   }
+  report_comparisons(options, std::move(comparisons), run);
+  write_page_stage(options, first, others, run);
+  run.progress.finish();
+  if (run.options.report != "-" && !run.options.quiet) std::cout << lines;
   return ExitCode::done;
 }
 
@@ -118,8 +163,10 @@ ExitCode measure(Options& options, Run& run) {
 int main(int argc, char** argv) {
   using namespace meshrepair;
   Options options;
-  Program program("meshdist", "Measures the distance between two meshes in both directions.",
+  Program program("meshdist",
+                  "Measures the distance of meshes from the first one, in both directions.",
                   "  meshdist original.stl repaired.stl\n"
+                  "  meshdist original.stl half.stl tenth.stl --html levels.html\n"
                   "  meshdist original.stl repaired.stl --bound --json | jq .distance.bound\n");
   CommandLine& app = program.command_line();
   app.add_option("A", options.first,
@@ -127,11 +174,12 @@ int main(int argc, char** argv) {
                  " relative distances refer to its bounding box diagonal; - is standard\ninput")
       ->check(names_file(mesh_extensions()))
       ->required();
-  app.add_option("B", options.second, "Mesh; - is standard input")
+  app.add_option("B", options.others, "Meshes, each compared with A; - is standard input")
       ->check(names_file(mesh_extensions()))
-      ->required();
+      ->required()
+      ->repeated();
   add_distance_options(app, options.distance);
-  add_html_options(app, options.html, "A and B, coloured by their distance");
+  add_html_options(app, options.html, "A and one B at a time, coloured\nby their distance");
   app.add_flag("--json", options.json, "Print the report instead of the table: --report -")
       ->group("Output");
   return program.run(argc, argv, [&](Run& run) {

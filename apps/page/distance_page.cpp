@@ -25,11 +25,11 @@ struct DrawnDistances {
   std::vector<double> distances;  // of its points
 };
 
-DrawnDistances drawn_distances(const DistancePage& page, const TriangleSoup& soup,
-                               const TriangleSoup& other, std::size_t most, Run& run) {
+DrawnDistances drawn_distances(double diagonal, const TriangleSoup& soup, const TriangleSoup& other,
+                               std::size_t most, Run& run) {
   DrawnDistances all;
   all.drawn = drawn_mesh(soup, {}, {}, most);
-  all.drawn.soup = split_edges(std::move(all.drawn.soup), kLongestEdge * page.distance.diagonal,
+  all.drawn.soup = split_edges(std::move(all.drawn.soup), kLongestEdge * diagonal,
                                std::min(most, all.drawn.soup.triangles.size() + kMostDivided));
   all.distances = point_distances(all.drawn.soup.points, other, &run.progress);
   return all;
@@ -70,18 +70,30 @@ ShownMesh shown(std::string_view role, const DistancePage::Mesh& mesh, DrawnDist
 void write_distance_page_stage(const HtmlRequest& request, DistancePage page, Run& run) {
   if (!request.wanted()) return;
   run.progress.stage("html");
-  const TriangleSoup &a = page.a.soup, &b = page.b.soup;
-  DrawnDistances forth = drawn_distances(page, a, b, request.most_triangles, run);
-  DrawnDistances back = drawn_distances(page, b, a, request.most_triangles, run);
+  const TriangleSoup& a = page.a.soup;
+  std::vector<DrawnDistances> drawn;  // A and the other, of each pair
+  double most = 0;
+  for (const auto& [b, distance] : page.others) {
+    const double diagonal = distance.diagonal;
+    drawn.push_back(drawn_distances(diagonal, a, b.soup, request.most_triangles, run));
+    drawn.push_back(drawn_distances(diagonal, b.soup, a, request.most_triangles, run));
+    most = std::max(most, distance.largest());
+  }
   // A point that is drawn may be farther than all samples.
-  const double most =
-      largest_of(forth.distances, largest_of(back.distances, page.distance.largest()));
+  for (const DrawnDistances& one : drawn) most = largest_of(one.distances, most);
   PageContent content{"distance", page.up, page.unit};
-  content.meshes.push_back(shown("a", page.a, std::move(forth), most));
-  content.meshes.push_back(shown("b", page.b, std::move(back), most));
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const bool is_a = i % 2 == 0;
+    content.meshes.push_back(
+        shown(is_a ? "a" : "b", is_a ? page.a : page.others[i / 2].b, std::move(drawn[i]), most));
+  }
   const PageGrid grid = grid_of(content.meshes);
-  content.more = {{"scale", {{"most", most}, {"steps", kMostValue}}},
-                  {"ways", {way_of(page.distance.forth, grid), way_of(page.distance.back, grid)}}};
+  Json ways = Json::array();
+  for (const auto& [b, distance] : page.others) {
+    ways.push_back(way_of(distance.forth, grid));
+    ways.push_back(way_of(distance.back, grid));
+  }
+  content.more = {{"scale", {{"most", most}, {"steps", kMostValue}}}, {"ways", ways}};
   content.report = std::move(page.report);
   write_page(request, std::move(content), run);
 }

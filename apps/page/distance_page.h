@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// --html of meshdist: how far two meshes are apart, as colours on both.
+// --html of meshdist: how far meshes are from the first of them, as colours on both.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <check/mesh_distance.h>
 #include <mesh/length_unit.h>
@@ -17,8 +18,12 @@ struct DistancePage {
     std::string name;  // for people
     const TriangleSoup& soup;
   };
-  Mesh a, b;
-  const MeshDistance& distance;
+  struct Compared {
+    Mesh b;
+    const MeshDistance& distance;  // between A and it
+  };
+  Mesh a;
+  std::vector<Compared> others;  // one of them is shown beside A at a time
   View::Up up = View::Up::z;
   std::optional<LengthUnit> unit;
   Json report;  // the sections of the report, for the page

@@ -133,7 +133,11 @@ PageGrid grid_of(const std::vector<ShownMesh>& meshes) {
 void write_page(const HtmlRequest& request, PageContent content, Run& run) {
   PageMaker maker(request, content, run);
   Json section = {{"path", request.path}};
-  for (ShownMesh& mesh : content.meshes) section[std::string(mesh.role)] = maker.add(mesh);
+  for (ShownMesh& mesh : content.meshes) {
+    Json drawn = maker.add(mesh);
+    const std::string role(mesh.role);
+    if (!section.contains(role)) section[role] = std::move(drawn);  // the first of several
+  }
   Json page = {{"program", "meshrepair"},           {"version", program_version()},
                {"subject", content.subject},        {"up", content.up == View::Up::y ? "y" : "z"},
                {"units", units_text(content.unit)}, {"grid", json_of(maker.grid())},

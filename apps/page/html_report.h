@@ -34,7 +34,7 @@ struct PageContent {
   std::string_view subject;  // "repair", "check", "boolean" or "distance": words of the viewer
   View::Up up = View::Up::z;
   std::optional<LengthUnit> unit;
-  std::vector<ShownMesh> meshes = {};    // one or two
+  std::vector<ShownMesh> meshes = {};    // one, two, or pairs to choose from
   std::vector<std::string> inputs = {};  // files of meshes, in whose folders pictures may be
   std::size_t places = kPlacesInReport;  // of each defect in the section of the report
   Json more = Json::object();            // what such a page has besides

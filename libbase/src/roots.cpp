@@ -48,6 +48,13 @@ double hypotenuse(double x, double y) {
   return corrected_length(longer, shorter);
 }
 
+double stable_length(const Vec3d& vector) {
+  const double most = vector.cwiseAbs().maxCoeff();
+  // Zero, infinite, or not a number.
+  if (!(most > 0 && std::isfinite(most))) return vector.cwiseAbs().sum();
+  return most * (vector / most).norm();
+}
+
 // Newton's method on a number from 1/2 to 4, from the secant of the root there. That is off by a
 // ninth at most, and each step squares this share: the last two of six steps round alone.
 double cube_root(double x) {

@@ -281,6 +281,23 @@ class Pages(unittest.TestCase):
             # The sphere has a radius of 1, its cavity of 0.6; both are many flat triangles.
             self.assertAlmostEqual(value, min(abs(1 - radius), abs(0.6 - radius)), delta=0.05)
 
+    def test_several_meshes_are_compared_with_the_first(self):
+        report = self.folder / "r.json"
+        names = [MESHES / "cube.stl", MESHES / "hollow_sphere.obj", MESHES / "cube.stl"]
+        self.assertEqual(self.run_program("meshdist", *names, "--html", "p.html", "--report", report), 0)
+        made = json.loads(report.read_text(encoding="utf-8"))
+        self.assertNotIn("distance", made)
+        self.assertEqual(made["input"]["b"], [str(name) for name in names[1:]])
+        self.assertEqual([one["b"] for one in made["comparisons"]], made["input"]["b"])
+        facts = self.facts()
+        self.assertEqual([mesh["role"] for mesh in facts["meshes"]], ["a", "b"] * 2)
+        largest = [one["distance"]["hausdorff"] for one in made["comparisons"]]
+        self.assertEqual([max(pair["largest"] for pair in facts["ways"][i:i + 2]) for i in (0, 2)], largest)
+        self.assertEqual((facts["scale"]["most"], largest[1]), (largest[0], 0))
+        self.assertEqual(self.run_program("meshdist", *names[:2], "--report", report), 0)
+        self.assertEqual(json.loads(report.read_text(encoding="utf-8"))["distance"], made["comparisons"][0]["distance"])
+        self.assertEqual(self.run_program("meshdist", "-", names[0], "-"), 2)
+
     def test_pages_of_all_programs_have_the_same_bytes_on_any_number_of_threads(self):
         names = (MESHES / "hollow_sphere.obj", MESHES / "broken_torus_box.stl")
         for program, *more in (("bspbool", "--op", "union", "-o", "out.obj"), ("meshdist", "--samples", "5000")):

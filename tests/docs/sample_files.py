@@ -18,6 +18,7 @@ import make_textured_pictures  # noqa: E402
 
 COPIES = {"broken.stl": "broken_torus_box.stl", "broken.obj": "broken_spheres.obj", "part.stl": "cube.stl",
           "part.obj": "hollow_sphere.obj", "duct.stl": "cube.stl", "original.stl": "broken_torus_box.stl", "body.stl": "cube.stl",
+          "half.stl": "broken_torus_box.stl", "tenth.stl": "broken_torus_box.stl",
           "drill.obj": "hollow_sphere.obj", "a.obj": "hollow_sphere.obj", "site.obj": "hollow_sphere.obj",
           "b.off": "overlapping_spheres.off",
           "open_bowl.ply": "open_bowl.ply", "hollow_sphere.obj": "hollow_sphere.obj",

@@ -48,6 +48,16 @@ TEST(Hypotenuse, IsNearTheOneOfTheCLibrary) {
   }
 }
 
+TEST(Length, HasTheseBits) { EXPECT_EQ(stable_length({0.1, -0.7, 0.3}), 0x1.8946504494be3p-1); }
+
+TEST(Length, NeitherOverflowsNorUnderflows) {
+  EXPECT_EQ(stable_length({0x3p1000, 0, -0x4p1000}), 0x5p1000);
+  EXPECT_EQ(stable_length({0x3p-1070, 0x4p-1070, 0}), 0x5p-1070);
+  EXPECT_EQ(stable_length({0, 0, 0}), 0);
+  EXPECT_EQ(stable_length({0, -kInfinity, 1}), kInfinity);
+  EXPECT_TRUE(std::isnan(stable_length({kNotANumber, 1, 2})));
+}
+
 TEST(CubeRoot, HasTheseBits) {
   EXPECT_EQ(cube_root(2), 0x1.428a2f98d728bp+0);
   EXPECT_EQ(cube_root(0.1), 0x1.db4c7760bcff3p-2);

@@ -151,6 +151,28 @@ async function viewDistance({browser, folder}) {
   await onAPhone(browser, file, 'b');
 }
 
+// Each level is drawn, with its own numbers; the view stays.
+async function viewLevels({browser, folder}) {
+  about('meshdist, several');
+  const {page: file, report} = made(program('meshdist'), folder, mesh('hollow_sphere.obj'), mesh('cube.stl'), mesh('hollow_sphere.obj'));
+  const page = await opened(browser, file);
+  await turnByKeys(page, ['2', 'ArrowLeft']);
+  const seen = [];
+  for (const [i, name] of ['cube.stl', 'hollow_sphere.obj'].entries()) {
+    await page.focus('[data-tool=pair]');
+    if (i > 0) await page.keyboard.press('ArrowRight');
+    expect((await page.textContent('#pair')).startsWith(`B ${i + 1} of 2: ${name}, `), `not ${name}`);
+    const mean = Number(await page.textContent('#distances tr:nth-child(1) td:nth-child(2)'));
+    const {mean: told} = report.comparisons[i].distance.a_to_b;
+    expect(Math.abs(mean - told) <= 1e-5 * told, `${mean}, not ${told}`);
+    seen.push(await picture(page));
+  }
+  expect(seen[0] !== seen[1], 'another B looks the same');
+  await page.click('[data-largest=a]');
+  await nameAll(page);
+  await page.close();
+}
+
 async function changeScale(page) {
   const before = await picture(page);
   const top = () => page.textContent('.labels span:last-child');
@@ -172,5 +194,5 @@ async function viewWithoutWebGl({playwright, folder}) {
 }
 
 await withBrowser(async (room) => {
-  for (const view of [viewRepairs, viewCheck, viewLooks, viewBoolean, viewDistance, viewWithoutWebGl]) await view(room);
+  for (const view of [viewRepairs, viewCheck, viewLooks, viewBoolean, viewDistance, viewLevels, viewWithoutWebGl]) await view(room);
 });

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <base/roots.h>
 #include <exact/double_predicates.h>
 
 namespace meshrepair::internal {
@@ -112,7 +113,7 @@ void CutSimplifier::consider(std::uint32_t point) {
   for (std::size_t i = 0; i < link_.size(); ++i) {
     Move move = best;
     move.target = star_.link[i];
-    move.length = (link_[i] - points_[point]).stableNorm();
+    move.length = stable_length(link_[i] - points_[point]);
     const double distance = std::min(star_distance_.bound(i, within - before), move.length);
     move.distance = before + std::max(distance, border_shift(i));
     if (!(move.distance <= within)) continue;
@@ -148,14 +149,14 @@ double CutSimplifier::border_shift(std::size_t to) const {
   if (borders_.empty()) return 0;
   const Vec3d& point = points_[star_.point];
   if (borders_.size() > 2 || (to != borders_[0] && to != borders_[1])) {
-    return (link_[to] - point).stableNorm();
+    return stable_length(link_[to] - point);
   }
   const Vec3d from_start = point - link_[borders_[0]];
   const Vec3d line = link_[borders_[1]] - link_[borders_[0]];
-  const double length = line.stableNorm();
-  if (!(length > 0)) return from_start.stableNorm();
+  const double length = stable_length(line);
+  if (!(length > 0)) return stable_length(from_start);
   const double along = std::clamp(from_start.dot(line / length), 0.0, length);
-  return (from_start - along * (line / length)).stableNorm();
+  return stable_length(from_start - along * (line / length));
 }
 
 void CutSimplifier::postpone(std::uint32_t point) {

@@ -9,6 +9,7 @@
 
 #include <base/ids.h>
 #include <base/internal/hash_index.h>
+#include <base/roots.h>
 #include <mesh/cluster_points.h>
 
 namespace meshrepair {
@@ -172,7 +173,7 @@ class Clusterer {
     std::vector<double> least(middles.size(), std::numeric_limits<double>::infinity());
     for (std::uint32_t p = 0; p < moved_.size(); ++p) {
       if (moved_[p] == kNone) continue;
-      const double distance = (soup_.points[p] - middles[moved_[p]]).stableNorm();
+      const double distance = stable_length(soup_.points[p] - middles[moved_[p]]);
       if (nearest[moved_[p]] != kNone && !(distance < least[moved_[p]])) continue;
       least[moved_[p]] = distance;
       nearest[moved_[p]] = p;

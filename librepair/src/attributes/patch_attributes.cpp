@@ -15,6 +15,7 @@
 
 #include <base/disjoint_sets.h>
 #include <base/ids.h>
+#include <base/roots.h>
 #include <mesh/skins.h>
 #include <repair/transfer_attributes.h>
 
@@ -366,7 +367,7 @@ class PatchFiller {
   static std::uint32_t number_of(const Vec3d& normal,
                                  std::map<std::array<double, 3>, std::uint32_t>& numbers,
                                  CornerAttribute& attribute) {
-    const double length = normal.stableNorm();
+    const double length = stable_length(normal);
     if (!(length > 0) || !std::isfinite(length)) return kNone;
     const std::array<double, 3> unit = {normal.x() / length, normal.y() / length,
                                         normal.z() / length};
@@ -390,7 +391,7 @@ class PatchFiller {
     std::map<std::uint32_t, double> lengths;
     for (const RimEdge& edge : patch_.rim) {
       lengths[labels.of_triangle[edge.corner_at_from / 3]] +=
-          (surface_.mesh.points[edge.to] - surface_.mesh.points[edge.from]).stableNorm();
+          stable_length(surface_.mesh.points[edge.to] - surface_.mesh.points[edge.from]);
     }
     if (lengths.empty()) return kNone;
     return std::max_element(lengths.begin(), lengths.end(),

@@ -13,6 +13,7 @@
 
 #include <base/ids.h>
 #include <base/parallel.h>
+#include <base/roots.h>
 #include <mesh/skins.h>
 #include <mesh/triangle_paint.h>
 #include <repair/transfer_attributes.h>
@@ -136,7 +137,7 @@ class ValueTransfer {
 
   [[nodiscard]] static bool is_steep(const Places& from, const Places& to) {
     const Vec3d before = normal_of(from).stableNormalized(), after = normal_of(to);
-    return std::abs(before.dot(after)) < 0.5 * std::sqrt(2.0) * after.stableNorm();
+    return std::abs(before.dot(after)) < 0.5 * std::sqrt(2.0) * stable_length(after);
   }
 
   // A corner of the triangle itself stays, bit for bit.

@@ -23,6 +23,7 @@
 
 #include <Eigen/Geometry>
 
+#include <base/roots.h>
 #include <check/box_tree.h>
 #include <check/internal/star_distance.h>
 #include <exact/double_predicates.h>
@@ -128,7 +129,7 @@ class FaultMender {
 
   [[nodiscard]] std::optional<Vec3d> normal_of(const TriangleCorners& c) const {
     const Vec3d normal = (points_[c[1]] - points_[c[0]]).cross(points_[c[2]] - points_[c[0]]);
-    const double length = normal.stableNorm();
+    const double length = stable_length(normal);
     if (!(length > 0)) return std::nullopt;
     return Vec3d(normal / length);
   }
@@ -212,7 +213,7 @@ class FaultMender {
     Edit edit;
     edit.input_points = surface_.input_point[point] != 0 ? 1 : 0;
     for (std::size_t to = 0; to < link.size(); ++to) {
-      const double length = (link_[to] - points_[point]).stableNorm();
+      const double length = stable_length(link_[to] - points_[point]);
       edit.distance = std::min(star_distance_.bound(to, options_.within), length);
       if (!(edit.distance <= options_.within)) continue;
       if (!mesh_.find_collapse(point, link[to], edit.mesh)) continue;
@@ -250,7 +251,7 @@ class FaultMender {
   [[nodiscard]] double distance_of_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                          std::uint32_t d) const {
     const Vec3d across = (points_[b] - points_[a]).cross(points_[d] - points_[c]);
-    return std::abs(across.dot(points_[a] - points_[c])) / across.stableNorm();
+    return std::abs(across.dot(points_[a] - points_[c])) / stable_length(across);
   }
 
   Surface& surface_;

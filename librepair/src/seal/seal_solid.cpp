@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <base/roots.h>
 #include <base/stage_meter.h>
 #include <mesh/topology.h>
 #include <repair/explain_repair.h>
@@ -99,7 +100,7 @@ void add_certify(const CertifyReport& more, CertifyReport& report) {
 RepairOptions options_of_bodies(const TriangleSoup& mesh, const RepairOptions& options) {
   RepairOptions of_bodies = options;
   SealOptions& seal = of_bodies.seal;
-  if (seal.is_share) seal.size *= 2 * half_extent_of(mesh).stableNorm();
+  if (seal.is_share) seal.size *= 2 * stable_length(half_extent_of(mesh));
   seal.is_share = false;
   return of_bodies;
 }

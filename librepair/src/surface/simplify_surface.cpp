@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include <base/roots.h>
+
 namespace meshrepair::internal {
 
 void Simplifier::keep_points_of(const Surface& surface, const std::vector<char>& whole) {
@@ -19,7 +21,7 @@ std::optional<Surface> Simplifier::simplified(const Surface& surface) {
   Eigen::AlignedBox3d box;
   for (const Vec3d& p : surface.mesh.points) box.extend(p);
   SimplifyOptions simplify_options;
-  simplify_options.within = options_.simplify * (box.max() - box.min()).stableNorm();
+  simplify_options.within = options_.simplify * stable_length(box.max() - box.min());
   simplify_options.reach = options_.reach;
   simplify_options.progress = options_.progress;
   const SimplifyReport before = report_;

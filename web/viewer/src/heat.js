@@ -8,6 +8,30 @@ export const HEAT = [[232, 236, 241], [253, 214, 112], [243, 132, 54], [206, 49,
 
 const ways = {a: 'A to B', b: 'B to A'};
 
+// What a page says of one of its pairs.
+export function pairOf(page, i) {
+  if (page.meshes.length <= 2) return page;
+  return {...page, meshes: page.meshes.slice(2 * i, 2 * i + 2), ways: page.ways.slice(2 * i, 2 * i + 2)};
+}
+
+// Chooses one of several pairs: `change` is called with its number. Nothing where there is one.
+export function pairSlider(page, change) {
+  const pairs = page.meshes.length / 2;
+  if (pairs <= 1) return null;
+  const label = make('output', {id: 'pair'});
+  const show = (i) => {
+    const {name, triangles} = page.meshes[2 * i + 1];
+    label.textContent = `B ${i + 1} of ${pairs}: ${name}, ${grouped(triangles)} triangles`;
+  };
+  const range = make('input', {type: 'range', min: '0', max: String(pairs - 1), step: '1', value: '0', 'data-tool': 'pair', 'aria-label': 'Which B',
+    oninput: () => {
+      show(Number(range.value));
+      change(Number(range.value));
+    }});
+  show(0);
+  return make('div', {class: 'pairs'}, range, label);
+}
+
 // The bar with its numbers. `change` is called with the top of the scale, as a share of the largest distance.
 export function scaleBox(page, change) {
   const most = page.scale.most ?? NaN;  // beyond the range of doubles

@@ -5,7 +5,7 @@ import {Plane, Vector3, Vector4} from 'three';
 import {Grid} from './decode.js';
 import {make} from './dom.js';
 import * as facts from './facts.js';
-import {distances, heatHeader, scaleBox} from './heat.js';
+import {distances, heatHeader, pairOf, pairSlider, scaleBox} from './heat.js';
 import {Layers} from './layers.js';
 import {Stage} from './stage.js';
 import {Surface} from './surface.js';
@@ -16,15 +16,17 @@ const FAR = 100;  // beyond all that is drawn
 const NEAR = 0.12;  // how much is seen around a place, of half of the largest side
 
 export class Viewer {
-  // `page` is what the page says of itself, `meshes` what decodeMesh() gave of each of its meshes.
+  // `page` is what the page says of itself, `meshes` what decodeMesh() gave of each of its meshes. Of more than two, a pair is shown.
   constructor(page, meshes) {
-    this.page = page;
+    this.whole = page;
+    this.page = pairOf(page, 0);
     this.subject = subjectOf(page);
-    this.roles = page.meshes.map(({role}) => role);
+    this.roles = this.page.meshes.map(({role}) => role);
     this.grid = new Grid(page.grid);
     this.cut = {cut: {value: new Vector4(1, 0, 0, 0)}, cutting: {value: false}};
     this.plane = new Plane(new Vector3(1, 0, 0), FAR);
-    this.surfaces = page.meshes.map((mesh, m) => new Surface(mesh, meshes[m], this.grid, this.cut, this.plane, page));
+    this.all = page.meshes.map((mesh, m) => new Surface(mesh, meshes[m], this.grid, this.cut, this.plane, page));
+    this.surfaces = this.all.slice(0, 2);
     this.paint = this.subject.paint;
     this.measured = null;
     this.layers = new Layers(page, this.surfaces, {changed: () => this.repaint(), go: (...where) => this.go(...where)});
@@ -42,12 +44,11 @@ export class Viewer {
     const {page} = this;
     const mode = page.meshes.length > 1 ? (matchMedia('(max-width: 56rem)').matches ? 'slider' : 'both') : this.roles[0];
     this.tools = tools(page, mode, this.paint, this.actions());
-    const main = make('main', {}, ...this.tools.rows, this.frame, this.status);
-    const first = page.ways ? distances(page, (m) => this.flyToLargest(m)) : this.layers.section();
-    const aside = make('aside', {'aria-label': 'Report', tabindex: '0'}, first, facts.omitted(page), facts.leftOut(page), facts.operands(page),
-        facts.objects(page, (i) => this.flyToObject(i)), facts.legend(page),
-        facts.warnings(page), facts.numbers(page), facts.parts(page, (m, place) => this.flyToPart(m, place)), keysSection(), facts.raw(page));
-    root.append(page.ways ? heatHeader(page) : facts.header(page), main, aside);
+    const pairs = pairSlider(this.whole, (i) => this.choosePair(i));
+    const main = make('main', {}, ...this.tools.rows, pairs, this.frame, this.status);
+    this.header = this.makeHeader();
+    this.aside = this.makeAside();
+    root.append(this.header, main, this.aside);
     if (page.scale) this.frame.append(scaleBox(page, (share) => this.setTop(share)));
     this.stage = new Stage(this.canvas, this.surfaces, this.cut, page.up);
     this.addSlider();
@@ -58,11 +59,37 @@ export class Viewer {
     this.say(`Drag to turn. ${page.ways ? 'Click the mesh to read a distance.' : 'Click a name at the side to fly to what is wrong.'}`);
   }
 
+  makeHeader() {
+    return this.page.ways ? heatHeader(this.page) : facts.header(this.page);
+  }
+
+  makeAside() {
+    const {page} = this;
+    const first = page.ways ? distances(page, (m) => this.flyToLargest(m)) : this.layers.section();
+    return make('aside', {'aria-label': 'Report', tabindex: '0'}, first, facts.omitted(page), facts.leftOut(page), facts.operands(page),
+        facts.objects(page, (i) => this.flyToObject(i)), facts.legend(page),
+        facts.warnings(page), facts.numbers(page), facts.parts(page, (m, place) => this.flyToPart(m, place)), keysSection(), facts.raw(page));
+  }
+
+  // The camera, the colours and the cut stay.
+  choosePair(i) {
+    this.page = pairOf(this.whole, i);
+    this.surfaces = this.stage.surfaces = this.all.slice(2 * i, 2 * i + 2);
+    const [header, aside] = [this.makeHeader(), this.makeAside()];
+    this.header.replaceWith(header);
+    this.aside.replaceWith(aside);
+    [this.header, this.aside] = [header, aside];
+    this.canvas.setAttribute('aria-label', this.picture());
+    this.largest = undefined;
+    this.ringAt(null);
+    this.repaint();
+  }
+
   actions() {
     return {
       mode: (mode) => this.setMode(mode),
       paint: (paint) => this.setPaint(paint),
-      wires: (on) => { for (const surface of this.surfaces) surface.wires(on); this.stage.draw(); },
+      wires: (on) => { for (const surface of this.all) surface.wires(on); this.stage.draw(); },
       cut: (state) => this.setCut(state),
       measure: (on) => this.startMeasuring(on),
       reset: () => this.wholeView(),
@@ -79,7 +106,7 @@ export class Viewer {
   }
 
   setTop(share) {
-    for (const {material} of this.surfaces) material.uniforms.top.value = share;
+    for (const {material} of this.all) material.uniforms.top.value = share;
     this.stage.draw();
   }
 

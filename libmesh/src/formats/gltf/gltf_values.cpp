@@ -62,7 +62,7 @@ std::size_t components_of(CornerAttribute::Kind kind, std::size_t in_file) {
 
 // Of length 1, as single precision, unless it has no direction.
 void set_direction(std::vector<double>& value, const Vec3d& direction) {
-  const double length = direction.stableNorm();
+  const double length = stable_length(direction);
   if (!std::isfinite(length) || !(length > 0)) return;
   for (int i = 0; i < 3; ++i) {
     value[static_cast<std::size_t>(i)] = rounded_to_float32(direction[i] / length);

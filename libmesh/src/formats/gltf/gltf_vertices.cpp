@@ -14,6 +14,7 @@
 
 #include <base/error.h>
 #include <base/internal/hash_index.h>
+#include <base/roots.h>
 #include <mesh/skins.h>
 
 #include "formats/common/written_float.h"
@@ -270,7 +271,7 @@ class VertexMaker {
     const auto& [a, b, c] = soup_.triangles[t];
     const Vec3d normal =
         (soup_.points[b] - soup_.points[a]).cross(soup_.points[c] - soup_.points[a]);
-    const double length = normal.stableNorm();
+    const double length = stable_length(normal);
     return std::isfinite(length) && length > 0 ? Vec3d(normal / length) : Vec3d(0, 0, 1);
   }
 
@@ -278,7 +279,7 @@ class VertexMaker {
   void make_unit(const Vec3d& otherwise) {
     constexpr double kNearly = 1e-4;
     const Vec3d given(double{value_[0]}, double{value_[1]}, double{value_[2]});
-    const double length = given.stableNorm();
+    const double length = stable_length(given);
     if (std::abs(length - 1) <= kNearly) return;
     const Vec3d unit = length > 0 ? Vec3d(given / length) : otherwise;
     for (int i = 0; i < 3; ++i) value_[static_cast<std::size_t>(i)] = static_cast<float>(unit[i]);

@@ -16,6 +16,7 @@
 
 #include <base/error.h>
 #include <base/parallel.h>
+#include <base/roots.h>
 #include <mesh/read_guard.h>
 #include <mesh/weld_points.h>
 
@@ -137,7 +138,7 @@ std::string format_stl_binary(const TriangleSoup& soup, const Attributes* attrib
 
 Vec3d stl_normal(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d normal = (b - a).cross(c - a);
-  const double length = normal.stableNorm();
+  const double length = stable_length(normal);
   return std::isfinite(length) && length > 0 ? Vec3d(normal / length) : Vec3d::Zero();
 }
 
