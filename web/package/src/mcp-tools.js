@@ -18,8 +18,10 @@ const PATH = {maxLength: 4096, pattern: '^[^\\u0000-\\u001f]+$'};
 const pathOf = (what) => text(`${what}: an absolute path, or one relative to the first folder`, PATH);
 const number = (type, description, minimum, pattern) => ({type: ['string', type], description, minimum, pattern: `^(${pattern})$`});
 const NUMBER = '[0-9]+([.][0-9]*)?([eE]-?[0-9]+)?%?';
-const length = (what, words = '') =>
-  number('number', `${what} In units of the mesh, or as a share of its diagonal, such as "1%"`, 0, words + NUMBER);
+const length = (what, ...words) => {
+  const description = [`${what} In units of the mesh, or as a share of its diagonal, such as "1%"`, ...words].join(', or ');
+  return number('number', description, 0, [...words, NUMBER].join('|'));
+};
 const MESH = pathOf('Mesh (STL, OBJ, OFF, PLY, glTF, 3MF)');
 const WRITTEN = {
   output: pathOf('File to write; its extension (.stl .obj .off .ply .glb .gltf .3mf) is the format'),
@@ -61,8 +63,8 @@ export const TOOLS = [
       ...WRITTEN,
       for: oneOf('Purpose, which sets other options. print: no voids, sheets become walls', 'print', 'simulation', 'render', 'boolean'),
       holes: oneOf('How to fill holes. Default patch: curved like the surface around', 'patch', 'curved', 'flat', 'extend', 'none'),
-      seal: length('Close openings narrower than this, and fill the space behind.', 'auto|double-walls|none|'),
-      thicken: length('Give open sheets this thickness; otherwise they are dropped.', 'auto|none|'),
+      seal: length('Close openings narrower than this, and fill the space behind.', 'auto', 'double-walls', 'none'),
+      thicken: length('Give open sheets this thickness; otherwise they are dropped.', 'auto', 'none'),
       keep: number('integer', 'Solids to keep: all (default), outer, largest, or this many', 1, 'all|outer|largest|[1-9][0-9]*'),
       cavities: oneOf('fill: no closed voids in the result. Default keep', 'keep', 'fill'),
       inside: oneOf('Rule that decides what is solid. Default auto', 'auto', 'winding', 'solidity', 'parity'),
