@@ -14,8 +14,8 @@ Usage: scripts/setup.sh [build|python|all|bench|package|wasm|windows|arm64|clust
   all     the same, and what the checks need: clang-format, clang-tidy, the
           runtime of clang's fuzzer, abidiff, man, the shells whose completions
           are tested, Blender, OpenSCAD, mypy, Chromium, GNU parallel, what makes the manual's
-          site, and of npm the validator of glTF, playwright, esbuild and
-          three.js (default)
+          site, and of npm the validator of glTF, playwright, the SDK of
+          the Model Context Protocol, esbuild and three.js (default)
   bench   what is needed to build, and the libraries that the benchmarks compare
           this project with
   wasm    what is needed to build for browsers and node: emscripten, and what

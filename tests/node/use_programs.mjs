@@ -8,37 +8,18 @@
 
 import assert from 'node:assert/strict';
 import {spawn, spawnSync} from 'node:child_process';
-import {cpSync, existsSync, mkdtempSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync} from 'node:fs';
+import {cpSync, existsSync, mkdtempSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import test, {after} from 'node:test';
+import test from 'node:test';
+import {install, writeSoup} from './npm_package.mjs';
 
 const [folder, programs, meshes, inputs] = process.argv.slice(2).map((name) => path.resolve(name));
-if (!existsSync(path.join(folder, 'bin/meshrepair.js'))) {
-  console.log('there is no package: scripts/make_wasm.sh makes it');
-  process.exit(77);
-}
-if (spawnSync('npm', ['--version']).status !== 0) {
-  console.log('there is no npm');
-  process.exit(77);
-}
-
-const place = mkdtempSync(path.join(os.tmpdir(), 'use_programs-'));
-after(() => rmSync(place, {recursive: true}));
-
-function inPlace(command, ...words) {
-  const {status, stderr, stdout} = spawnSync(command, words, {cwd: place, encoding: 'utf8'});
-  assert.equal(status, 0, stderr);
-  return stdout;
-}
-const packed = JSON.parse(inPlace('npm', 'pack', '--json', '--offline', folder))[0].filename;
-writeFileSync(path.join(place, 'package.json'), '{}');
-inPlace('npm', 'install', '--offline', '--no-audit', '--no-fund', `./${packed}`);
-const installed = path.join(place, 'node_modules/.bin');
+const {place, bin} = install(folder);
 
 // Both in folders of their own, with copies of the same files.
 function compared(name, words, {input = '', files = {}, stderr = true} = {}) {
-  const [ours, native] = [installed, programs].map((from) => {
+  const [ours, native] = [bin, programs].map((from) => {
     const cwd = path.join(mkdtempSync(path.join(place, 'run-')), 'here');
     mkdirSync(cwd);
     for (const [file, source] of Object.entries(files)) cpSync(source, path.join(cwd, file));
@@ -59,7 +40,7 @@ const torus = {files: {'in.stl': mesh('broken_torus_box.stl')}};
 
 test('each program is there, with its help', () => {
   for (const name of readdirSync(path.join(folder, 'bin')).map((file) => file.replace(/\.js$/, ''))) {
-    assert.equal(spawnSync(path.join(installed, name), ['--version']).status, 0, name);
+    assert.equal(spawnSync(path.join(bin, name), ['--version']).status, 0, name);
     compared(name, ['--help']);
   }
 });
@@ -105,27 +86,14 @@ test('standard input and output are read and written', () => {
   compared('meshrepair', ['-', '-', '--format', 'stl']);
 });
 
-// Takes long to repair.
-function writeSoup(name, count) {
-  const bytes = Buffer.alloc(84 + 50 * count);
-  bytes.writeUInt32LE(count, 80);
-  let state = 1;
-  const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
-  for (let i = 0; i < count; ++i) {
-    const centre = [random(), random(), random()];
-    for (let k = 0; k < 9; ++k) bytes.writeFloatLE(centre[k % 3] + 0.1 * random(), 84 + 50 * i + 12 + 4 * k);
-  }
-  writeFileSync(name, bytes);
-}
-
 function ended(child) {
   return new Promise((done) => child.on('exit', (code, signal) => done(signal ? 128 + os.constants.signals[signal] : code)));
 }
 
 async function interrupted(name, words, stdio, begun) {
   const cwd = mkdtempSync(path.join(place, 'stop-'));
-  writeSoup(path.join(cwd, 'soup.stl'), 20000);
-  const child = spawn(path.join(installed, name), words, {cwd, stdio});
+  writeSoup(path.join(cwd, 'soup.stl'));
+  const child = spawn(path.join(bin, name), words, {cwd, stdio});
   const end = ended(child);
   await begun(child, cwd);
   child.kill('SIGINT');
@@ -142,10 +110,10 @@ test('Ctrl-C ends a program with 130, and nothing is left', async () => {
 });
 
 test('limits end a program with 4', () => {
-  writeSoup(path.join(place, 'soup.stl'), 20000);
+  writeSoup(path.join(place, 'soup.stl'));
   for (const limit of [['--time-limit', '0.5'], ['--max-memory', '60M']]) {
     const words = ['soup.stl', 'none.stl', ...limit];
-    const {status, stderr} = spawnSync(path.join(installed, 'meshrepair'), words, {cwd: place, encoding: 'utf8'});
+    const {status, stderr} = spawnSync(path.join(bin, 'meshrepair'), words, {cwd: place, encoding: 'utf8'});
     assert.equal(status, 4, stderr);
     assert.match(stderr, /^meshrepair: (time|memory) limit of [^\n]* reached [^\n]*\n$/);
     assert.equal(existsSync(path.join(place, 'none.stl')), false);

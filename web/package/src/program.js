@@ -46,7 +46,12 @@ class StandardInput {
   }
 }
 
-export function run(name) {
+export async function run(name) {
+  if (name === 'meshrepair' && process.argv[2] === 'mcp') return (await import('./mcp.js')).serve(process.argv.slice(3));
+  runProgram(name);
+}
+
+function runProgram(name) {
   const {port1: port, port2: theirs} = new MessageChannel();
   const shared = new Int32Array(new SharedArrayBuffer(8));  // the number of the signal; how often the worker was woken
   const wake = () => {
