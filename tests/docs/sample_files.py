@@ -65,6 +65,7 @@ def make_folder(folder: pathlib.Path, programs: pathlib.Path) -> None:
         shutil.make_archive(str(folder / "scans"), kind, folder / "scans")
     os.symlink(ROOT / "samples", folder / "samples")
     os.symlink(ROOT / "scripts", folder / "scripts")
+    os.symlink(ROOT / "integrations", folder / "integrations")
     (folder / "build" / "release").mkdir(parents=True)
     os.symlink(programs, folder / "build" / "release" / "bin")
 
