@@ -103,7 +103,10 @@ def rows_in(path):
     if not os.path.isfile(path):
         return
     with open(path, encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
+        rows = csv.DictReader(file)
+        if tuple(rows.fieldnames or COLUMNS) != COLUMNS:
+            raise Stop(USAGE, f"{path}: has other columns than this version writes; use another OUT_DIR")
+        for row in rows:
             yield {column: value if column in TEXTS else float(value) if value else None for column, value in row.items()}
 
 

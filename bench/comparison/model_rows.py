@@ -9,7 +9,7 @@ import shutil
 import signal
 
 from .basics import USAGE, Stop
-from .judge import Judge
+from .judge import UNJUDGED, Judge
 from .measure import captured, run
 
 COLUMNS = ("model", "tool", "status", "exit_code", "closed", "nonmanifold_edges", "seconds", "memory_mb", "triangle_ratio", "hausdorff",
@@ -74,7 +74,10 @@ class Measurer:
 
     def judged(self, judge, path, row):
         said = judge.said(path)
-        found = judge.counts(said or {})
+        if said is None:  # it has crashed, or has not come to an end
+            row["judge"] = UNJUDGED
+            return
+        found = judge.counts(said)
         row.update(found, judge=os.path.basename(judge.name()))
         if found["triangles_out"] is None:
             row["status"] = f"{NOTHING}: unreadable"
@@ -85,7 +88,7 @@ class Measurer:
         """By meshcheck, which reads all that meshrepair does."""
         row = {"tool": INPUT, "status": RESULT}
         self.judged(self.input_judge, source, row)
-        row["triangles_in"] = row["triangles_out"]
+        row["triangles_in"] = row.get("triangles_out")
         return row
 
     def tool_row(self, tool, source, triangles_in, work):
@@ -100,7 +103,7 @@ class Measurer:
         if row["status"] == RESULT:
             self.judged(self.judge, out, row)
             row["hausdorff"] = self.distance(source, out)
-            if triangles_in and row["triangles_out"] is not None:
+            if triangles_in and row.get("triangles_out") is not None:
                 row["triangle_ratio"] = round(row["triangles_out"] / triangles_in, 4)
         return row
 

@@ -139,6 +139,12 @@ echo '{"is_clean": true, "outward_oriented": true, "n_triangles": 6, "n_boundary
                                                "triangle_ratio")], ["referee", "yes", "yes", "7", "3", "4", "0.5"])
         self.assertEqual(self.rows()["cube.stl", "input"]["judge"], "meshcheck")
 
+    def test_a_judge_that_says_nothing_is_no_verdict(self):
+        self.keep_only("cube.stl")
+        self.run_script("--judge", "/bin/false")
+        row = self.rows()["cube.stl", "meshrepair"]
+        self.assertEqual([row[key] for key in ("status", "judge", "solid", "hausdorff")], ["result", "?", "", "0.0"])
+
     def test_the_page_needs_nothing_else(self):
         self.keep_only("cube.stl")
         self.run_script("-q")
