@@ -74,6 +74,8 @@ def tools_of(options):
             raise Stop(USAGE, f"{os.path.join(options.programs, name)}: is no program; build it, or give another folder with --programs")
     if options.judge and not executable(options.judge):
         raise Stop(USAGE, f"{options.judge}: is no program")
+    if not options.timeout:
+        raise Stop(USAGE, "--timeout 0 leaves no time")
     tools = [Tool(line) for line in options.tool]
     names = [tool.name for tool in tools]
     if len(set(names + [INPUT])) <= len(names):

@@ -11,8 +11,9 @@ WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 380, 220, 46, 16, 30, 40  # of a panel
 PANELS = [metric for metric in METRICS if metric != "cpu_seconds"]
 LEAST = 1e-9  # what is less is drawn at the left end
 COLORS = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#aa3377", "#66ccee", "#bbbbbb")
-STYLE = ("body{font:15px sans-serif;margin:2em}table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:3px 8px;text-align:right}"
-         "td:first-child,th:first-child{text-align:left}svg{max-width:900px;display:block}")
+STYLE = ("body{font:15px sans-serif;margin:2em}table{border-collapse:collapse}td{white-space:nowrap}"
+         "td,th{border:1px solid #ccc;padding:3px 8px;text-align:right}td:first-child,th:first-child{text-align:left}"
+         "svg{max-width:900px;display:block}")
 CAPTION = "The chart: of how many models a tool makes a solid that takes, or is, at most so much. Further up and left is better."
 
 
@@ -53,7 +54,7 @@ def panel(by_tool, metric, left, top):
              f'<text x="{(left + right) / 2}" y="{bottom + 30}" text-anchor="middle">{METRICS[metric]}</text>',
              f'<text x="{left - 4}" y="{top + 9}" text-anchor="end">100 %</text>',
              f'<text x="{left - 4}" y="{bottom}" text-anchor="end">0 %</text>']
-    for power in range(low, high + 1, max(1, (high - low) // 5)):
+    for power in range(low, high + 1, math.ceil((high - low) / 5)):
         lines.append(f'<text x="{x(power)}" y="{bottom + 15}" text-anchor="middle">{10.0 ** power:g}</text>')
     for (tool, values), color in zip(found.items(), itertools.cycle(COLORS)):
         counts = {x(math.log10(max(value, LEAST))): i + 1 for i, value in enumerate(values)}  # the last of each pixel

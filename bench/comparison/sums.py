@@ -63,7 +63,7 @@ class Sums:
     def tables(self):
         """Title, columns and rows of each."""
         judges = sorted({row["judge"] for rows in self.by_tool.values() for row in rows if row["judge"]})
-        yield (f"Rates. Solids and defects are those that {' and '.join(judges) or 'nobody'} counts; of the input, meshcheck.",
+        yield (f"Rates. Counted by {' and '.join(judges) or 'nobody'}, and of the input by meshcheck.",
                ["tool", "models", "result", "solid", "closed", *DEFECTS.values(), *FAILURES],
                [rates_of(*each) for each in self.all.items()])
         columns = ["tool", "results", *METRICS.values()]
