@@ -19,8 +19,8 @@ sys.dont_write_bytecode = True
 sys.pycache_prefix = os.devnull
 
 from comparison import history, tables
-from comparison.basics import (DONE, FAILED, NAME, ROOT, USAGE, Interrupted, Stop, check_writable, commit, machine, say,
-                               stop_on_signals)
+from comparison.basics import (DONE, FAILED, NAME, ROOT, USAGE, Parser, Stop, check_writable, commit, exit_code_of, machine,
+                               say)
 from comparison.growth import stage_rows
 from comparison.inputs import KINDS, make_input, size_of
 from comparison.judge import YES, Judge
@@ -52,11 +52,6 @@ Temporary files go to $TMPDIR or /tmp, and are removed whatever happens.
 Exit codes: 0 fine, 1 a result of ours was not accepted, or --history-check found growth, 2 wrong usage, 6 a file cannot be
 written, 130 interrupted, 143 terminated.
 """
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise Stop(USAGE, f"{message} (try '{NAME} --help')")
 
 
 def list_of(parse):
@@ -214,22 +209,14 @@ def check_history(options):
 
 
 def main():
-    stop_on_signals()
-    try:
-        options = command_line().parse_args()
-        fine = True
-        if options.record or not options.history_check:
-            fine = compare(options)
-        if options.history_check:
-            fine = check_history(options) and fine
-        return DONE if fine else FAILED
-    except Stop as stop:
-        say(str(stop))
-        return stop.code
-    except Interrupted as interrupted:
-        say("interrupted; nothing is left")
-        return interrupted.code
+    options = command_line().parse_args()
+    fine = True
+    if options.record or not options.history_check:
+        fine = compare(options)
+    if options.history_check:
+        fine = check_history(options) and fine
+    return DONE if fine else FAILED
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(exit_code_of(main, "nothing is left"))

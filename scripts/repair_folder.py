@@ -32,9 +32,9 @@ sys.pycache_prefix = os.devnull
 from folder_repair.archive import open_archive
 from folder_repair.basics import EXTENSION_OF_FORMAT, NAME, OUTPUT, USAGE, Stop, say, text
 from folder_repair.folder_run import FolderRun
+from folder_repair.option_types import seconds, shard, size_in_bytes
 from folder_repair.out_folder import OutFolder
 from folder_repair.program import Program
-from folder_repair.shards import Shard
 
 # Nearly all that is made stays, for there is something of each file: it is looked through seldom. Saves a tenth of the
 # time of a run with nothing to do.
@@ -81,31 +81,10 @@ class Parser(argparse.ArgumentParser):
         raise Stop(USAGE, f"{message} (try '{NAME} --help')")
 
 
-def size_in_bytes(string):
-    """"200M" and the like; K, M, G and T are powers of 1024."""
-    match = re.fullmatch(r"(\d+(?:\.\d+)?)([KMGT]?)(?:i?B)?", string.strip(), re.IGNORECASE)
-    if not match:
-        raise argparse.ArgumentTypeError(f"{string} is not a size like 200M or 2G")
-    return int(float(match[1]) * 1024 ** " KMGT".index(match[2].upper() or " "))
-
-
 def number_of_jobs(string):
     if not re.fullmatch(r"0*[1-9]\d{0,3}", string):
         raise argparse.ArgumentTypeError(f"{string} is not a number from 1 to 9999")
     return int(string)
-
-
-def shard(string):
-    try:
-        return Shard.parse(string)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-
-
-def seconds(string):
-    if not re.fullmatch(r"\d+(\.\d*)?|\.\d+", string):
-        raise argparse.ArgumentTypeError(f"{string} is not a number of seconds, 0 or more")
-    return float(string)
 
 
 def command_line():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What all parts of compare.py share: exit codes, how it speaks, and files that are there whole or not at all."""
+"""What compare.py, repair_table.py and their parts share: exit codes, how they speak, and files that are there whole or not at all."""
 
+import argparse
 import errno
 import os
 import signal
@@ -8,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-NAME = "compare.py"
+NAME = os.path.basename(sys.argv[0])  # of the script that runs
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 DONE, FAILED, USAGE, OUTPUT = 0, 1, 2, 6
 
@@ -19,6 +20,11 @@ class Stop(Exception):
     def __init__(self, code, message):
         super().__init__(message)
         self.code = code
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Stop(USAGE, f"{message} (try '{NAME} --help')")
 
 
 class Interrupted(BaseException):
@@ -44,6 +50,19 @@ def stop_on_signals():
 
 def say(line):
     print(f"{NAME}: {line}", file=sys.stderr, flush=True)
+
+
+def exit_code_of(work, when_interrupted):
+    """Of what main() does; what stops it is said in one line."""
+    stop_on_signals()
+    try:
+        return work()
+    except Stop as stop:
+        say(str(stop))
+        return stop.code
+    except Interrupted as interrupted:
+        say(f"interrupted; {when_interrupted}")
+        return interrupted.code
 
 
 def seconds(number):

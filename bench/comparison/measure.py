@@ -34,11 +34,16 @@ def kill(group):
         os.killpg(group, signal.SIGKILL)
 
 
-def start(command, errors, kind):
+def limit_of(memory):
+    """Sets it for what a process becomes, and for each that it starts: so many bytes of data."""
+    return (lambda: resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))) if memory else None
+
+
+def start(command, errors, kind, memory):
     """In a process group of its own, so that whatever a wrapper starts ends with it."""
     try:
         return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
-                                start_new_session=True, env={**os.environ, "COMPARE_KIND": kind})
+                                start_new_session=True, env={**os.environ, "COMPARE_KIND": kind}, preexec_fn=limit_of(memory))
     except OSError as error:
         raise Stop(USAGE, f"{command[0]}: cannot be started: {error.strerror}") from None
 
@@ -71,11 +76,11 @@ def last_line(errors):
     return lines[-1].strip()[:200] if lines else ""
 
 
-def run(command, work, timeout, kind=""):
+def run(command, work, timeout, kind="", memory=None):
     with open(os.path.join(work, "errors"), "wb+") as errors:
         own_peak = peak_of(resource.getrusage(resource.RUSAGE_SELF))  # a new process begins with it
         begin = time.monotonic()
-        child = start(command, errors, kind)
+        child = start(command, errors, kind, memory)
         usage, late = wait(child, timeout)
         wall = time.monotonic() - begin
         return Run(None if late else child.returncode, usage.ru_utime + usage.ru_stime, wall, peak_of(usage),
