@@ -38,12 +38,29 @@ class Interrupted(BaseException):
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
+class Held:
+    """While a process is being started: what ended the script then would leave it running."""
+
+    is_on = False
+    number = None  # of the signal that came meanwhile
+
+    @classmethod
+    def release(cls):
+        """Called where the process is ended with the script."""
+        cls.is_on = False
+        if cls.number is not None:
+            raise Interrupted(cls.number)
+
+
 def stop_on_signals():
     """The first signal ends the script by way of all `with` and `finally`; later ones do not keep these from cleaning up."""
     def stop(number, _):
         for each in SIGNALS:
             signal.signal(each, signal.SIG_IGN)
-        raise Interrupted(number)
+        if Held.is_on:
+            Held.number = number
+        else:
+            raise Interrupted(number)
     for each in SIGNALS:
         signal.signal(each, stop)
 

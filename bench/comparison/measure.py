@@ -10,7 +10,7 @@ import subprocess
 import threading
 import time
 
-from .basics import USAGE, Stop
+from .basics import USAGE, Held, Stop
 
 HIDDEN = 1.05  # the peak of a process that does nothing is a little above that of the process that started it
 
@@ -39,12 +39,13 @@ def limit_of(memory):
     return (lambda: resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))) if memory else None
 
 
-def start(command, errors, kind, memory):
-    """In a process group of its own, so that whatever a wrapper starts ends with it."""
+def start(command, **more):
+    """In a process group of its own, so that whatever a wrapper starts ends with it. Signals are held, until the caller releases them."""
+    Held.is_on = True
     try:
-        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
-                                start_new_session=True, env={**os.environ, "COMPARE_KIND": kind}, preexec_fn=limit_of(memory))
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True, **more)
     except OSError as error:
+        Held.release()
         raise Stop(USAGE, f"{command[0]}: cannot be started: {error.strerror}") from None
 
 
@@ -58,6 +59,7 @@ def wait(child, timeout):
     timer = threading.Timer(timeout, end)
     timer.daemon = True
     try:
+        Held.release()
         timer.start()
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
@@ -80,7 +82,8 @@ def run(command, work, timeout, kind="", memory=None):
     with open(os.path.join(work, "errors"), "wb+") as errors:
         own_peak = peak_of(resource.getrusage(resource.RUSAGE_SELF))  # a new process begins with it
         begin = time.monotonic()
-        child = start(command, errors, kind, memory)
+        child = start(command, stdout=subprocess.DEVNULL, stderr=errors, env={**os.environ, "COMPARE_KIND": kind},
+                      preexec_fn=limit_of(memory))
         usage, late = wait(child, timeout)
         wall = time.monotonic() - begin
         return Run(None if late else child.returncode, usage.ru_utime + usage.ru_stime, wall, peak_of(usage),
@@ -90,12 +93,9 @@ def run(command, work, timeout, kind="", memory=None):
 def captured(command, timeout):
     """The exit code and what it prints on standard output and standard error; None where time is over. Nothing of the group is
     left."""
+    child = start(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     try:
-        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                 start_new_session=True)
-    except OSError as error:
-        raise Stop(USAGE, f"{command[0]}: cannot be started: {error.strerror}") from None
-    try:
+        Held.release()
         out, errors = child.communicate(timeout=timeout)
     except subprocess.TimeoutExpired:
         return None
