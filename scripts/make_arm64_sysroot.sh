@@ -46,7 +46,7 @@ Version: 999
 Maintainer: none
 Description: none
 STATUS
-python3 "$root/scripts/wasm/source_lists.py" "$work/parts" deb
+python3 "$root/scripts/source_lists.py" "$work/parts" deb
 apt-get update --quiet --quiet
 apt-get install --download-only --yes --no-install-recommends --quiet --quiet libc6-dev "$@"
 for package in "$work"/cache/archives/*.deb; do

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests of scripts/setup.sh: what it makes of an npm that fails. Nothing is installed: all programs are false ones."""
+"""Tests of scripts/setup.sh: what it makes of an npm that fails. Nothing is installed: all programs are false ones. And of scripts that
+others name."""
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -59,6 +61,15 @@ class NodePackages(unittest.TestCase):
         self.assertEqual(self.run_setup("").returncode, 0)
         self.assertTrue(self.is_noted())
         self.assertEqual(self.run_setup("npm ERR! code EINTEGRITY").returncode, 0)
+
+
+class Names(unittest.TestCase):
+    def test_scripts_that_scripts_and_workflows_call_are_there(self):
+        callers = [*(ROOT / "scripts").rglob("*.sh"), *(ROOT / ".github").rglob("*.yml"), ROOT / ".ci" / "run"]
+        for caller in callers:
+            for name in set(re.findall(r"\b(?:scripts|bench|python)/[\w./-]+\.(?:sh|py)\b", caller.read_text(encoding="utf-8"))):
+                with self.subTest(caller=caller.name, name=name):
+                    self.assertTrue((ROOT / name).is_file())
 
 
 if __name__ == "__main__":
