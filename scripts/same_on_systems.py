@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Compares what the programs write on several systems, byte by byte.
 
-Each way to run the programs repairs each mesh of a folder, smallest first, once for each format, and checks it. The outputs of the first
-way are compared with those of the others: exit codes, files and reports, these without times, memory, paths and command lines. Prints a
-table of the differences. The exit code is 1 if there is one, 2 for wrong arguments, else 0.
+Each way to run the programs repairs each mesh of a folder, smallest first, once for each format, reduces it, unites it with the one before,
+and checks it. The outputs of the first way are compared with those of the others: exit codes, files and reports, these without times,
+memory, paths and command lines. Prints a table of the differences. The exit code is 1 if there is one, 2 for wrong arguments, else 0.
 """
 
 import argparse
@@ -113,18 +113,22 @@ def difference(first, other):
     return text
 
 
-def runs_of(mesh, options, formats):
+def runs_of(mesh, before, options, formats):
     """A name and the words of each run. A mesh is found from where a program runs."""
-    path = Path("../../meshes", mesh.name)
+    path, other = (Path("../../meshes", one.name) for one in (mesh, before))
+    more = ("--threads", 1, "-q", "--report", REPORT)
     for extension in formats:
-        yield extension, ("meshrepair", path, f"out.{extension}", "--threads", 1, "-q", "--report", REPORT, *options)
-    yield "check", ("meshcheck", path, "--threads", 1, "-q", "--report", REPORT)
+        yield extension, ("meshrepair", path, f"out.{extension}", *more, *options)
+    yield "check", ("meshcheck", path, *more)
+    if formats:
+        yield "reduced", ("meshrepair", path, "out.obj", "--triangles", "50%", *more, *options)
+        yield "union", ("bspbool", path, other, "--op", "union", "-o", "out.obj", *more)
 
 
-def compare(mesh, args, folder):
+def compare(mesh, before, args, folder):
     """For each output of each other way a row: run, name, way, difference or None. And how many runs took too long."""
     rows, late = [], 0
-    for name, words in runs_of(mesh, shlex.split(args.options), [f for f in args.formats.split(",") if f]):
+    for name, words in runs_of(mesh, before, shlex.split(args.options), [f for f in args.formats.split(",") if f]):
         left = {}
         for way in args.ways:
             left[way.name] = way.run(folder / way.name / f"{mesh.name}.{name}", args.timeout, *words)
@@ -151,10 +155,10 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "meshes").symlink_to(args.meshes.resolve())
-        for mesh in meshes:
+        for before, mesh in zip(meshes[:1] + meshes, meshes):
             if time.monotonic() - start > args.limit_seconds:
                 break
-            rows, slow = compare(mesh, args, folder)
+            rows, slow = compare(mesh, before, args, folder)
             files += 1
             outputs += len(rows)
             late += slow

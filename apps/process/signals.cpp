@@ -30,7 +30,7 @@ void install_signal_handlers() {
   install_signal_handler(internal::kHangUp);
   install_signal_handler(internal::kInterrupt);
   install_signal_handler(internal::kTerminate);
-  internal::make_refused_writes_errors();
+  internal::prepare_standard_streams();
 }
 
 int received_signal() noexcept {

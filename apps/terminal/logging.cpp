@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <spdlog/logger.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 
 #include <base/internal/system.h>
@@ -59,7 +60,9 @@ void set_up_logging(const std::string& program, Verbosity verbosity) {
   made->flush_on(spdlog::level::trace);
   // On a terminal each line first clears what the progress bar has drawn there.
   const std::string clear_line = stderr_is_terminal() ? "\r\x1b[K" : "";
-  made->set_pattern(clear_line + "%n: %^%l%$: %v");
+  // The same line end on all systems, as in all other lines.
+  made->set_formatter(std::make_unique<spdlog::pattern_formatter>(
+      clear_line + "%n: %^%l%$: %v", spdlog::pattern_time_type::local, "\n"));
   set_logger(std::move(made));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -67,6 +68,20 @@ double cube_root(double x) {
   double root = 0.68 + 0.2267 * number;
   for (int step = 0; step < kSteps; ++step) root -= (root - number / (root * root)) / 3;
   return std::copysign(std::ldexp(root, third), x);
+}
+
+// 10^22 is the last that is a double.
+double power_of_ten(int exponent) {
+  double power = 1;
+  for (int i = 0; i < std::abs(exponent); ++i) power *= 10;
+  return exponent < 0 ? 1 / power : power;
+}
+
+// The logarithm may be on either side of a whole number that it is near.
+int decimal_exponent(double x) {
+  const int near = static_cast<int>(std::floor(std::log10(x)));
+  if (power_of_ten(near) > x) return near - 1;
+  return power_of_ten(near + 1) <= x ? near + 1 : near;
 }
 
 }  // namespace meshrepair

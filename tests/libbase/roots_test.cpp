@@ -58,6 +58,22 @@ TEST(Length, NeitherOverflowsNorUnderflows) {
   EXPECT_TRUE(std::isnan(stable_length({kNotANumber, 1, 2})));
 }
 
+TEST(PowerOfTen, IsTheNearestNumber) {
+  EXPECT_EQ(power_of_ten(0), 1);
+  EXPECT_EQ(power_of_ten(-1), 0.1);
+  EXPECT_EQ(power_of_ten(22), 1e22);
+  EXPECT_EQ(power_of_ten(-22), 1e-22);
+}
+
+TEST(PowerOfTen, TheExponentOfAPowerIsItsOwn) {
+  for (int exponent = -300; exponent <= 300; ++exponent) {
+    const double power = power_of_ten(exponent);
+    ASSERT_EQ(decimal_exponent(power), exponent);
+    ASSERT_EQ(decimal_exponent(std::nextafter(power, kInfinity)), exponent);
+    ASSERT_EQ(decimal_exponent(std::nextafter(power, 0.0)), exponent - 1);
+  }
+}
+
 TEST(CubeRoot, HasTheseBits) {
   EXPECT_EQ(cube_root(2), 0x1.428a2f98d728bp+0);
   EXPECT_EQ(cube_root(0.1), 0x1.db4c7760bcff3p-2);

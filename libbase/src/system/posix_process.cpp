@@ -66,7 +66,7 @@ void handle_request_to_end(int number, void (*handle)(int number)) noexcept {
 
 int request_to_end_without_handler() noexcept { return 0; }
 
-void make_refused_writes_errors() noexcept {
+void prepare_standard_streams() noexcept {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -71,7 +71,7 @@ void handle_request_to_end(int /*number*/, void (* /*handle*/)(int number)) noex
 
 int request_to_end_without_handler() noexcept { return meshrepair_request_to_end(); }
 
-void make_refused_writes_errors() noexcept {}
+void prepare_standard_streams() noexcept {}
 
 std::thread thread_without_signals(std::function<void()> work) {
   return std::thread(std::move(work));

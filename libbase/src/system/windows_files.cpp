@@ -34,17 +34,15 @@ int errno_of(DWORD error) {
       return EACCES;
     case ERROR_DISK_FULL:
       return ENOSPC;
+    case ERROR_BROKEN_PIPE:
+    case ERROR_NO_DATA:
+      return EPIPE;
     case ERROR_FILE_EXISTS:
     case ERROR_ALREADY_EXISTS:
       return EEXIST;
     default:
       return EIO;
   }
-}
-
-// Standard streams are opened before the program begins, as text.
-void make_binary(int descriptor) {
-  if (descriptor <= kStandardError) ::_setmode(descriptor, _O_BINARY);
 }
 
 }  // namespace
@@ -66,14 +64,15 @@ int open_file(const std::filesystem::path& path, FileUse use) noexcept {
 }
 
 std::ptrdiff_t read_some(int descriptor, char* bytes, std::size_t most) noexcept {
-  make_binary(descriptor);
   return ::_read(descriptor, bytes, static_cast<unsigned>(most < kMostOfCall ? most : kMostOfCall));
 }
 
 std::ptrdiff_t write_some(int descriptor, const char* bytes, std::size_t most) noexcept {
-  make_binary(descriptor);
-  return ::_write(descriptor, bytes,
-                  static_cast<unsigned>(most < kMostOfCall ? most : kMostOfCall));
+  const int count =
+      ::_write(descriptor, bytes, static_cast<unsigned>(most < kMostOfCall ? most : kMostOfCall));
+  // The C library calls all reasons that it does not know wrong arguments.
+  if (count < 0 && errno == EINVAL) errno = errno_of(::GetLastError());
+  return count;
 }
 
 bool close_file(int descriptor) noexcept { return ::_close(descriptor) == 0; }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <fcntl.h>
 #include <io.h>
 #include <utility>
 #include <windows.h>
@@ -95,7 +96,12 @@ void handle_request_to_end(int /*number*/, void (*handle)(int number)) noexcept 
 
 int request_to_end_without_handler() noexcept { return 0; }
 
-void make_refused_writes_errors() noexcept {}
+// They are opened before the program begins, as text, which would end each line with CR LF.
+void prepare_standard_streams() noexcept {
+  for (const int stream : {kStandardInput, kStandardOutput, kStandardError}) {
+    ::_setmode(stream, _O_BINARY);
+  }
+}
 
 std::thread thread_without_signals(std::function<void()> work) {
   return std::thread(std::move(work));

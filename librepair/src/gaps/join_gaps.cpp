@@ -19,6 +19,7 @@
 #include <sstream>
 
 #include <base/error.h>
+#include <base/roots.h>
 #include <check/box_tree.h>
 #include <check/near_faces.h>
 #include <repair/join_gaps.h>
@@ -97,7 +98,7 @@ double distance_for(const TriangleSoup& soup, const JoinGapsOptions& options) {
 
 // Below it, with two digits.
 double rounded_down(double value) {
-  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  const double unit = power_of_ten(decimal_exponent(value) - 1);
   return std::floor(value / unit) * unit;
 }
 

@@ -110,7 +110,8 @@ class Solver {
       const Sums of_start = add_up([&](std::size_t first, std::size_t last) {
         Sums part;
         for (std::size_t i = first; i < last; ++i) {
-          const double square = std::pow(residual_[i] - product_[i], 2);
+          const double rest = residual_[i] - product_[i];
+          const double square = rest * rest;
           part.norm += square;
           part.slope += scale_[i] * square;
         }

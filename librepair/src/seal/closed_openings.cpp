@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <base/roots.h>
 #include <check/soup_rays.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/topology.h>
@@ -97,7 +98,8 @@ class OpeningsCloser {
   double leave_wide_mouths(ClosedOpenings& closed) {
     FilledChambers& filled = closed.filled;
     std::erase_if(filled.spaces, [&](const FilledSpace& space) {
-      const bool is_wide = space.patches_area > kSmallOpening * std::pow(space.volume, 2.0 / 3);
+      const double width = cube_root(space.volume);
+      const bool is_wide = space.patches_area > kSmallOpening * width * width;
       if (is_wide) {
         for (const std::uint32_t c : space.chambers) filled.solid[c] = 0;
       }

@@ -2,7 +2,6 @@
 #include "openings.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace meshrepair::internal {
 namespace {
@@ -85,7 +84,8 @@ std::optional<SpaceGrid> Openings::narrow_grid(double size) const {
 // The smallest one that is cheap.
 void Openings::roll_larger_ball(double size) {
   double step = 2 * size / kLeastSteps;
-  while (std::pow(extent_.maxCoeff() / step, 2) > kCoarseCubes) step *= 2;
+  const double longest = extent_.maxCoeff();
+  while ((longest / step) * (longest / step) > kCoarseCubes) step *= 2;
   const double radius = step * kLeastSteps / 2;
   coarse_.emplace(mesh_, step, radius + kMargin * step, progress_);
   coarse_->measure(progress_);

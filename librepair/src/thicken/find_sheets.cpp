@@ -8,6 +8,7 @@
 
 #include <base/disjoint_sets.h>
 #include <base/ids.h>
+#include <base/roots.h>
 #include <mesh/edge_table.h>
 #include <repair/orient_parts.h>
 #include <repair/part_fates.h>
@@ -20,7 +21,7 @@ namespace {
 constexpr double kFittingShare = 0.01;
 
 double rounded_to_one_digit(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)));
+  const double unit = power_of_ten(decimal_exponent(x));
   return std::max(1.0, std::floor(x / unit)) * unit;
 }
 

@@ -100,8 +100,9 @@ constexpr int kHangUp = 1, kInterrupt = 2, kQuit = 3, kTerminate = 15;
 void handle_request_to_end(int number, void (*handle)(int number)) noexcept;
 // Where no handler can be called, the number of the request that was made; 0: none.
 [[nodiscard]] int request_to_end_without_handler() noexcept;
-// Pipes that nobody reads and limits on the size of files become errors of writing.
-void make_refused_writes_errors() noexcept;
+// Bytes pass standard streams as they are. Pipes that nobody reads and limits on the size of files
+// become errors of writing.
+void prepare_standard_streams() noexcept;
 // Signals are for other threads: those that wait for input and output are to wake up.
 [[nodiscard]] std::thread thread_without_signals(std::function<void()> work);
 

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <base/decimal.h>
+#include <base/roots.h>
 #include <mesh/far_coordinates.h>
 #include <mesh/precision.h>
 
@@ -41,8 +42,8 @@ double largest_coordinate(const Eigen::AlignedBox3d& box) {
 
 // Of so few digits that it is still near the middle.
 double rounded_middle(double middle, double size) {
-  const double digits = std::floor(std::log10(size));
-  const double power = std::pow(10.0, std::abs(digits));
+  const int digits = decimal_exponent(size);
+  const double power = power_of_ten(std::abs(digits));
   return digits < 0 ? std::round(middle * power) / power : std::round(middle / power) * power;
 }
 
