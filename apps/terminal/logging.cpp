@@ -69,6 +69,7 @@ void set_up_logging(const std::string& program, Verbosity verbosity) {
 void print_summary(std::string_view lines) {
   if (!logger().should_log(spdlog::level::warn)) return;
   std::fwrite(lines.data(), 1, lines.size(), stderr);
+  std::fflush(stderr);  // before what the logger writes, which knows no buffer
 }
 
 }  // namespace meshrepair

@@ -36,6 +36,7 @@ int errno_of(DWORD error) {
       return ENOSPC;
     case ERROR_BROKEN_PIPE:
     case ERROR_NO_DATA:
+    case ERROR_PIPE_NOT_CONNECTED:
       return EPIPE;
     case ERROR_FILE_EXISTS:
     case ERROR_ALREADY_EXISTS:
