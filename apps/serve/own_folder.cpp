@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <base/internal/processes.h>
 
 namespace meshrepair {
 namespace {
@@ -40,7 +41,7 @@ OwnFolder::OwnFolder(const std::string& name) : name_(made_folder(name)) {
     if (descriptor_ >= 0) ::close(descriptor_);
     throw OutputError(name_ + ": is not the folder that was created");
   }
-  path_ = "/proc/self/fd/" + std::to_string(descriptor_);
+  path_ = internal::path_of_folder(descriptor_, name_);
 }
 
 OwnFolder::~OwnFolder() {
