@@ -66,7 +66,8 @@ compare_results() {
 }
 
 check_plain() {
-  local options=(-DMESHREPAIR_PLAIN_POSIX=ON -DCMAKE_CXX_COMPILER=clang++ -DMESHREPAIR_PRECOMPILE=OFF -DMESHREPAIR_BUILD_PYTHON=OFF)
+  local options=(-DMESHREPAIR_PLAIN_POSIX=ON -DCMAKE_CXX_COMPILER=clang++ -DMESHREPAIR_PRECOMPILE=OFF
+                 -DMESHREPAIR_BUILD_{BENCH,SAMPLES,PYTHON}=OFF)
   cmake --preset release -B build/plain "${options[@]}" &&
     cmake --build build/plain --parallel "$jobs" &&
     run_tests build/plain --label-exclude package
