@@ -10,7 +10,7 @@ set(MESHREPAIR_WASM_DEPENDENCIES ${CMAKE_CURRENT_LIST_DIR}/../build/wasm-depende
 # Vectors of 128 bits are in all browsers since 2023.
 set(meshrepair_wasm_flags "-fwasm-exceptions -sSUPPORT_LONGJMP=wasm -msimd128")
 set(CMAKE_C_FLAGS_INIT "${meshrepair_wasm_flags}")
-# With what the standard library lacks.
+# With what the compiler lacks.
 set(CMAKE_CXX_FLAGS_INIT "${meshrepair_wasm_flags} -isystem ${CMAKE_CURRENT_LIST_DIR}/wasm_std")
 
 include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)

@@ -11,6 +11,7 @@ Does at length what .ci/run does in a hurry, and prints how long each STEP took.
 
   release   builds without precompiled headers, so that each source has to include what it uses, and runs all tests
   serial    builds as where there is no oneTBB, runs all tests, and compares results with those of threads
+  plain     builds as on macOS and BSD, without what only Linux has, with clang, and runs all tests
   headers   each header compiles alone
   tidy      clang-tidy with all checks and the static analyzer, on each source alone
   sanitize  all tests but those of the package and of memory under ASan and UBSan, with all their cases
@@ -22,7 +23,7 @@ TEXT
 }
 case "${1:-}" in -h | --help) usage; exit 0 ;; esac
 
-steps=(release serial headers tidy sanitize fuzz threads)
+steps=(release serial plain headers tidy sanitize fuzz threads)
 chosen=("$@")
 if [ "$#" -eq 0 ]; then chosen=("${steps[@]}"); fi
 for name in "${chosen[@]}"; do
@@ -62,6 +63,14 @@ compare_results() {
       "$2/bin/meshrepair" "$mesh" build/serial/other.ply --sources --always --quiet --threads 7 &&
       cmp build/serial/one.ply build/serial/other.ply || return
   done
+}
+
+check_plain() {
+  local options=(-DMESHREPAIR_PLAIN_POSIX=ON -DCMAKE_CXX_COMPILER=clang++ -DMESHREPAIR_PRECOMPILE=OFF
+                 -DMESHREPAIR_BUILD_{BENCH,SAMPLES,PYTHON}=OFF)
+  cmake --preset release -B build/plain "${options[@]}" &&
+    cmake --build build/plain --parallel "$jobs" &&
+    run_tests build/plain --label-exclude package
 }
 
 check_headers() {

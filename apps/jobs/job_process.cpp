@@ -11,8 +11,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <string>
-#include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -21,14 +19,15 @@
 #include <utility>
 
 #include <base/error.h>
+#include <base/internal/processes.h>
 
 namespace meshrepair {
 namespace {
 
 constexpr std::size_t kMostSaid = std::size_t{1} << 16;
 
-int memory_file(const char* name) {
-  const int file = ::memfd_create(name, MFD_CLOEXEC);
+int memory_file() {
+  const int file = internal::nameless_file();
   if (file >= 0) return file;
   throw Error("no file in memory: " + std::generic_category().message(errno));
 }
@@ -70,7 +69,7 @@ sigset_t& signals_before() {
 
 }  // namespace
 
-JobProcess::JobProcess() : answer_(memory_file("answer")), said_(memory_file("said")) {}
+JobProcess::JobProcess() : answer_(memory_file()), said_(memory_file()) {}
 
 JobProcess::JobProcess(JobProcess&& other) noexcept
     : process_(std::exchange(other.process_, -1)),
@@ -92,7 +91,7 @@ void JobProcess::start(const Work& work, int closed) {
   process_ = ::fork();
   if (process_ > 0) return;
   if (process_ < 0) throw LimitError("no process: " + std::generic_category().message(errno));
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  internal::end_with_parent();
   if (::getppid() != parent) ::_exit(127);
   ::close(closed);
   const int nothing = ::open("/dev/null", O_RDWR);  // NOLINT(bugprone-unused-return-value)
@@ -136,7 +135,7 @@ bool JobProcess::poll(Ended& ended) {
   process_ = -1;
   ended.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   ended.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  ended.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  ended.peak_memory = internal::peak_memory_of(usage);
   ended.answer = taken_from(answer_, SIZE_MAX);
   ended.said = taken_from(said_, kMostSaid);
   if (ended.answer.ends_with('\n')) {
@@ -163,10 +162,7 @@ void JobProcess::hold_signals() {
 JobProcess::Ready JobProcess::wait(int input, int output, bool is_more, int milliseconds) {
   const short events = is_more ? POLLOUT : 0;
   std::array<pollfd, 2> files = {{{input, POLLIN, 0}, {output, events, 0}}};
-  const timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
-  const timespec* const most = milliseconds < 0 ? nullptr : &time;
-  const int count = ::ppoll(files.data(), files.size(), most, &signals_before());
-  if (count <= 0) return {};
+  if (internal::poll_with_signals(files, milliseconds, signals_before()) <= 0) return {};
   return {files[0].revents != 0, files[1].revents != 0};
 }
 

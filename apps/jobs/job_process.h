@@ -2,8 +2,8 @@
 // A job as a copy of this process, so that a crash or a limit costs no other.
 //
 // The copy starts with what this process has linked, read and prepared, which takes longer than the
-// repair of a small mesh. It dies when this process dies. Only a process without other threads may
-// be copied.
+// repair of a small mesh. On Linux it dies when this process dies. Only a process without other
+// threads may be copied.
 #pragma once
 
 #include <chrono>
@@ -55,6 +55,7 @@ class JobProcess {
   };
   // Waits until a copy ends, a signal comes, or one of these is ready: `input`, -1 for none, and
   // `output`, if there `is_more` for it or nobody reads it any longer. -1: as long as it takes.
+  // It may return earlier, with neither.
   static Ready wait(int input, int output, bool is_more, int milliseconds);
 
  private:

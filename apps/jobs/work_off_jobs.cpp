@@ -17,6 +17,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 #include "jobs/job_server.h"
 #include "options/command_line.h"
@@ -123,7 +124,7 @@ void bind_all_functions(const char* const* argv) {
   constexpr const char* kBindNow = "LD_BIND_NOW";
   if (std::getenv(kBindNow) != nullptr) return;  // NOLINT(concurrency-mt-unsafe): one thread
   std::error_code error;
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe", error).string();
+  const std::string self = std::filesystem::canonical(internal::program_file(), error).string();
   if (error || ::setenv(kBindNow, "1", 0) != 0) return;  // NOLINT(concurrency-mt-unsafe)
   ::execv(self.c_str(), const_cast<char* const*>(argv));
 }

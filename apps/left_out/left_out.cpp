@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What programs do without on some systems: a file for large arrays, questions to the terminal, and
-// the local page and the server of jobs, which start copies of the program. MESHREPAIR_WHERE says
-// where, such as "on Windows", MESHREPAIR_NO_SPILLING why there is no file for large arrays.
+// What programs do without on Windows and in WebAssembly: questions to the terminal, and the local
+// page and the server of jobs, which start copies of the program. MESHREPAIR_WHERE says where, such
+// as "on Windows".
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +11,6 @@
 #include "jobs/work_off_jobs.h"
 #include "process/exit_code.h"
 #include "serve/serve.h"
-#include "spill/spilling.h"
 #include "terminal/raw_terminal.h"
 
 namespace meshrepair {
@@ -37,14 +36,5 @@ RawTerminal::~RawTerminal() = default;
 bool RawTerminal::write(std::string_view /*text*/) const { return false; }
 std::optional<std::string> RawTerminal::read_until(Clock::time_point /*end*/) const { return {}; }
 void restore_terminal() noexcept {}
-
-Spilling::Spilling(const std::string& folder, const MemoryLimit& /*limit*/) {
-  if (!folder.empty() && folder != "none") {
-    throw UsageError("--temp: cannot be used " MESHREPAIR_WHERE ", " MESHREPAIR_NO_SPILLING);
-  }
-}
-Spilling::~Spilling() = default;
-std::uint64_t Spilling::most_bytes() const { return 0; }
-std::string Spilling::why_not_more() const { return {}; }
 
 }  // namespace meshrepair

@@ -36,6 +36,10 @@ std::uint64_t file_checksum(const std::filesystem::path& file) {
   return size << 32 ^ sum;
 }
 
-std::uint64_t program_checksum() { return file_checksum(internal::program_file()); }
+std::uint64_t program_checksum() {
+  const std::filesystem::path program = internal::program_file();
+  if (program.empty()) throw ValueError("the system does not tell where this program is");
+  return file_checksum(program);
+}
 
 }  // namespace meshrepair

@@ -10,7 +10,7 @@ namespace meshrepair {
 // Of its bytes and how many they are. Throws InputError where it cannot be read.
 [[nodiscard]] std::uint64_t file_checksum(const std::filesystem::path& file);
 
-// Of the program that runs.
+// Of the program that runs. Throws ValueError where the system does not tell which file that is.
 [[nodiscard]] std::uint64_t program_checksum();
 
 }  // namespace meshrepair

@@ -10,11 +10,11 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <string_view>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <base/error.h>
+#include <base/internal/processes.h>
 
 namespace meshrepair {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::size_t kLongestLine = 1024;
 
 // In the child, between fork and exec: only what signal handlers may do, too.
 [[noreturn]] void become(char* const* words, int told, int folder, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  internal::end_with_parent();
   if (::getppid() != parent || ::fchdir(folder) != 0) ::_exit(127);
   const int nothing = ::open("/dev/null", O_RDWR);  // NOLINT(bugprone-unused-return-value)
   for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);
@@ -50,7 +50,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, int folder) 
   for (std::string& word : all) words.push_back(word.data());
   words.push_back(nullptr);
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+  if (!internal::open_pipe(ends)) {
     throw Error(std::string("no pipe: ") + std::strerror(errno));  // NOLINT(concurrency-mt-unsafe)
   }
   const pid_t parent = ::getpid();

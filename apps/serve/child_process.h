@@ -12,8 +12,8 @@ namespace meshrepair {
 class ChildProcess {
  public:
   // `command`: the path of the program, and its arguments. "--progress-fd" is added to them. It
-  // works in the folder of this descriptor. What it prints goes nowhere. It is killed when this
-  // process dies. Throws Error where it cannot be started.
+  // works in the folder of this descriptor. What it prints goes nowhere. On Linux it is
+  // killed when this process dies. Throws Error where it cannot be started.
   ChildProcess(const std::vector<std::string>& command, int folder);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

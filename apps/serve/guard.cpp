@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "serve/guard.h"
 
-#include <array>
-#include <cstddef>
-#include <sys/random.h>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 namespace meshrepair {
 namespace {
@@ -59,13 +57,9 @@ std::optional<std::string> Guard::refusal_with_token(const Sender& sender) const
 }
 
 std::string random_secret() {
-  std::array<unsigned char, 16> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-    throw Error("the system gives no random numbers");
-  }
-  std::string text;
-  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
-  return text;
+  const auto first = internal::random_bits(), second = internal::random_bits();
+  if (!first || !second) throw Error("the system gives no random numbers");
+  return fmt::format("{:016x}{:016x}", *first, *second);
 }
 
 }  // namespace meshrepair

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <base/error.h>
+#include <base/internal/processes.h>
 
 namespace meshrepair {
 namespace {
@@ -23,6 +24,16 @@ std::string made_folder(const std::string& start) {
     throw OutputError(name + ": the folder cannot be created");
   }
   return name;
+}
+
+void remove_all_in(const fs::path& folder) {
+  std::error_code none;
+  std::vector<fs::path> inside;
+  for (fs::directory_iterator at(folder, none); !none && at != fs::directory_iterator();
+       at.increment(none)) {
+    inside.push_back(at->path());
+  }
+  for (const fs::path& path : inside) fs::remove_all(path, none);
 }
 
 bool is_same(const struct stat& a, const struct stat& b) {
@@ -40,18 +51,14 @@ OwnFolder::OwnFolder(const std::string& name) : name_(made_folder(name)) {
     if (descriptor_ >= 0) ::close(descriptor_);
     throw OutputError(name_ + ": is not the folder that was created");
   }
-  path_ = "/proc/self/fd/" + std::to_string(descriptor_);
+  path_ = internal::path_of_folder(descriptor_, name_);
 }
 
+// Where the path is only a name, it may be that of another folder by now.
 OwnFolder::~OwnFolder() {
-  std::error_code none;
-  std::vector<fs::path> inside;
-  for (fs::directory_iterator at(path_, none); !none && at != fs::directory_iterator();
-       at.increment(none)) {
-    inside.push_back(at->path());
-  }
-  for (const fs::path& path : inside) fs::remove_all(path, none);
-  if (is_named_so()) ::rmdir(name_.c_str());
+  const bool is_there = is_named_so();
+  if (is_there || path_ != name_) remove_all_in(path_);
+  if (is_there) ::rmdir(name_.c_str());
   ::close(descriptor_);
 }
 

@@ -3,7 +3,7 @@
 //
 // The folder that lies above it, /tmp, belongs to all users. Somebody may clear it, and somebody
 // else may make a folder of the same name. So the folder is held open, and all in it is reached
-// from there; its name is only for those who have nothing else.
+// from there; its name is only for those who have nothing else, as systems other than Linux.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,8 @@ class OwnFolder {
   // Removes it with all that is in it.
   ~OwnFolder();
 
-  // Leads to the folder by its descriptor, in this process. Once the folder is removed, nothing can
-  // be made in it.
+  // Leads to the folder, on Linux by its descriptor, in this process. Once the folder is removed,
+  // nothing can be made in it.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   // For a process that is to work in it.
   [[nodiscard]] int descriptor() const { return descriptor_; }

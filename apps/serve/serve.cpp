@@ -18,6 +18,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <base/error.h>
+#include <base/internal/system.h>
 
 #include "options/command_line.h"
 #include "options/numbers.h"
@@ -79,8 +80,7 @@ bool parse(CommandLine& app, int argc, const char* const* argv) {
 
 fs::path folder_of_programs() {
   std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  fs::path folder = self.parent_path();
+  fs::path folder = fs::canonical(internal::program_file(), error).parent_path();
   if (error || !fs::exists(folder / "meshcheck", error)) {
     throw UsageError("--serve: there is no meshcheck beside this program");
   }

@@ -322,6 +322,7 @@ class Attacks(Serving):
         for path in paths:
             self.assertEqual(stat.S_IMODE(path.stat().st_mode), 0o700 if path.is_dir() else 0o600, path)
 
+    @unittest.skipIf(os.environ.get("MESHREPAIR_PLAIN_POSIX") == "1", "only Linux knows an open folder from another of its name")
     def test_a_folder_that_is_gone(self):
         """Another one in its place is not used, and none is made."""
         job = self.hand_in()

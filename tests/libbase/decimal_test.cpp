@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What stands in for numbers of floating point in <charconv> does as they do.
+#include <version>
+
 #include <gtest/gtest.h>
 
-#if __has_include(<fast_float/fast_float.h>) && defined(__SIZEOF_INT128__)
+#if __has_include(<fast_float/fast_float.h>) && defined(__SIZEOF_INT128__) && \
+    defined(__cpp_lib_to_chars)
 
 #define FMT_HEADER_ONLY
 #include <array>
@@ -123,6 +126,8 @@ TEST(Decimal, WhatDoesNotFitIsSaid) {
 
 #else
 
-TEST(Decimal, IsTestedWhereFastFloatIs) { GTEST_SKIP() << "there is no fast_float"; }
+TEST(Decimal, IsTestedWhereFastFloatAndFullCharconvAre) {
+  GTEST_SKIP() << "one of both is missing";
+}
 
 #endif

@@ -4,6 +4,9 @@
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#if __has_include(<sys/random.h>)
+#include <sys/random.h>
+#endif
 #include <unistd.h>
 
 #include <climits>

@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include <base/internal/processes.h>
 #include <base/internal/system.h>
 
 namespace meshrepair::internal {
@@ -41,15 +42,12 @@ double cpu_seconds() noexcept {
 }
 
 std::size_t peak_memory() noexcept {
-  constexpr std::size_t kKilo = 1024;  // Linux counts in these
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * kKilo;
+  return peak_memory_of(usage);
 }
 
 void end_process_now(int code) noexcept { _exit(code); }
-
-std::filesystem::path program_file() { return "/proc/self/exe"; }
 
 bool is_open(int descriptor) noexcept { return ::fcntl(descriptor, F_GETFD) != -1; }
 

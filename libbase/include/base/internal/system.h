@@ -83,13 +83,13 @@ struct ProcessMemory {                             // in bytes; 0 where the syst
 // What can be taken without swapping: of the machine, or of the group of processes that this one
 // lives in. Nothing: the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> free_memory();
-// Makes the system refuse more than this to the process, so that it meets std::bad_alloc in place
-// of the system's killer; the stacks of so many threads that are yet to start do not count. Gives
-// what the program needs for itself where that is more, else 0.
+// Makes the system, where it can, refuse more than this to the process, so that it meets
+// std::bad_alloc in place of the system's killer; the stacks of so many threads that are yet to
+// start do not count. Gives what the program needs for itself where that is more, else 0.
 [[nodiscard]] std::uint64_t limit_process_memory(std::uint64_t bytes, std::size_t threads);
 // Without destructors, streams and what runs at the end. From a signal handler, too.
 [[noreturn]] void end_process_now(int code) noexcept;
-// The file of the program.
+// A path to the file of the program. Empty: the system does not tell.
 [[nodiscard]] std::filesystem::path program_file();
 [[nodiscard]] bool is_open(int descriptor) noexcept;
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <mesh/soup_io.h>
