@@ -83,11 +83,17 @@ void ProgressBar::advance(double share) {
 }
 
 bool ProgressBar::cancelled() {
-  if (received_signal() != 0) return true;
+  if (received_signal() != 0) {
+    work_is_ending_ = true;
+    return true;
+  }
   const Clock::time_point now = Clock::now();
   if (seconds_between(last_question_, now) > kSecondsBetweenQuestions) {
     last_question_ = now;
-    if (const auto limit = limit_reached()) throw LimitError(*limit);
+    if (const auto limit = limit_reached()) {
+      work_is_ending_ = true;
+      throw LimitError(*limit);
+    }
   }
   draw();
   return false;

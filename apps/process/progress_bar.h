@@ -2,6 +2,7 @@
 // The observer of every program: times the stages, draws them, and passes on signals and limits.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -50,6 +51,8 @@ class ProgressBar : public ProgressObserver {
 
   // Why the work has to stop, if it has to. From any thread.
   [[nodiscard]] std::optional<Failure> reason_to_stop() const;
+  // Whether the work was told to stop. From any thread.
+  [[nodiscard]] bool work_is_ending() const { return work_is_ending_; }
   // For std::bad_alloc: the limit, the stage and how far it was.
   [[nodiscard]] std::string out_of_memory() const;
   // For a thread that the system refuses.
@@ -78,6 +81,7 @@ class ProgressBar : public ProgressObserver {
   void clear();
 
   Options options_;
+  std::atomic<bool> work_is_ending_ = false;
   Clock::time_point start_;
   Clock::time_point stage_start_;
   Clock::time_point last_drawn_;

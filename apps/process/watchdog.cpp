@@ -15,7 +15,8 @@ namespace meshrepair {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooks(50);
-constexpr int kMostLooks = 15;  // with a reason to stop
+constexpr int kMostLooks = 15;           // with a reason to stop
+constexpr int kMostLooksAtTheEnd = 100;  // on a busy machine, what was made takes time to remove
 
 }  // namespace
 
@@ -40,7 +41,8 @@ void Watchdog::watch() {
     try {
       const std::optional<Failure> reason = progress_.reason_to_stop();
       looks_in_vain = reason ? looks_in_vain + 1 : 0;
-      if (looks_in_vain > kMostLooks) end_process(*reason);
+      const int most = progress_.work_is_ending() ? kMostLooksAtTheEnd : kMostLooks;
+      if (looks_in_vain > most) end_process(*reason);
     } catch (const std::bad_alloc&) {
       // The work meets it, too, and gives some back when it ends.
     }

@@ -14,10 +14,10 @@
 namespace meshrepair {
 
 // A thread that looks now and then whether there is a reason to stop (see
-// ProgressBar::reason_to_stop). The work is expected to notice by itself, and to end in order;
-// after three quarters of a second the watchdog says why on stderr, removes the unfinished output
-// file, restores the terminal and ends the process with the exit code of that reason. There is no
-// report then.
+// ProgressBar::reason_to_stop). The work is expected to notice by itself within three quarters of a
+// second, and to end in order within five. Else the watchdog says why on stderr, removes the
+// unfinished output file, restores the terminal and ends the process with the exit code of that
+// reason. There is no report then.
 class Watchdog {
  public:
   // `progress` must outlive the watchdog.
