@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // meshdist A B...: how far meshes are from the first of them.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -100,7 +101,13 @@ void check_all_files(const Options& options, Run& run) {
   if (std::count(files.begin(), files.end(), "-") > 1) {
     throw UsageError("only one of the meshes can be standard input");
   }
-  for (const std::string& file : files) check_files(file, "", run);
+  for (const std::string& file : files) {
+    check_files(file, "", run);
+    // Before the work on those that stand before it.
+    if (file != "-" && !std::filesystem::exists(file)) {
+      throw InputError(file + ": cannot be opened: No such file or directory");
+    }
+  }
   check_html(options.html, files, run);
 }
 
@@ -133,10 +140,10 @@ void report_comparisons(const Options& options, std::vector<Json> comparisons, R
 }
 
 ExitCode measure(Options& options, Run& run) {
-  check_all_files(options, run);
   run.report.set_input({{"a", options.first}, {"b", options.others.front()}});
   if (options.others.size() > 1)
     run.report.set_input({{"a", options.first}, {"b", options.others}});
+  check_all_files(options, run);
   options.distance.progress = &run.progress;
   std::string lines;
   Json section;

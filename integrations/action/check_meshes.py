@@ -10,25 +10,30 @@ and where first. On GitHub, that is an annotation of the file, and the summary o
   --pages FOLDER   a page for each such mesh, which shows its defects in a browser
   --repair FOLDER  what meshrepair makes of each
 
-Exit codes: 0 all bound solids, 1 some do not, or cannot be read, 2 wrong usage, or no meshcheck.
+Exit codes: 0 all bound solids, 1 some do not, or cannot be read, 2 wrong usage, no meshcheck, or a folder that cannot be made.
 
 Example: check_meshes.py --pages pages models/*.stl
 """
 
 import argparse
 import dataclasses
+import hashlib
 import json
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+import urllib.parse
 
 EXTENSIONS = ("stl", "obj", "off", "ply", "glb", "gltf", "3mf")
 WORDS = {"open_edges": "open edges", "nonmanifold_edges": "non-manifold edges", "nonmanifold_vertices": "non-manifold vertices",
          "inconsistent_edges": "edges with inconsistent orientation", "inside_out_parts": "parts that are inside out",
          "self_intersections": "intersecting pairs of triangles", "degenerate_triangles": "degenerate triangles",
          "duplicate_triangles": "duplicate triangles", "not_finite_triangles": "triangles with NaN or infinity"}
+LFS_POINTER = b"version https://git-lfs.github.com/"
+MOST_BYTES_OF_A_NAME = 200
+USAGE = 2
 
 
 @dataclasses.dataclass
@@ -37,6 +42,11 @@ class Verdict:
     triangles: int | None = None
     wrong: str = ""  # empty: it bounds a solid
     repaired: str = ""  # what became of it
+
+
+def stop(why: str) -> None:
+    print(f"check_meshes.py: {why}", file=sys.stderr)
+    sys.exit(USAGE)
 
 
 def place(first: dict) -> str:
@@ -54,15 +64,28 @@ def run(command: list) -> subprocess.CompletedProcess:
     try:
         return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=False, text=True, errors="replace")
     except FileNotFoundError:
-        sys.exit(f"check_meshes.py: {command[0]} is not in PATH: install meshrepair, for example by npm install --global meshrepair")
+        stop(f"{command[0]} is not in PATH: install meshrepair, for example by npm install --global meshrepair")
 
 
 def flat_name(mesh: str) -> str:
-    """The name of a file about this mesh in a folder without folders: no two meshes have the same."""
-    return mesh.replace("%", "%25").replace("/", "%2F")
+    """The name of a file about this mesh in a folder without folders: no two meshes have the same, and all systems and archives take it."""
+    name = urllib.parse.quote(os.fsencode(os.path.normpath(mesh)), safe=" ,+=@()[]!&")
+    if name.startswith("."):
+        name = "%2E" + name[1:]
+    return name if len(name) <= MOST_BYTES_OF_A_NAME else hashlib.sha256(name.encode()).hexdigest()[:16] + name[-MOST_BYTES_OF_A_NAME + 16:]
+
+
+def is_pointer(mesh: str) -> bool:
+    try:
+        with open(mesh, "rb") as file:
+            return file.read(len(LFS_POINTER)) == LFS_POINTER
+    except OSError:
+        return False
 
 
 def checked(mesh: str, pages: pathlib.Path | None) -> Verdict:
+    if is_pointer(mesh):
+        return Verdict(mesh, wrong="is a pointer of Git LFS, and not the mesh: git lfs pull, or lfs: true of actions/checkout, fetches it")
     with tempfile.TemporaryDirectory() as folder:
         report, page = pathlib.Path(folder) / "report.json", pathlib.Path(folder) / "page.html"
         show = ["--html", str(page)] if pages else []
@@ -74,14 +97,15 @@ def checked(mesh: str, pages: pathlib.Path | None) -> Verdict:
         if done.returncode == 1:
             verdict.wrong = defects(check) or "encloses nothing"
             if pages and page.exists():
-                pages.mkdir(parents=True, exist_ok=True)
                 (pages / f"{flat_name(mesh)}.html").write_bytes(page.read_bytes())
     return verdict
 
 
-def repair(verdict: Verdict, folder: pathlib.Path) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
+def repair(verdict: Verdict, folder: pathlib.Path, meshes: list[str]) -> None:
     out = folder / flat_name(verdict.mesh)
+    if out.exists() and any(os.path.exists(mesh) and out.samefile(mesh) for mesh in meshes):
+        verdict.repaired = f"{out} is a mesh to check, and is not overwritten"
+        return
     done = run(["meshrepair", "--quiet", "--", verdict.mesh, str(out)])
     verdict.repaired = str(out) if done.returncode == 0 else (done.stderr.strip().splitlines() or ["not repaired"])[-1]
 
@@ -115,11 +139,19 @@ def summary(verdicts: list[Verdict]) -> str:
 
 
 def tracked() -> list[str]:
-    patterns = [f"*.{one}" for one in EXTENSIONS] + [f"*.{one.upper()}" for one in EXTENSIONS]
+    patterns = [f":(icase)*.{one}" for one in EXTENSIONS]
     done = subprocess.run(["git", "ls-files", "-z", "--", *patterns], capture_output=True, check=False)
     if done.returncode != 0:
-        sys.exit("check_meshes.py: no MESH is named, and this folder is not in a repository of git")
-    return sorted(os.fsdecode(name) for name in done.stdout.split(b"\0") if name)
+        stop("no MESH is named, and this folder is not in a repository of git")
+    return sorted(os.fsdecode(name) for name in done.stdout.split(b"\0") if name and os.path.isfile(name))
+
+
+def add_summary(path: str, verdicts: list[Verdict]) -> None:
+    try:
+        with open(path, "a", encoding="utf-8", errors="replace") as out:
+            out.write(summary(verdicts))
+    except OSError as error:
+        print(f"check_meshes.py: {path}: {error.strerror}", file=sys.stderr)
 
 
 def main() -> int:
@@ -132,20 +164,26 @@ def main() -> int:
     options = parser.parse_args()
     sys.stdout.reconfigure(errors="backslashreplace")  # not every name is text
     on_github = os.environ.get("GITHUB_ACTIONS") == "true"
-    verdicts = []
-    for mesh in options.mesh or tracked():
+    for folder in filter(None, (options.pages, options.repair)):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            stop(f"{folder}: {error.strerror}")
+    verdicts, meshes = [], options.mesh or tracked()
+    for mesh in meshes:
         verdict = checked(mesh, options.pages)
         verdicts.append(verdict)
         if not verdict.wrong:
             continue
         if options.repair:
-            repair(verdict, options.repair)
+            repair(verdict, options.repair, meshes)
         print(annotation(verdict) if on_github else f"{mesh}: {verdict.wrong}", flush=True)
+        if verdict.repaired:
+            print(f"{mesh}: repaired: {verdict.repaired}", flush=True)
     bad = sum(bool(verdict.wrong) for verdict in verdicts)
     print(f"{len(verdicts) - bad:,} of {len(verdicts):,} meshes bound solids")
-    if "GITHUB_STEP_SUMMARY" in os.environ:
-        with open(os.environ["GITHUB_STEP_SUMMARY"], "a", encoding="utf-8", errors="replace") as out:
-            out.write(summary(verdicts))
+    if os.environ.get("GITHUB_STEP_SUMMARY"):
+        add_summary(os.environ["GITHUB_STEP_SUMMARY"], verdicts)
     return 1 if bad else 0
 
 

@@ -9,6 +9,7 @@ Copy this folder into ComfyUI/custom_nodes, and install meshrepair into ComfyUI'
 
 import copy
 import pathlib
+import re
 
 import meshrepair
 
@@ -17,7 +18,7 @@ OPTIONS = {
     "purpose": (PURPOSES, {"tooltip": "What the mesh is for: print closes and thickens it; render keeps sheets as thin solids"}),
     "triangles": ("INT", {"default": 0, "min": 0, "max": 2**31 - 1, "tooltip": "Reduce the result to this many triangles; 0 keeps all"}),
     "max_error": ("FLOAT", {"default": 0.0, "min": 0.0, "max": 10.0, "step": 0.01,
-                            "tooltip": "Reduce the result until it would be farther than this from the repaired mesh, in % of its diagonal; 0: off"}),
+                            "tooltip": "Reduce the result while it stays this near to the repaired mesh, in % of its diagonal; 0: off"}),
 }
 
 
@@ -34,7 +35,8 @@ def options_of(purpose, triangles, max_error):
 def told(report):
     """What was done, in a few lines."""
     result = report["result"]
-    lines = [f"{result['triangles']:,} triangles, {result['parts']:,} parts, volume {result['volume']:.6g}"]
+    volume = "unknown" if result["volume"] is None else f"{result['volume']:.6g}"
+    lines = [f"{result['triangles']:,} triangles, {result['parts']:,} parts, volume {volume}"]
     return "\n".join(lines + [f"{warning['text']} [{warning['code']}]" for warning in report["warnings"]])
 
 
@@ -50,12 +52,15 @@ class RepairMesh:
     def repair(self, mesh, purpose="none", triangles=0, max_error=0.0):
         if len(mesh.vertices) != 1:
             raise ValueError(f"Repair Mesh takes one mesh, not a batch of {len(mesh.vertices)}")
-        result = meshrepair.repair(mesh.vertices[0].cpu().numpy(), mesh.faces[0].cpu().numpy(), **options_of(purpose, triangles, max_error))
+        # Half precision would round what was certified.
+        vertices = mesh.vertices.float()
+        result = meshrepair.repair(vertices[0].cpu().numpy(), mesh.faces[0].cpu().numpy(), precision="float32",
+                                   **options_of(purpose, triangles, max_error))
         # What belongs to the old vertices goes: colours, texture coordinates, normals.
         repaired = copy.copy(mesh)
         for name in vars(repaired):
             setattr(repaired, name, None)
-        repaired.vertices = mesh.vertices.new_tensor(result.vertices)[None]
+        repaired.vertices = vertices.new_tensor(result.vertices)[None]
         repaired.faces = mesh.faces.new_tensor(result.faces)[None]
         return repaired, told(result.report)
 
@@ -71,7 +76,7 @@ class RepairMeshFile:
 
     def repair(self, path, purpose="none", triangles=0, max_error=0.0):
         given = pathlib.Path(path)
-        made = given.with_name(f"{given.stem}_repaired{given.suffix}")
+        made = given.with_name(re.sub(r"(\.\w+(\.(gz|zst))?)?$", r"_repaired\1", given.name, count=1))
         report = meshrepair.repair_file(given, made, **options_of(purpose, triangles, max_error))
         return str(made), told(report)
 

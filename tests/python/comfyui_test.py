@@ -46,6 +46,9 @@ class Tensor:
     def numpy(self):
         return self.array
 
+    def float(self):
+        return Tensor(self.array.astype(np.float32))
+
     def new_tensor(self, array):
         return Tensor(np.asarray(array, self.array.dtype))
 
@@ -85,6 +88,13 @@ class Nodes(unittest.TestCase):
         self.assertTrue(meshrepair.check(repaired.vertices.array[0], repaired.faces.array[0]))
         self.assertRegex(report, r"^2,\d\d\d triangles, \d parts, volume 3\.\d+")
         self.assertIsNotNone(given.uvs)
+
+    def test_half_precision_does_not_round_the_solid(self):
+        given = self.broken()
+        given.vertices = Tensor((given.vertices.array + 37.3).astype(np.float16))
+        repaired, _ = called("MeshrepairMesh", mesh=given)
+        self.assertEqual(repaired.vertices.array.dtype, np.float32)
+        self.assertTrue(meshrepair.check(repaired.vertices.array[0], repaired.faces.array[0]))
 
     def test_it_has_as_many_triangles_as_asked(self):
         repaired, _ = called("MeshrepairMesh", mesh=self.broken(), purpose="print", triangles=500)

@@ -54,6 +54,15 @@ class Action(unittest.TestCase):
         self.assertEqual(last, "7 of 10 meshes bound solids")
         self.assertEqual([line.split(": ")[0] for line in lines], ["a b/br,ok:en%|.stl", "bowl.ply", "none.stl"])
         self.assertEqual(lines[1], "bowl.ply: open edges: 64, first at (0.990393, 0.097545, 0)")
+        self.assertIn("pointer of Git LFS", lines[2])
+
+    def test_no_mesh_is_overwritten_and_folders_are_made_first(self):
+        before = (self.folder / "bowl.ply").read_bytes()
+        done = self.run_command([ACTION / "check_meshes.py", "--repair", ".", "./bowl.ply"])
+        self.assertEqual((done.returncode, (self.folder / "bowl.ply").read_bytes()), (1, before))
+        self.assertIn("is a mesh to check, and is not overwritten", done.stdout)
+        done = self.run_command([ACTION / "check_meshes.py", "--pages", "bowl.ply"])
+        self.assertEqual((done.returncode, done.stderr), (2, "check_meshes.py: bowl.ply: File exists\n"))
 
     def test_on_github_files_are_annotated_and_the_summary_has_a_table(self):
         summary = self.folder / "summary.md"
@@ -68,7 +77,7 @@ class Action(unittest.TestCase):
         self.assertEqual(len(list((self.folder / "pages").iterdir())), 2)
         for fixed in (self.folder / "fixed").iterdir():
             self.assertEqual(self.run_command(["meshcheck", "--quiet", fixed]).returncode, 0)
-        self.assertEqual(sorted(path.name for path in (self.folder / "fixed").iterdir()), ["a b%2Fbr,ok:en%25|.stl", "bowl.ply"])
+        self.assertEqual(sorted(path.name for path in (self.folder / "fixed").iterdir()), ["a b%2Fbr,ok%3Aen%25%7C.stl", "bowl.ply"])
 
     def test_sound_meshes_end_with_0(self):
         done = self.run_command([ACTION / "check_meshes.py", "--", *SOUND])
@@ -77,6 +86,7 @@ class Action(unittest.TestCase):
     def test_without_programs_or_a_repository_it_says_so(self):
         done = self.run_command([sys.executable, ACTION / "check_meshes.py", "1.stl"], PATH="/nowhere")
         self.assertIn("meshcheck is not in PATH", done.stderr)
+        self.assertEqual(done.returncode, 2)
         with tempfile.TemporaryDirectory() as name:
             done = self.run_command([ACTION / "check_meshes.py"], GIT_DIR=name)
         self.assertIn("not in a repository", done.stderr)
@@ -92,7 +102,7 @@ class Action(unittest.TestCase):
 
     def test_the_hook_of_pre_commit_is_there_and_takes_meshes(self):
         hook, = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
-        self.assertTrue(os.access(ROOT / hook["entry"], os.X_OK))
+        self.assertTrue(os.access(ROOT / hook["entry"].split()[0], os.X_OK))
         self.assertTrue(all(re.search(hook["files"], name) for name in (*SOUND, *BROKEN)))
         self.assertFalse(re.search(hook["files"], "notes.txt"))
 

@@ -27,6 +27,12 @@ function companionsOf(target) {
   return fs.readdirSync(dir).filter((name) => name !== base && isOne(plain(name))).map((name) => path.join(dir, name));
 }
 
+// Names that a call claims while it writes: no other call may write the same mesh, or the same materials.
+export function claimsOf(target) {
+  const {dir, base} = path.parse(target);
+  return /\.obj(\.|$)/i.test(base) ? [target, path.join(dir, `${base.replace(/\.obj.*$/i, '').toLowerCase()}.mtl`)] : [target];
+}
+
 function entriesOf(folder) {
   try {
     return fs.readdirSync(folder, {withFileTypes: true}).sort((a, b) => (a.name < b.name ? -1 : 1));
@@ -84,7 +90,7 @@ export class Folders {
     if (this.known.includes(name) || /[/\\]$/.test(text)) throw new Refused(`${text}: is a folder`);
     if (process.platform === 'win32' && WINDOWS_DEVICE.test(base)) throw new Refused(`${text}: is a device`);
     const target = path.join(this.folder(text, path.dirname(name)), base);
-    if (this.claimed.has(target)) throw new Refused(`${text}: another call is writing it`);
+    if (claimsOf(target).some((name) => this.claimed.has(name))) throw new Refused(`${text}: another call is writing it`);
     for (const each of [target, ...companionsOf(target)]) {
       const status = fs.lstatSync(each, {throwIfNoEntry: false});
       if (!status) continue;
@@ -98,14 +104,16 @@ export class Folders {
   // Meshes and points, without following links: {files: [{path, bytes}], isWhole}.
   list(start) {
     const files = [];
-    const waiting = start ? [start] : [...this.folders].reverse();
+    const isStill = (folder) => fs.realpathSync.native(folder) === folder;  // it may have become a link meanwhile
+    const waiting = start ? [start] : this.folders.filter((folder) => fs.existsSync(folder) && isStill(folder)).reverse();
     let looked = 0;
     for (let folder; (folder = waiting.pop()) !== undefined;) {
       const entries = entriesOf(folder);
       for (const entry of entries) {
         if (++looked > MOST_ENTRIES || files.length >= MOST_FILES) return {files, isWhole: false};
         const name = path.join(folder, entry.name);
-        if (entry.isFile() && MESH_NAME.test(entry.name)) files.push({path: name, bytes: fs.lstatSync(name).size});
+        const status = entry.isFile() && MESH_NAME.test(entry.name) && fs.lstatSync(name, {throwIfNoEntry: false});
+        if (status) files.push({path: name, bytes: status.size});  // not every name is text
       }
       waiting.push(...entries.filter((entry) => entry.isDirectory() && !/^\.|^node_modules$/.test(entry.name))
                        .map(({name}) => path.join(folder, name)).reverse());

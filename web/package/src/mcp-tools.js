@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The tools of `meshrepair mcp`: what a client may ask for, and the words of the programs that this becomes. Only options that a schema
 // names reach a program, in the form --name=value; paths are absolute.
-import {Refused} from './mcp-folders.js';
+import {Refused, claimsOf} from './mcp-folders.js';
 
 const MOST_IN_A_LIST = 20;  // of a report
 const OF_NO_USE = ['command', 'report_version', 'stages', 'peak_memory_bytes', 'picture'];
@@ -174,9 +174,10 @@ export async function call(tool, from, {folders, runs, maxFile, signal, progress
   const paths = {
     input: (text) => folders.input(text, maxFile),
     output: (text, overwrite) => {
-      written.push(folders.output(text, overwrite === true));
-      folders.claimed.add(written[0]);
-      return written[0];
+      const target = folders.output(text, overwrite === true);
+      written.push(...claimsOf(target));
+      written.forEach((name) => folders.claimed.add(name));
+      return target;
     },
   };
   try {
@@ -187,6 +188,6 @@ export async function call(tool, from, {folders, runs, maxFile, signal, progress
     if (!(error instanceof Refused) && !error.syscall) throw error;
     return {content: [{type: 'text', text: error.message}], isError: true};
   } finally {
-    written.forEach((target) => folders.claimed.delete(target));
+    written.forEach((name) => folders.claimed.delete(name));
   }
 }
