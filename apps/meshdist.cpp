@@ -140,9 +140,9 @@ void report_comparisons(const Options& options, std::vector<Json> comparisons, R
 }
 
 ExitCode measure(Options& options, Run& run) {
-  run.report.set_input({{"a", options.first}, {"b", options.others.front()}});
-  if (options.others.size() > 1)
-    run.report.set_input({{"a", options.first}, {"b", options.others}});
+  Json b = options.others.front();
+  if (options.others.size() > 1) b = options.others;
+  run.report.set_input({{"a", options.first}, {"b", std::move(b)}});
   check_all_files(options, run);
   options.distance.progress = &run.progress;
   std::string lines;
