@@ -224,6 +224,7 @@ ExitCode combine_files(BoolOptions options, Run& run) {
   Json facts = Json::array();
   Operands operands;
   Intake intake{CommonUnit(options), CommonOrigin(options.command.step.origin, format.format), {}};
+  check_inputs(options.command.inputs);
   for (const std::string& name : options.command.inputs) {
     Operand operand = take_operand(options, name, run, facts, intake);
     if (options.carries_attributes) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // meshdist A B...: how far meshes are from the first of them.
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -96,19 +95,14 @@ void write_page_stage(const Options& options, const Read& first, const std::vect
 }
 
 void check_all_files(const Options& options, Run& run) {
-  std::vector<std::string> files = options.others;
-  files.push_back(options.first);
+  std::vector<std::string> files = {options.first};
+  files.insert(files.end(), options.others.begin(), options.others.end());
   if (std::count(files.begin(), files.end(), "-") > 1) {
     throw UsageError("only one of the meshes can be standard input");
   }
-  for (const std::string& file : files) {
-    check_files(file, "", run);
-    // Before the work on those that stand before it.
-    if (file != "-" && !std::filesystem::exists(file)) {
-      throw InputError(file + ": cannot be opened: No such file or directory");
-    }
-  }
+  for (const std::string& file : files) check_files(file, "", run);
   check_html(options.html, files, run);
+  check_inputs(files);
 }
 
 Other compare(const Options& options, const Read& first, const std::string& file, Run& run,

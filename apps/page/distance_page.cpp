@@ -25,12 +25,15 @@ struct DrawnDistances {
   std::vector<double> distances;  // of its points
 };
 
-DrawnDistances drawn_distances(double diagonal, const TriangleSoup& soup, const TriangleSoup& other,
-                               std::size_t most, Run& run) {
-  DrawnDistances all;
-  all.drawn = drawn_mesh(soup, {}, {}, most);
-  all.drawn.soup = split_edges(std::move(all.drawn.soup), kLongestEdge * diagonal,
-                               std::min(most, all.drawn.soup.triangles.size() + kMostDivided));
+DrawnMesh divided_mesh(double diagonal, const TriangleSoup& soup, std::size_t most) {
+  DrawnMesh drawn = drawn_mesh(soup, {}, {}, most);
+  drawn.soup = split_edges(std::move(drawn.soup), kLongestEdge * diagonal,
+                           std::min(most, drawn.soup.triangles.size() + kMostDivided));
+  return drawn;
+}
+
+DrawnDistances with_distances(DrawnMesh drawn, const TriangleSoup& other, Run& run) {
+  DrawnDistances all{std::move(drawn), {}};
   all.distances = point_distances(all.drawn.soup.points, other, &run.progress);
   return all;
 }
@@ -71,12 +74,13 @@ void write_distance_page_stage(const HtmlRequest& request, DistancePage page, Ru
   if (!request.wanted()) return;
   run.progress.stage("html");
   const TriangleSoup& a = page.a.soup;
+  const double diagonal = page.others.front().distance.diagonal;  // of A
+  const DrawnMesh divided_a = divided_mesh(diagonal, a, request.most_triangles);
   std::vector<DrawnDistances> drawn;  // A and the other, of each pair
   double most = 0;
   for (const auto& [b, distance] : page.others) {
-    const double diagonal = distance.diagonal;
-    drawn.push_back(drawn_distances(diagonal, a, b.soup, request.most_triangles, run));
-    drawn.push_back(drawn_distances(diagonal, b.soup, a, request.most_triangles, run));
+    drawn.push_back(with_distances(divided_a, b.soup, run));
+    drawn.push_back(with_distances(divided_mesh(diagonal, b.soup, request.most_triangles), a, run));
     most = std::max(most, distance.largest());
   }
   // A point that is drawn may be farther than all samples.

@@ -23,7 +23,7 @@ struct DistancePage {
     const MeshDistance& distance;  // between A and it
   };
   Mesh a;
-  std::vector<Compared> others;  // one of them is shown beside A at a time
+  std::vector<Compared> others;  // one at least; one of them is shown beside A at a time
   View::Up up = View::Up::z;
   std::optional<LengthUnit> unit;
   Json report;  // the sections of the report, for the page

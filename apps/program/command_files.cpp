@@ -44,6 +44,14 @@ void check_files(const std::string& input, const std::string& output, Run& run) 
   if (output != "-") check_folder(output);
 }
 
+void check_inputs(const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (input == "-" || fs::status(input, error).type() != fs::file_type::not_found) continue;
+    throw InputError(input + ": cannot be opened: " + error.default_error_condition().message());
+  }
+}
+
 void check_folder(const std::string& file) {
   const fs::path folder = fs::path(file).parent_path();
   std::error_code error;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be said of the files of a command before hours of work: whether they can be written, and
-// whether two names lead to one file.
+// What can be said of the files of a command before hours of work: whether they are there or can be
+// written, and whether two names lead to one file.
 #pragma once
 
 #include <string>
@@ -18,6 +18,8 @@ namespace meshrepair {
 // Throws UsageError where the report is the input or the output, too, and withholds it; OutputError
 // where the output cannot be.
 void check_files(const std::string& input, const std::string& output, Run& run);
+// Of several inputs: throws InputError where one is not there, before the work on those before it.
+void check_inputs(const std::vector<std::string>& inputs);
 
 // Throws OutputError where there is no folder for this file, or there is one of its name.
 void check_folder(const std::string& file);

@@ -27,10 +27,7 @@ import tempfile
 import urllib.parse
 
 EXTENSIONS = ("stl", "obj", "off", "ply", "glb", "gltf", "3mf")
-WORDS = {"open_edges": "open edges", "nonmanifold_edges": "non-manifold edges", "nonmanifold_vertices": "non-manifold vertices",
-         "inconsistent_edges": "edges with inconsistent orientation", "inside_out_parts": "parts that are inside out",
-         "self_intersections": "intersecting pairs of triangles", "degenerate_triangles": "degenerate triangles",
-         "duplicate_triangles": "duplicate triangles", "not_finite_triangles": "triangles with NaN or infinity"}
+HARMLESS = "unused_points"
 LFS_POINTER = b"version https://git-lfs.github.com/"
 MOST_BYTES_OF_A_NAME = 200
 USAGE = 2
@@ -56,7 +53,7 @@ def place(first: dict) -> str:
 
 
 def defects(check: dict) -> str:
-    found = [(WORDS[key], defect) for key, defect in check["defects"].items() if key in WORDS and defect["count"] > 0]
+    found = [(key.replace("_", " "), defect) for key, defect in check["defects"].items() if key != HARMLESS and defect["count"] > 0]
     return "; ".join(f"{words}: {defect['count']:,}{place((defect.get('first') or [{}])[0])}" for words, defect in found)
 
 

@@ -102,6 +102,10 @@ class Nodes(unittest.TestCase):
         repaired, _ = called("MeshrepairMesh", mesh=self.broken(), max_error=1.0)
         self.assertLess(len(repaired.faces.array[0]), 1500)
 
+    def test_all_purposes_are_those_of_the_programs(self):
+        for purpose in nodes().PURPOSES:
+            called("MeshrepairMesh", mesh=self.broken(), purpose=purpose)
+
     def test_a_batch_is_refused(self):
         given = self.broken()
         given.vertices = Tensor(np.repeat(given.vertices.array, 2, axis=0))

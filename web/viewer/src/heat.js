@@ -23,8 +23,8 @@ export function pairSlider(page, change) {
     const {name, triangles} = page.meshes[2 * i + 1];
     label.textContent = `B ${i + 1} of ${pairs}: ${name}, ${grouped(triangles)} triangles`;
   };
-  const range = make('input', {type: 'range', min: '0', max: String(pairs - 1), step: '1', value: '0', 'data-tool': 'pair', 'aria-label': 'Which B',
-    oninput: () => {
+  const range = make('input', {type: 'range', min: '0', max: String(pairs - 1), step: '1', value: '0', 'data-tool': 'pair',
+    'aria-label': 'Which B', oninput: () => {
       show(Number(range.value));
       change(Number(range.value));
     }});

@@ -2,9 +2,10 @@
 // The page: reads what is embedded in it, and shows it.
 //
 // The element "facts" has JSON: program, version, subject (a key of words.js), up, units, grid, looks (of defects), meshes, left_out and
-// report; of a Boolean operation also operands, of distances also ways and scale, and a pair of meshes for each B. A mesh has its role, name, triangles, points, shown,
-// simplified, has_values, not_finite, size, kinds, places, part_places, objects, check (null: it was not checked) and looks (null: it
-// has none). Its triangles are in "mesh-0" or "mesh-1", its looks in "looks-0" or "looks-1", pictures in "picture-0" and so on.
+// report; of a Boolean operation also operands, of distances also ways and scale, with a pair of meshes for each B. A mesh has its role,
+// name, triangles, points, shown, simplified, has_values, not_finite, size, kinds, places, part_places, objects, check (null: it was not
+// checked) and looks (null: it has none). Its triangles are in "mesh-0", "mesh-1" and so on, its looks in "looks-0", pictures in
+// "picture-0".
 import {decodeMesh} from './decode.js';
 import {button, make} from './dom.js';
 import {decodeLooks, decodePicture, Looks} from './looks.js';
