@@ -30,6 +30,9 @@ class TreeBuilder {
     nodes_[node] = {Box(), first, count, 0};
     const std::uint32_t leaves = leaves_of(count);
     if (leaves == 1) {
+      // Else the order in a leaf would be that of nth_element(), which libraries choose.
+      std::sort(entries_.begin() + first, entries_.begin() + first + count,
+                [](const Entry& a, const Entry& b) { return a.item < b.item; });
       for (std::uint32_t i = first; i < first + count; ++i) {
         nodes_[node].box.add(boxes_[entries_[i].item]);
       }

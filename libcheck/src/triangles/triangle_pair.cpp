@@ -229,7 +229,9 @@ Meeting meeting_of(const CornerTriangle& a, const CornerTriangle& b) {
 }
 
 bool nearly_overlap(const CornerTriangle& a, const CornerTriangle& b, double distance) {
-  if (is_outside_a_side(a, b, b.axis) || is_outside_a_side(b, a, b.axis)) return false;
+  for (const int axis : {a.axis, b.axis}) {
+    if (is_outside_a_side(a, b, axis) || is_outside_a_side(b, a, axis)) return false;
+  }
   return is_near_plane(a, b, distance) || is_near_plane(b, a, distance);
 }
 

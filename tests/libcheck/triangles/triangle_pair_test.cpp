@@ -39,6 +39,25 @@ TEST(TrianglePair, PairsWithoutSharedCornersAreDecided) {
   EXPECT_EQ(with_flat({Vec3d(-1, 1, 0), {5, 1, 0}, {0, 1, 9}}), Meeting::touching);
 }
 
+// Nearly in one plane that leans against all axes, where these may differ.
+TEST(TrianglePair, WhetherTheyNearlyOverlapDependsOnNoOrder) {
+  Random random(1);
+  std::size_t overlapping = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto place = [&] {
+      const double u = random.real(0, 1), v = random.real(0, 1);
+      return Vec3d(u, v, 1e-3 * random.real(-1, 1) - u - v);
+    };
+    const CornerTriangle a = make({place(), place(), place()}, {0, 1, 2});
+    const CornerTriangle b = make({place(), place(), place()}, {3, 4, 5});
+    const bool overlap = nearly_overlap(a, b, 2e-3);
+    overlapping += overlap ? 1 : 0;
+    ASSERT_EQ(overlap, nearly_overlap(b, a, 2e-3)) << i;
+  }
+  EXPECT_GT(overlapping, 1000u);
+  EXPECT_LT(overlapping, 19000u);
+}
+
 TEST(TrianglePair, PairsInOnePlaneAreDecided) {
   EXPECT_EQ(with_flat({Vec3d(1, 1, 0), {2, 1, 0}, {1, 2, 0}}), Meeting::coplanar);
   EXPECT_EQ(with_flat({Vec3d(-9, -9, 0), {99, -9, 0}, {-9, 99, 0}}), Meeting::coplanar);
