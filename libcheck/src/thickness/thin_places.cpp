@@ -324,7 +324,8 @@ ThinReport find_thin_places(const TriangleSoup& soup, const ThinOptions& options
   const ThinSamples samples = finder.samples(options.progress);
   report.spacing = scale.back(finder.spacing());
   report.area = scale.back(scale.back(area_of(facing.triangles())));
-  report.thin_area = scale.back(scale.back(thin_area(samples)));
+  // The sum of all pieces may be rounded to more.
+  report.thin_area = std::min(scale.back(scale.back(thin_area(samples))), report.area);
   for (std::size_t k = 0; k < kThinKinds; ++k) {
     report.kinds[k] = in_units(
         internal::places_of(static_cast<ThinKind>(k), samples, facing.triangles(), finder.square()),
