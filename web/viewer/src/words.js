@@ -19,7 +19,12 @@ export const defectWords = {
 };
 
 // What the section of what is thin calls them.
-export const thinKinds = {thin_walls: 'walls', thin_pins: 'pins', narrow_gaps: 'gaps', sharp_edges: 'edges'};
+const thinKinds = {thin_walls: 'walls', thin_pins: 'pins', narrow_gaps: 'gaps', sharp_edges: 'edges'};
+
+// What a check has found of a kind: the count and the first places.
+export function foundOf(check, key) {
+  return check.defects[key] ?? check.thickness[thinKinds[key]];
+}
 
 // What a page is about, and what is said of it then.
 const subjects = {
