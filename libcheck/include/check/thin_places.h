@@ -45,7 +45,7 @@ inline constexpr std::size_t kThinKinds = 4;
 
 // Connected, of one kind. Units are those of the soup.
 struct ThinPlace {
-  Vec3d at = Vec3d::Zero();    // of all samples the one where it is thinnest
+  Vec3d at = Vec3d::Zero();    // the sample where it is thinnest, but for the least area
   std::uint32_t triangle = 0;  // in which that lies
   double thickness = 0;        // there
   double area = 0;             // of the surface; of a wall that of both sides
@@ -85,9 +85,13 @@ struct ThinReport {
 // it.
 //
 // Pieces of one kind are connected where they share a corner, or where the ball at the one touches
-// the other. The soup need not be closed: what is told is about the triangles that are there.
-// Triangles without an area, or not finite, are left out. Faces that are nearer than the rounding
-// of their coordinates count as one, and not as thin.
+// the other. The least area of a place is 0.01 limit^2, but at most a thousandth of the surface.
+// Smaller places are left out, and where a place is thinnest, as much of its area is passed over:
+// many meshes have folded slivers, which are thinner than all that matters.
+//
+// The soup need not be closed: what is told is about the triangles that are there. Triangles
+// without an area, or not finite, are left out. Faces that are nearer than the rounding of their
+// coordinates count as one, and not as thin.
 //
 // Numbers are rounded, but the same for any number of threads, any order of triangles, and if the
 // soup is moved without rounding or scaled by a power of two. n log n but for pairs of triangles

@@ -50,6 +50,11 @@ constexpr double kSideways = 0.7;
 // neighbour of the triangles that it touches.
 constexpr double kSegmentLow = 0.01, kSegmentHigh = 0.99;
 
+// Of the square of the limit, and of the surface: the lesser is the least area of a place. Meshes
+// have slivers whose normals are rounded to any direction, so that they are folded over, and these
+// are as thin as they are narrow.
+constexpr double kLeastOfLimit = 0.01, kLeastOfSurface = 0.001;
+
 constexpr std::size_t kTrianglesPerTask = 256;
 // A few milliseconds of work.
 constexpr std::size_t kPiecesPerQuestion = 256;
@@ -250,14 +255,15 @@ double diagonal_of(std::span<const MeasuredTriangle> triangles) {
   return box.diagonal();
 }
 
-// Samples of one piece come one after the other.
+// Samples of one piece, of which there are two at most, come one after the other.
 double thin_area(const ThinSamples& samples) {
   std::vector<double> areas;
   areas.reserve(samples.size());
   for (std::size_t s = 0; s < samples.size(); ++s) {
-    const bool is_counted = s > 0 && samples[s - 1].triangle == samples[s].triangle &&
+    const bool is_counted = s > 0 && samples[s - 1].is_told &&
+                            samples[s - 1].triangle == samples[s].triangle &&
                             samples[s - 1].path == samples[s].path;
-    if (!is_counted) areas.push_back(samples[s].area);
+    if (samples[s].is_told && !is_counted) areas.push_back(samples[s].area);
   }
   return internal::sum_of(std::move(areas));
 }
@@ -289,6 +295,7 @@ ThinPlaces in_units(std::vector<ThinPlace> places, std::size_t most, const UnitS
 void mark(const ThinSamples& samples, std::span<const MeasuredTriangle> triangles,
           std::vector<std::uint8_t>& marks) {
   for (const ThinSample& sample : samples) {
+    if (!sample.is_told) continue;
     marks[triangles[sample.triangle].id] |=
         static_cast<std::uint8_t>(1U << static_cast<unsigned>(sample.kind));
   }
@@ -319,18 +326,22 @@ ThinReport find_thin_places(const TriangleSoup& soup, const ThinOptions& options
   const double diagonal = diagonal_of(facing.triangles());
   report.limit = options.is_share ? options.limit * scale.back(diagonal) : options.limit;
   if (facing.triangles().empty()) return report;
-  const double limit = options.is_share ? options.limit * diagonal : scale(options.limit);
-  const ThinPlacesFinder finder(facing, std::min(limit, kLargestLimit * diagonal));
-  const ThinSamples samples = finder.samples(options.progress);
+  const double limit = std::min(options.is_share ? options.limit * diagonal : scale(options.limit),
+                                kLargestLimit * diagonal);
+  const ThinPlacesFinder finder(facing, limit);
+  ThinSamples samples = finder.samples(options.progress);
+  const double area = area_of(facing.triangles());
+  const double least_area = std::min(kLeastOfLimit * limit * limit, kLeastOfSurface * area);
+  for (std::size_t k = 0; k < kThinKinds; ++k) {
+    report.kinds[k] =
+        in_units(internal::find_places(static_cast<ThinKind>(k), samples, facing.triangles(),
+                                       finder.square(), least_area),
+                 options.most_places, scale);
+  }
   report.spacing = scale.back(finder.spacing());
-  report.area = scale.back(scale.back(area_of(facing.triangles())));
+  report.area = scale.back(scale.back(area));
   // The sum of all pieces may be rounded to more.
   report.thin_area = std::min(scale.back(scale.back(thin_area(samples))), report.area);
-  for (std::size_t k = 0; k < kThinKinds; ++k) {
-    report.kinds[k] = in_units(
-        internal::places_of(static_cast<ThinKind>(k), samples, facing.triangles(), finder.square()),
-        options.most_places, scale);
-  }
   if (options.mark_triangles) mark(samples, facing.triangles(), report.marks);
   return report;
 }

@@ -2,6 +2,7 @@
 #include "thin_samples.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -50,9 +51,18 @@ void join_sides(const ThinSamples& samples, const Numbers& numbers,
   }
 }
 
-bool is_thinner(const ThinPlace& a, const ThinPlace& b) {
-  return std::tuple(a.thickness, a.at.x(), a.at.y(), a.at.z(), a.area) <
-         std::tuple(b.thickness, b.at.x(), b.at.y(), b.at.z(), b.area);
+// The place of samples that are sorted, the thinnest first; nothing if it is too small.
+std::optional<ThinPlace> place_of(const ThinSamples& samples, std::span<const std::uint32_t> sorted,
+                                  std::span<const MeasuredTriangle> triangles, double least_area) {
+  std::optional<ThinPlace> place;
+  double area = 0;
+  for (const std::uint32_t s : sorted) {
+    area += samples[s].area;
+    if (place || area < least_area) continue;
+    place = {samples[s].at, triangles[samples[s].triangle].id, samples[s].contact.diameter, 0};
+  }
+  if (place) place->area = area;
+  return place;
 }
 
 }  // namespace
@@ -64,28 +74,36 @@ double sum_of(std::vector<double> values) {
   return sum;
 }
 
-std::vector<ThinPlace> places_of(ThinKind kind, const ThinSamples& samples,
-                                 std::span<const MeasuredTriangle> triangles, double square) {
-  const Numbers numbers = samples_of(kind, samples);
+std::vector<ThinPlace> find_places(ThinKind kind, ThinSamples& samples,
+                                   std::span<const MeasuredTriangle> triangles, double square,
+                                   double least_area) {
+  Numbers numbers = samples_of(kind, samples);
   DisjointSets sets(numbers.size());
   join_neighbours(samples, numbers, sets);
   join_sides(samples, numbers, triangles, square, sets);
-  std::vector<std::pair<std::uint32_t, double>> areas(numbers.size());  // by root
-  std::vector<ThinPlace> of_root(numbers.size());
-  for (std::uint32_t i = 0; i < numbers.size(); ++i) {
-    const ThinSample& sample = samples[numbers[i]];
-    const std::uint32_t root = sets.root(i);
-    areas[i] = {root, sample.area};
-    const ThinPlace place{sample.at, triangles[sample.triangle].id, sample.contact.diameter, 0};
-    if (root == i || is_thinner(place, of_root[root])) of_root[root] = place;
-  }
-  std::sort(areas.begin(), areas.end());  // so that sums do not depend on the order of samples
-  for (const auto& [root, area] : areas) of_root[root].area += area;
+  const auto order = [](const ThinSample& sample) {
+    return std::tuple(sample.contact.diameter, sample.at.x(), sample.at.y(), sample.at.z(),
+                      sample.area);
+  };
+  Numbers root(samples.size());
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) root[numbers[i]] = sets.root(i);
+  std::sort(numbers.begin(), numbers.end(), [&](std::uint32_t s, std::uint32_t t) {
+    if (root[s] != root[t]) return root[s] < root[t];
+    return order(samples[s]) < order(samples[t]);
+  });
   std::vector<ThinPlace> places;
-  for (std::uint32_t i = 0; i < numbers.size(); ++i) {
-    if (sets.root(i) == i) places.push_back(of_root[i]);
+  for (auto begin = numbers.begin(); begin != numbers.end();) {
+    const auto end = std::find_if(begin, numbers.end(),
+                                  [&](std::uint32_t s) { return root[s] != root[*begin]; });
+    const auto place = place_of(samples, {begin, end}, triangles, least_area);
+    if (place) places.push_back(*place);
+    if (!place) std::for_each(begin, end, [&](std::uint32_t s) { samples[s].is_told = false; });
+    begin = end;
   }
-  std::sort(places.begin(), places.end(), is_thinner);
+  std::sort(places.begin(), places.end(), [](const ThinPlace& a, const ThinPlace& b) {
+    return std::tuple(a.thickness, a.at.x(), a.at.y(), a.at.z(), a.area) <
+           std::tuple(b.thickness, b.at.x(), b.at.y(), b.at.z(), b.area);
+  });
   return places;
 }
 

@@ -22,6 +22,7 @@ struct ThinSample {
   std::uint32_t triangle = 0;  // a position in FacingTriangles::triangles()
   ThinKind kind = ThinKind::wall;
   Contact contact;
+  bool is_told = true;
 };
 
 // By triangle, path and kind.
@@ -31,9 +32,10 @@ using ThinSamples = std::vector<ThinSample>;
 [[nodiscard]] double sum_of(std::vector<double> values);
 
 // All of one kind, the thinnest first; areas and lengths as in the samples. `square` is that of
-// Piece::is_to_halve().
-[[nodiscard]] std::vector<ThinPlace> places_of(ThinKind kind, const ThinSamples& samples,
-                                               std::span<const MeasuredTriangle> triangles,
-                                               double square);
+// Piece::is_to_halve(). The samples of places with less than `least_area` are told no more; so much
+// of the area of the others is no thicker than they say.
+[[nodiscard]] std::vector<ThinPlace> find_places(ThinKind kind, ThinSamples& samples,
+                                                 std::span<const MeasuredTriangle> triangles,
+                                                 double square, double least_area);
 
 }  // namespace meshrepair::internal

@@ -306,6 +306,22 @@ TEST(ThinPlaces, FacesThatCoincideAreNotThin) {
   EXPECT_EQ(counts(thin(soup, 1)), kNothing);
 }
 
+TEST(ThinPlaces, FoldedSliversAreNoPlaces) {
+  // In the upper side of a cube, a sliver whose corner is rounded across its long side.
+  TriangleSoup soup = box({0, 0, 0}, {10, 10, 10});
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  soup.points.emplace_back(2, 5, 10);
+  soup.points.emplace_back(8, 5, 10);
+  soup.points.emplace_back(5, 5 + 1e-9, 10 + 1e-9);
+  soup.triangles.push_back({first, first + 2, first + 1});
+  EXPECT_EQ(counts(thin(soup, 1)), kNothing);
+  // Nor do they say how thin a wall is.
+  for (Vec3d& p : soup.points) p.z() /= 16;
+  const ThinReport report = thin(soup, 1);
+  EXPECT_EQ(counts(report), kOneWall);
+  EXPECT_DOUBLE_EQ(report[ThinKind::wall].first[0].thickness, 0.625);
+}
+
 TEST(ThinPlaces, LimitFarBelowTheSizeTakesNoLongTime) {
   const ThinReport report = thin(placed(box({0, 0, 0}, {1, 1, 1e-7}), 5), 2e-7);
   EXPECT_EQ(report[ThinKind::wall].count, 1U);
