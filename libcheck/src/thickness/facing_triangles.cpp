@@ -26,7 +26,7 @@ namespace {
 
 // Of the largest coordinate: each one was rounded when it was made, and so are a normal, a
 // difference and three products on the way to a distance from a plane. What is nearer is not apart.
-constexpr double kRounding = 0x1p-49;
+constexpr double kCoordinateRounding = 0x1p-49;
 // Of cosines, and of squares of distances, far above what is rounded: some boxes are opened in
 // vain, and whether a ball is found does not depend on the order in which they are.
 constexpr double kSlack = 0x1p-40;
@@ -49,16 +49,6 @@ RawVector<Box> boxes_of(std::span<const MeasuredTriangle> triangles) {
 }
 
 constexpr auto kAnyOrder = [](std::uint32_t) { return 0; };
-
-double squared_distance_to_box(const Vec3d& p, const Box& box) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = p[static_cast<Eigen::Index>(k)];
-    const double beyond = std::max({box.low[k] - x, x - box.high[k], 0.0});
-    sum += beyond * beyond;
-  }
-  return sum;
-}
 
 // The least product of the vector with a point of the box.
 double least_product(const Vec3d& v, const Box& box) {
@@ -123,7 +113,7 @@ struct Ball {
     const auto& corners = triangles[number].corners;
     const double apart = (corners[0] - point).dot(outward);
     const double size = std::max(point.cwiseAbs().maxCoeff(), corners[0].cwiseAbs().maxCoeff());
-    if (!(apart > kRounding * size)) return;
+    if (!(apart > kCoordinateRounding * size)) return;
     const double radius = apart / (1 + outward.dot(towards));
     if (!(2 * radius <= contact.diameter)) return;
     const Vec3d touched = point + radius * (towards + outward);
@@ -205,11 +195,11 @@ std::optional<Contact> FacingTriangles::contact(const Facing& facing, double lim
   Vec3d centre = facing.point + 0.5 * limit * towards;
   double square = 0.25 * limit * limit;
   const auto reaches = [&](std::uint32_t n) {
-    return squared_distance_to_box(centre, tree_.nodes()[n].box) < square * (1 + kSlack) &&
+    return tree_.nodes()[n].box.squared_distance(centre) < square * (1 + kSlack) &&
            least_product(facing.normal, normals_[n]) <= facing.most_cosine + kSlack;
   };
   const auto order = [&](std::uint32_t n) {
-    return squared_distance_to_box(facing.point, tree_.nodes()[n].box);
+    return tree_.nodes()[n].box.squared_distance(facing.point);
   };
   walk(reaches, order, [&](std::uint32_t t) {
     const MeasuredTriangle& triangle = triangles_[t];
@@ -231,7 +221,7 @@ bool FacingTriangles::may_have_contact(const Facing& facing, double radius, doub
   const double level = facing.point.dot(towards);
   bool found = false;
   const auto near = [&](const Box& box) {
-    return squared_distance_to_box(facing.point, box) <= reach * reach &&
+    return box.squared_distance(facing.point) <= reach * reach &&
            least_product(towards, box) <= level + limit + kSlack &&
            most_product(towards, box) >= level - kSlack;
   };
@@ -261,13 +251,11 @@ std::uint32_t FacingTriangles::nearest_sideways(const Vec3d& point, const Vec3d&
   double square = limit * limit;
   std::uint32_t nearest = kNone;
   const auto reaches = [&](std::uint32_t n) {
-    return squared_distance_to_box(point, tree_.nodes()[n].box) < square * (1 + kSlack) &&
+    return tree_.nodes()[n].box.squared_distance(point) < square * (1 + kSlack) &&
            least_product(normal, normals_[n]) <= most_cosine + kSlack &&
            most_product(normal, normals_[n]) >= -most_cosine - kSlack;
   };
-  const auto order = [&](std::uint32_t n) {
-    return squared_distance_to_box(point, tree_.nodes()[n].box);
-  };
+  const auto order = [&](std::uint32_t n) { return tree_.nodes()[n].box.squared_distance(point); };
   walk(reaches, order, [&](std::uint32_t t) {
     if (!(std::abs(normal.dot(triangles_[t].normal)) <= most_cosine)) return;
     const double found = squared_distance(point, triangles_[t].corners);

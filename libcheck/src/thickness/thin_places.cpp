@@ -21,8 +21,8 @@
 #include <mesh/mesh_parts.h>
 
 #include "facing_triangles.h"
-#include "pieces.h"
 #include "thin_samples.h"
+#include "triangle_piece.h"
 
 namespace meshrepair {
 namespace {
@@ -34,9 +34,9 @@ using internal::Hit;
 using internal::kOpposite;
 using internal::kWedge;
 using internal::MeasuredTriangle;
-using internal::Piece;
 using internal::ThinSample;
 using internal::ThinSamples;
+using internal::TrianglePiece;
 
 // Some seconds of work, and half a gigabyte if all of them are thin.
 constexpr double kMostPieces = 0x1p21;
@@ -141,7 +141,7 @@ class ThinPlacesFinder {
     return {point, triangle.normal, in_front, most_cosine};
   }
 
-  [[nodiscard]] Chances chances(const MeasuredTriangle& triangle, const Piece& piece,
+  [[nodiscard]] Chances chances(const MeasuredTriangle& triangle, const TrianglePiece& piece,
                                 Chances before) const {
     const Vec3d middle = piece.middle();
     double radius = 0;
@@ -158,7 +158,7 @@ class ThinPlacesFinder {
     double area = 0, length = 0;
     std::vector<double> areas, lengths;
     for (const MeasuredTriangle& triangle : facing_.triangles()) {
-      const Piece whole{triangle.corners};
+      const TrianglePiece whole{triangle.corners};
       if (!whole.is_to_halve(square()) || !chances(triangle, whole, {}).any()) continue;
       std::size_t begin = 0;
       areas.push_back(triangle.area);
@@ -169,7 +169,7 @@ class ThinPlacesFinder {
     while (4 * area / square() + 2 * length / spacing_ > kMostPieces) spacing_ *= 2;
   }
 
-  void add_pieces(std::uint32_t t, const Piece& piece, Chances before, std::size_t& steps,
+  void add_pieces(std::uint32_t t, const TrianglePiece& piece, Chances before, std::size_t& steps,
                   SharedProgress& progress, ThinSamples& samples) const {
     if (++steps % kPiecesPerQuestion == 0) progress.poll();
     const MeasuredTriangle& triangle = facing_.triangles()[t];
@@ -180,7 +180,8 @@ class ThinPlacesFinder {
     }
     const Chances here = chances(triangle, piece, before);
     if (!here.any()) return;
-    for (const Piece& half : piece.halves()) add_pieces(t, half, here, steps, progress, samples);
+    for (const TrianglePiece& half : piece.halves())
+      add_pieces(t, half, here, steps, progress, samples);
   }
 
   // Without the triangles between.
@@ -192,7 +193,7 @@ class ThinPlacesFinder {
     return between.triangle == kNone ? found : std::nullopt;
   }
 
-  void add_behind(std::uint32_t t, const Piece& piece, ThinSamples& samples) const {
+  void add_behind(std::uint32_t t, const TrianglePiece& piece, ThinSamples& samples) const {
     const MeasuredTriangle& triangle = facing_.triangles()[t];
     const Vec3d at = piece.middle();
     ThinKind kind = ThinKind::wall;
@@ -206,13 +207,13 @@ class ThinPlacesFinder {
     add(t, piece, kind, *found, samples);
   }
 
-  void add_in_front(std::uint32_t t, const Piece& piece, ThinSamples& samples) const {
+  void add_in_front(std::uint32_t t, const TrianglePiece& piece, ThinSamples& samples) const {
     const MeasuredTriangle& triangle = facing_.triangles()[t];
     const auto found = contact(facing(triangle, piece.middle(), true, kOpposite));
     if (found) add(t, piece, ThinKind::gap, *found, samples);
   }
 
-  void add(std::uint32_t t, const Piece& piece, ThinKind kind, const Contact& contact,
+  void add(std::uint32_t t, const TrianglePiece& piece, ThinKind kind, const Contact& contact,
            ThinSamples& samples) const {
     samples.push_back({piece.corners, piece.path, facing_.triangles()[t].area * piece.share(),
                        piece.middle(), t, kind, contact});

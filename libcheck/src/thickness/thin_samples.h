@@ -10,7 +10,7 @@
 #include <check/thin_places.h>
 
 #include "facing_triangles.h"
-#include "pieces.h"
+#include "triangle_piece.h"
 
 namespace meshrepair::internal {
 
@@ -32,8 +32,8 @@ using ThinSamples = std::vector<ThinSample>;
 [[nodiscard]] double sum_of(std::vector<double> values);
 
 // All of one kind, the thinnest first; areas and lengths as in the samples. `square` is that of
-// Piece::is_to_halve(). The samples of places with less than `least_area` are told no more; so much
-// of the area of the others is no thicker than they say.
+// TrianglePiece::is_to_halve(). The samples of places with less than `least_area` are told no more;
+// so much of the area of the others is no thicker than they say.
 [[nodiscard]] std::vector<ThinPlace> find_places(ThinKind kind, ThinSamples& samples,
                                                  std::span<const MeasuredTriangle> triangles,
                                                  double square, double least_area);

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <base/error.h>
 #include <base/parallel.h>
 #include <check/thin_places.h>
 #include <mesh/mesh_parts.h>
@@ -304,6 +306,19 @@ TEST(ThinPlaces, WhatIsNoTriangleIsLeftOut) {
 TEST(ThinPlaces, FacesThatCoincideAreNotThin) {
   const TriangleSoup soup = together(box({0, 0, 0}, {3, 3, 3}), box({0, 0, 3}, {3, 3, 6}));
   EXPECT_EQ(counts(thin(soup, 1)), kNothing);
+}
+
+class Canceller : public ProgressObserver {
+ public:
+  bool cancelled() override { return true; }
+};
+
+TEST(ThinPlaces, MayBeCancelled) {
+  Canceller canceller;
+  ThinOptions options;
+  options.limit = 1;
+  options.progress = &canceller;
+  EXPECT_THROW((void)find_thin_places(cube(), options), Cancelled);
 }
 
 TEST(ThinPlaces, FoldedSliversAreNoPlaces) {

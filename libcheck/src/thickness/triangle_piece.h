@@ -11,7 +11,7 @@
 
 namespace meshrepair::internal {
 
-struct Piece {
+struct TrianglePiece {
   // The pieces of a triangle are ascending, and none is on another's path.
   static constexpr int kMostDepth = 60;
 
@@ -26,7 +26,7 @@ struct Piece {
   [[nodiscard]] double longest_side(std::size_t& begin) const;
   // Before it is small enough: no side is longer than the square root of this.
   [[nodiscard]] bool is_to_halve(double square) const;
-  [[nodiscard]] std::array<Piece, 2> halves() const;
+  [[nodiscard]] std::array<TrianglePiece, 2> halves() const;
 };
 
 // The path of the piece that has this point of the triangle.
