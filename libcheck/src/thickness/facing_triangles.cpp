@@ -26,7 +26,7 @@ namespace {
 
 // Of the largest coordinate: each one was rounded when it was made, and so are a normal, a
 // difference and three products on the way to a distance from a plane. What is nearer is not apart.
-constexpr double kCoordinateRounding = 0x1p-49;
+constexpr double kPlaneRounding = 0x1p-49;
 // Of cosines, and of squares of distances, far above what is rounded: some boxes are opened in
 // vain, and whether a ball is found does not depend on the order in which they are.
 constexpr double kSlack = 0x1p-40;
@@ -113,7 +113,7 @@ struct Ball {
     const auto& corners = triangles[number].corners;
     const double apart = (corners[0] - point).dot(outward);
     const double size = std::max(point.cwiseAbs().maxCoeff(), corners[0].cwiseAbs().maxCoeff());
-    if (!(apart > kCoordinateRounding * size)) return;
+    if (!(apart > kPlaneRounding * size)) return;
     const double radius = apart / (1 + outward.dot(towards));
     if (!(2 * radius <= contact.diameter)) return;
     const Vec3d touched = point + radius * (towards + outward);
@@ -189,48 +189,49 @@ FacingTriangles::FacingTriangles(std::span<const MeasuredTriangle> triangles)
   }
 }
 
-std::optional<Contact> FacingTriangles::contact(const Facing& facing, double limit) const {
-  const Vec3d towards = facing.in_front ? facing.normal : Vec3d(-facing.normal);
-  Ball ball{triangles_, facing.point, towards, {limit, kNone, {}}};
-  Vec3d centre = facing.point + 0.5 * limit * towards;
+std::optional<Contact> FacingTriangles::contact(const TangentBalls& balls, double limit) const {
+  const Vec3d towards = balls.in_front ? balls.normal : Vec3d(-balls.normal);
+  Ball ball{triangles_, balls.point, towards, {limit, kNone, {}}};
+  Vec3d centre = balls.point + 0.5 * limit * towards;
   double square = 0.25 * limit * limit;
   const auto reaches = [&](std::uint32_t n) {
     return tree_.nodes()[n].box.squared_distance(centre) < square * (1 + kSlack) &&
-           least_product(facing.normal, normals_[n]) <= facing.most_cosine + kSlack;
+           least_product(balls.normal, normals_[n]) <= balls.most_cosine + kSlack;
   };
   const auto order = [&](std::uint32_t n) {
-    return tree_.nodes()[n].box.squared_distance(facing.point);
+    return tree_.nodes()[n].box.squared_distance(balls.point);
   };
   walk(reaches, order, [&](std::uint32_t t) {
     const MeasuredTriangle& triangle = triangles_[t];
-    if (!(facing.normal.dot(triangle.normal) <= facing.most_cosine)) return;
+    if (!(balls.normal.dot(triangle.normal) <= balls.most_cosine)) return;
     const double before = ball.contact.diameter;
-    ball.stop_at(t, facing.in_front ? Vec3d(-triangle.normal) : triangle.normal);
+    ball.stop_at(t, balls.in_front ? Vec3d(-triangle.normal) : triangle.normal);
     if (ball.contact.diameter == before) return;
     const double radius = 0.5 * ball.contact.diameter;
-    centre = facing.point + radius * towards;
+    centre = balls.point + radius * towards;
     square = radius * radius;
   });
   if (ball.contact.diameter >= limit) return std::nullopt;
   return ball.contact;
 }
 
-bool FacingTriangles::may_have_contact(const Facing& facing, double radius, double limit) const {
-  const Vec3d towards = facing.in_front ? facing.normal : Vec3d(-facing.normal);
+bool FacingTriangles::may_have_contact(const TangentBalls& balls, double radius,
+                                       double limit) const {
+  const Vec3d towards = balls.in_front ? balls.normal : Vec3d(-balls.normal);
   const double reach = (radius + limit) * (1 + kSlack);
-  const double level = facing.point.dot(towards);
+  const double level = balls.point.dot(towards);
   bool found = false;
   const auto near = [&](const Box& box) {
-    return box.squared_distance(facing.point) <= reach * reach &&
+    return box.squared_distance(balls.point) <= reach * reach &&
            least_product(towards, box) <= level + limit + kSlack &&
            most_product(towards, box) >= level - kSlack;
   };
   const auto reaches = [&](std::uint32_t n) {
     return !found && near(tree_.nodes()[n].box) &&
-           least_product(facing.normal, normals_[n]) <= facing.most_cosine + kSlack;
+           least_product(balls.normal, normals_[n]) <= balls.most_cosine + kSlack;
   };
   walk(reaches, kAnyOrder, [&](std::uint32_t t) {
-    if (found || !(facing.normal.dot(triangles_[t].normal) <= facing.most_cosine)) return;
+    if (found || !(balls.normal.dot(triangles_[t].normal) <= balls.most_cosine)) return;
     Box box;
     for (const Vec3d& p : triangles_[t].corners) box.add(p);
     found = near(box);

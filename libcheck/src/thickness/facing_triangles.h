@@ -26,7 +26,7 @@ inline constexpr double kOpposite = -0.9;
 inline constexpr double kWedge = -0.4;
 
 // Where the balls of a point are, and which triangles stop them.
-struct Facing {
+struct TangentBalls {
   Vec3d point;
   Vec3d normal;        // of the triangle that they touch at the point
   bool in_front;       // of that triangle
@@ -54,11 +54,11 @@ class FacingTriangles {
   [[nodiscard]] std::span<const MeasuredTriangle> triangles() const { return triangles_; }
 
   // What stops the ball before its diameter is `limit`; nothing where none does.
-  [[nodiscard]] std::optional<Contact> contact(const Facing& facing, double limit) const;
+  [[nodiscard]] std::optional<Contact> contact(const TangentBalls& balls, double limit) const;
 
   // Whether a ball that touches the triangle in this radius around the point may be stopped before
   // its diameter is `limit`.
-  [[nodiscard]] bool may_have_contact(const Facing& facing, double radius, double limit) const;
+  [[nodiscard]] bool may_have_contact(const TangentBalls& balls, double radius, double limit) const;
 
   // The first one for t from `low` to below `high`; without a triangle at `high` where there is
   // none.

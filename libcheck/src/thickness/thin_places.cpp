@@ -28,18 +28,18 @@ namespace meshrepair {
 namespace {
 
 using internal::Contact;
-using internal::Facing;
 using internal::FacingTriangles;
 using internal::Hit;
 using internal::kOpposite;
 using internal::kWedge;
 using internal::MeasuredTriangle;
+using internal::TangentBalls;
 using internal::ThinSample;
 using internal::ThinSamples;
 using internal::TrianglePiece;
 
 // Some seconds of work, and half a gigabyte if all of them are thin.
-constexpr double kMostPieces = 0x1p21;
+constexpr double kMostThinPieces = 0x1p21;
 // A larger ball is as good as a plane: of the diagonal of the bounding box.
 constexpr double kLargestLimit = 1024;
 // A pin is at most so many times as wide as it is thick.
@@ -55,7 +55,7 @@ constexpr double kSegmentLow = 0.01, kSegmentHigh = 0.99;
 // are as thin as they are narrow.
 constexpr double kLeastOfLimit = 0.01, kLeastOfSurface = 0.001;
 
-constexpr std::size_t kTrianglesPerTask = 256;
+constexpr std::size_t kSampledPerTask = 256;
 // A few milliseconds of work.
 constexpr std::size_t kPiecesPerQuestion = 256;
 
@@ -116,9 +116,9 @@ class ThinPlacesFinder {
   [[nodiscard]] double square() const { return spacing_ * spacing_; }
 
   [[nodiscard]] ThinSamples samples(ProgressObserver* progress) const {
-    SharedProgress shared(progress, tasks_of(facing_.triangles().size(), kTrianglesPerTask));
+    SharedProgress shared(progress, tasks_of(facing_.triangles().size(), kSampledPerTask));
     return parallel_reduce(
-        facing_.triangles().size(), kTrianglesPerTask,
+        facing_.triangles().size(), kSampledPerTask,
         [&](std::size_t first, std::size_t last) {
           ThinSamples some;
           std::size_t steps = 0;
@@ -136,8 +136,8 @@ class ThinPlacesFinder {
   }
 
  private:
-  [[nodiscard]] Facing facing(const MeasuredTriangle& triangle, const Vec3d& point, bool in_front,
-                              double most_cosine) const {
+  [[nodiscard]] TangentBalls balls(const MeasuredTriangle& triangle, const Vec3d& point,
+                                   bool in_front, double most_cosine) const {
     return {point, triangle.normal, in_front, most_cosine};
   }
 
@@ -147,9 +147,9 @@ class ThinPlacesFinder {
     double radius = 0;
     for (const Vec3d& p : piece.corners) radius = std::max(radius, (p - middle).norm());
     return {before.behind &&
-                facing_.may_have_contact(facing(triangle, middle, false, kWedge), radius, limit_),
-            before.in_front && facing_.may_have_contact(facing(triangle, middle, true, kOpposite),
-                                                        radius, limit_)};
+                facing_.may_have_contact(balls(triangle, middle, false, kWedge), radius, limit_),
+            before.in_front &&
+                facing_.may_have_contact(balls(triangle, middle, true, kOpposite), radius, limit_)};
   }
 
   // A piece has about half the largest area that it may have, and the pieces of a needle are as
@@ -166,7 +166,7 @@ class ThinPlacesFinder {
     }
     area = internal::sum_of(std::move(areas));
     length = internal::sum_of(std::move(lengths));
-    while (4 * area / square() + 2 * length / spacing_ > kMostPieces) spacing_ *= 2;
+    while (4 * area / square() + 2 * length / spacing_ > kMostThinPieces) spacing_ *= 2;
   }
 
   void add_pieces(std::uint32_t t, const TrianglePiece& piece, Chances before, std::size_t& steps,
@@ -185,11 +185,11 @@ class ThinPlacesFinder {
   }
 
   // Without the triangles between.
-  [[nodiscard]] std::optional<Contact> contact(const Facing& facing) const {
-    std::optional<Contact> found = facing_.contact(facing, limit_);
+  [[nodiscard]] std::optional<Contact> contact(const TangentBalls& balls) const {
+    std::optional<Contact> found = facing_.contact(balls, limit_);
     if (!found) return found;
-    const Vec3d along = found->at - facing.point;
-    const Hit between = facing_.first_hit(facing.point, along, kSegmentLow, kSegmentHigh);
+    const Vec3d along = found->at - balls.point;
+    const Hit between = facing_.first_hit(balls.point, along, kSegmentLow, kSegmentHigh);
     return between.triangle == kNone ? found : std::nullopt;
   }
 
@@ -197,10 +197,10 @@ class ThinPlacesFinder {
     const MeasuredTriangle& triangle = facing_.triangles()[t];
     const Vec3d at = piece.middle();
     ThinKind kind = ThinKind::wall;
-    std::optional<Contact> found = contact(facing(triangle, at, false, kOpposite));
+    std::optional<Contact> found = contact(balls(triangle, at, false, kOpposite));
     if (!found) {
       kind = ThinKind::edge;
-      found = contact(facing(triangle, at, false, kWedge));
+      found = contact(balls(triangle, at, false, kWedge));
     }
     if (!found) return;
     if (is_pin(at, triangle.normal, found->diameter)) kind = ThinKind::pin;
@@ -209,7 +209,7 @@ class ThinPlacesFinder {
 
   void add_in_front(std::uint32_t t, const TrianglePiece& piece, ThinSamples& samples) const {
     const MeasuredTriangle& triangle = facing_.triangles()[t];
-    const auto found = contact(facing(triangle, piece.middle(), true, kOpposite));
+    const auto found = contact(balls(triangle, piece.middle(), true, kOpposite));
     if (found) add(t, piece, ThinKind::gap, *found, samples);
   }
 
