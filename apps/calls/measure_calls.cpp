@@ -26,6 +26,7 @@ CheckOutcome check_call(const TriangleSoup& soup, const Keywords& keywords, cons
     Json section = check_section(outcome.check);
     (void)add_openings(soup, outcome.check, request, section);
     (void)add_near_faces(soup, request, section);
+    (void)add_thin_places(soup, outcome.check, request, 0, section);
     run.report.set_section("check", std::move(section));
     return outcome.check.valid_solid() ? ExitCode::done : ExitCode::not_certified;
   });

@@ -21,6 +21,7 @@
 #include "report/check_report.h"
 #include "report/findings.h"
 #include "report/report_sections.h"
+#include "report/thickness_report.h"
 #include "report/words.h"
 #include "terminal/warning_log.h"
 
@@ -45,9 +46,7 @@ class PageMaker {
   // Packs what is drawn of it; gives its section of the report.
   Json add(ShownMesh& mesh) {
     if (!mesh.drawn) {
-      mesh.drawn = drawn_mesh(mesh.soup, mesh.kind_of,
-                              mesh.check ? mesh.check->marks : std::vector<std::uint16_t>(),
-                              request_.most_triangles);
+      mesh.drawn = drawn_mesh(mesh.soup, mesh.kind_of, page_marks(mesh), request_.most_triangles);
     }
     Json section = {{"triangles_shown", mesh.drawn->soup.triangles.size()}};
     Json check;
@@ -55,6 +54,12 @@ class PageMaker {
       SurfaceCheck few = *mesh.check;
       keep_places(few, places_);
       check = check_section(few);
+      if (mesh.thin) {
+        has_thin_ = true;
+        ThinReport thin = *mesh.thin;
+        keep_places(thin, places_);
+        check["thickness"] = thickness_section(thin);
+      }
       section["check"] = check;
     }
     Json facts = facts_of(mesh, std::move(check), grid_);
@@ -68,6 +73,7 @@ class PageMaker {
 
   [[nodiscard]] const PageGrid& grid() const { return grid_; }
   [[nodiscard]] const Json& facts() const { return facts_; }
+  [[nodiscard]] bool has_thin() const { return has_thin_; }
   [[nodiscard]] const std::vector<std::string>& left_out() const { return pictures_.left_out(); }
 
   // Of all meshes, and the pictures that they have.
@@ -94,6 +100,7 @@ class PageMaker {
   Run& run_;
   PagePictures pictures_;
   Json facts_ = Json::array();
+  bool has_thin_ = false;  // in a mesh
   std::vector<PageText> texts_;
 };
 
@@ -138,10 +145,14 @@ void write_page(const HtmlRequest& request, PageContent content, Run& run) {
     const std::string role(mesh.role);
     if (!section.contains(role)) section[role] = std::move(drawn);  // the first of several
   }
-  Json page = {{"program", "meshrepair"},           {"version", program_version()},
-               {"subject", content.subject},        {"up", content.up == View::Up::y ? "y" : "z"},
-               {"units", units_text(content.unit)}, {"grid", json_of(maker.grid())},
-               {"looks", looks_of_defects()},       {"meshes", maker.facts()},
+  Json page = {{"program", "meshrepair"},
+               {"version", program_version()},
+               {"subject", content.subject},
+               {"up", content.up == View::Up::y ? "y" : "z"},
+               {"units", units_text(content.unit)},
+               {"grid", json_of(maker.grid())},
+               {"looks", looks_of_defects(maker.has_thin())},
+               {"meshes", maker.facts()},
                {"left_out", maker.left_out()}};
   page.update(content.more);
   content.report["warnings"] = warnings_section(told_warnings());

@@ -8,6 +8,7 @@
 #include <base/assert.h>
 
 #include "report/check_report.h"
+#include "report/thickness_report.h"
 
 namespace meshrepair {
 namespace {
@@ -41,6 +42,15 @@ Json places_of(const ShownMesh& mesh, const PageGrid& grid) {
   for (std::size_t d = 0; d < kDefects; ++d) {
     const auto defect = static_cast<Defect>(d);
     all[std::string(defect_name(defect))] = places_of(mesh, defect, grid);
+  }
+  if (!mesh.thin) return all;
+  for (const ThinLook& look : thin_looks()) {
+    Json at = Json::array();
+    const std::vector<ThinPlace>& places = (*mesh.thin)[look.kind].first;
+    for (std::size_t i = 0; i < std::min(kMostPagePlaces, places.size()); ++i) {
+      append(grid.steps_of(places[i].at), at);
+    }
+    all[std::string(look.key)] = {{"at", at}, {"ends", Json::array()}};
   }
   return all;
 }
@@ -137,7 +147,17 @@ Json facts_of(const ShownMesh& mesh, Json section, const PageGrid& grid) {
           {"check", std::move(section)}};
 }
 
-Json looks_of_defects() {
+std::vector<std::uint16_t> page_marks(const ShownMesh& mesh) {
+  if (!mesh.check) return {};
+  std::vector<std::uint16_t> marks = mesh.check->marks;
+  if (!mesh.thin) return marks;
+  for (std::size_t t = 0; t < marks.size(); ++t) {
+    marks[t] = static_cast<std::uint16_t>(marks[t] | mesh.thin->marks[t] << kDefects);
+  }
+  return marks;
+}
+
+Json looks_of_defects(bool has_thin) {
   Json list = Json::array();
   for (const DefectLook& look : defect_looks()) {
     Json bit = nullptr;
@@ -146,6 +166,13 @@ Json looks_of_defects() {
                     {"words", look.words},
                     {"colour", look.colour},
                     {"bit", bit}});
+  }
+  if (!has_thin) return list;
+  for (const ThinLook& look : thin_looks()) {
+    list.push_back({{"key", look.key},
+                    {"words", look.meaning},
+                    {"colour", look.colour},
+                    {"bit", kDefects + static_cast<std::size_t>(look.kind)}});
   }
   return list;
 }

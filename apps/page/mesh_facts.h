@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <check/check_surface.h>
+#include <check/thin_places.h>
 #include <mesh/attributes.h>
 #include <mesh/soup.h>
 
@@ -47,6 +48,7 @@ struct ShownMesh {
   std::optional<DrawnMesh> drawn = {};      // nothing: what drawn_mesh() makes of it
   const Attributes* attributes = nullptr;   // of it; null: none
   std::vector<ShownObject> objects = {};    // that it is made of; empty: nothing is known
+  std::optional<ThinReport> thin = {};      // as the check; nothing: it was not looked for
 };
 
 // Of the check only the first `most` places of each defect stay.
@@ -56,7 +58,11 @@ void keep_places(SurfaceCheck& check, std::size_t most);
 // there is none.
 [[nodiscard]] Json facts_of(const ShownMesh& mesh, Json section, const PageGrid& grid);
 
-// Of each defect its key, colour and words, and the bit of its marks, or null. Worst first.
-[[nodiscard]] Json looks_of_defects();
+// Of each triangle: bit d for Defect d, and bit kDefects + k for ThinKind k; none without a check.
+[[nodiscard]] std::vector<std::uint16_t> page_marks(const ShownMesh& mesh);
+
+// Of each defect its key, colour and words, and the bit of its marks, or null. Worst first; behind
+// them what is thin, if that was looked for.
+[[nodiscard]] Json looks_of_defects(bool has_thin);
 
 }  // namespace meshrepair

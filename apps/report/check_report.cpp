@@ -7,6 +7,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "report/thickness_report.h"
 #include "report/words.h"
 
 namespace meshrepair {
@@ -180,14 +181,15 @@ Json check_section(const SurfaceCheck& check) {
           {"first_parts", parts_of(check)}};
 }
 
-std::vector<Colour> defect_colours(const SurfaceCheck& check) {
+std::vector<Colour> defect_colours(const SurfaceCheck& check, std::span<const std::uint8_t> thin) {
   std::vector<Colour> colours;
   colours.reserve(check.marks.size());
-  for (const std::uint16_t marks : check.marks) {
+  for (std::size_t t = 0; t < check.marks.size(); ++t) {
     const auto worst = std::find_if(kColours.begin(), kColours.end(), [&](const MarkColour& mark) {
-      return (marks >> static_cast<unsigned>(mark.defect) & 1) != 0;
+      return (check.marks[t] >> static_cast<unsigned>(mark.defect) & 1) != 0;
     });
-    colours.push_back(worst == kColours.end() ? kSound : worst->colour);
+    const Colour otherwise = thin.empty() ? kSound : thin_colour(thin[t]).value_or(kSound);
+    colours.push_back(worst == kColours.end() ? otherwise : worst->colour);
   }
   return colours;
 }
@@ -212,6 +214,9 @@ std::vector<std::string> colour_legend() {
   lines.reserve(kColours.size() + 1);
   for (const MarkColour& mark : kColours) {
     lines.push_back(fmt::format("{:<8} {}", mark.name, mark.meaning));
+  }
+  for (const ThinLook& look : thin_looks()) {
+    lines.push_back(fmt::format("{:<8} {}, with --thickness", look.name, look.meaning));
   }
   lines.push_back(fmt::format("{:<8} {}", "grey", "no defect"));
   return lines;

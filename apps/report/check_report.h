@@ -2,7 +2,9 @@
 // What meshcheck has found, for people, for scripts and for the eye.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +26,10 @@ namespace meshrepair {
 // The section "check" of the report.
 [[nodiscard]] Json check_section(const SurfaceCheck& check);
 
-// The worst defect of each triangle as a colour; none if triangles are not marked.
-[[nodiscard]] std::vector<Colour> defect_colours(const SurfaceCheck& check);
+// The worst defect of each triangle as a colour, or what of it is thin if it has none; no colours
+// if triangles are not marked. `thin` are ThinReport::marks, or none.
+[[nodiscard]] std::vector<Colour> defect_colours(const SurfaceCheck& check,
+                                                 std::span<const std::uint8_t> thin = {});
 
 struct DefectLook {
   Defect defect;

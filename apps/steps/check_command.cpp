@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,7 +52,8 @@ struct Verdict {
   bool is_valid = true;
   std::vector<Colour> colours;  // if they are asked for
   std::string table;
-  SurfaceCheck check;  // if a page is asked for
+  SurfaceCheck check;              // if a page is asked for
+  std::optional<ThinReport> thin;  // likewise, and what is thin, too
 };
 
 Verdict check_one(const ReadResult& input, const CheckCommand& options, Run& run,
@@ -63,14 +65,17 @@ Verdict check_one(const ReadResult& input, const CheckCommand& options, Run& run
   if (options.html.wanted()) kept = check;
   keep_places(check, options.request.check.most_places);
   Json section = check_section(check);
-  const std::string more = add_openings(input.soup, check, options.request, section) +
-                           add_near_faces(input.soup, options.request, section);
+  std::string more = add_openings(input.soup, check, options.request, section) +
+                     add_near_faces(input.soup, options.request, section);
+  ThinFound thin = add_thin_places(input.soup, check, options.request,
+                                   options.html.wanted() ? kMostPagePlaces : 0, section);
+  more += thin.text;
   run.report.set_section("check", std::move(section));
-  return {check.valid_solid(), defect_colours(check),
+  return {check.valid_solid(), defect_colours(check, thin.marks()),
           check_table(check, what_was_read(findings, input.soup),
                       attribute_words(input.soup, input.attributes), findings.unit) +
               more,
-          std::move(kept)};
+          std::move(kept), std::move(thin.report)};
 }
 
 // A line for each mesh, and a table for one that is no solid.
@@ -85,10 +90,12 @@ Verdict check_each(const ReadResult& input, const CheckCommand& options, Run& ru
     const std::string name = mesh_name(input.scene, m);
     solids += check.valid_solid() ? 1 : 0;
     Json section = check_section(check);
-    const std::string more = add_openings(meshes[m], check, options.request, section) +
-                             add_near_faces(meshes[m], options.request, section);
+    std::string more = add_openings(meshes[m], check, options.request, section) +
+                       add_near_faces(meshes[m], options.request, section);
+    const ThinFound thin = add_thin_places(meshes[m], check, options.request, 0, section);
+    more += thin.text;
     sections.push_back({{"name", name}, {"check", std::move(section)}});
-    const std::vector<Colour> colours = defect_colours(check);
+    const std::vector<Colour> colours = defect_colours(check, thin.marks());
     all.colours.insert(all.colours.end(), colours.begin(), colours.end());
     const std::string what =
         fmt::format("{}: {}, {}", name, number_of(meshes[m].triangles.size(), "triangle"),
@@ -104,15 +111,18 @@ Verdict check_each(const ReadResult& input, const CheckCommand& options, Run& ru
   return all;
 }
 
-void write_page_stage(const ReadResult& input, SurfaceCheck check, const CheckCommand& options,
+// Takes what is for the page out of the verdict.
+void write_page_stage(const ReadResult& input, Verdict& verdict, const CheckCommand& options,
                       Run& run, Findings& findings) {
   if (options.assets.by_mesh) {
     const ScenePage page = {
         up_of(findings), {input.soup, input.attributes, input.scene}, {}, options.request.check};
     return write_scene_page_stage(options.html, page, run, findings);
   }
-  write_html_stage(options.html, up_of(findings),
-                   {"input", {}, input.soup, std::move(check), {}, {}, {}, &input.attributes},
+  ShownMesh mesh{"input", {}, input.soup, std::move(verdict.check)};
+  mesh.thin = std::move(verdict.thin);
+  mesh.attributes = &input.attributes;
+  write_html_stage(options.html, up_of(findings), std::move(mesh),
                    options.request.check.most_places, run, findings);
 }
 
@@ -162,7 +172,7 @@ ExitCode check_file(CheckCommand& command, Run& run) {
                                              : check_one(input, command, run, findings);
     meter.end();
     if (!command.marked.empty()) write_marked(input.soup, verdict.colours, command, run);
-    write_page_stage(input, std::move(verdict.check), command, run, findings);
+    write_page_stage(input, verdict, command, run, findings);
     if (command.picture.painted) input.attributes = painted(verdict.colours);
     place_instances(input.soup, input.attributes, input.scene);
     draw_picture_stage(command.picture, up_of(findings), {command.input},

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "steps/check_steps.h"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -9,6 +12,7 @@
 #include <repair/seal_openings.h>
 
 #include "options/numbers.h"
+#include "report/thickness_report.h"
 #include "report/words.h"
 #include "steps/scene_steps.h"
 
@@ -27,6 +31,17 @@ void add_check_options(CommandLine& app, CheckRequest& request) {
          "--openings", request.openings,
          "Look for narrow openings of much wider spaces, and print the volume that the solid\n"
          "encloses once they are closed (by meshrepair --seal)")
+      ->group("Check");
+  app.add_option_function(
+         "--thickness",
+         [&request](const std::string& word) {
+           std::tie(request.thin.limit, request.thin.is_share) =
+               length_in(word).value_or(std::pair(0.0, false));
+         },
+         "Look for walls, pins, gaps and sharp edges that are thinner than this, in units of\n"
+         "IN, or as a percentage of the bounding box diagonal, such as 1%, and print where")
+      ->check(why_no_length)
+      ->type_name("X|X%")
       ->group("Check");
 }
 
@@ -49,6 +64,26 @@ std::string add_openings(const TriangleSoup& soup, const SurfaceCheck& check,
       "openings  the solid {} if {} narrower than {:.4g} {} closed: meshrepair --seal {:.4g}\n",
       encloses, number_of(seal.openings, "opening"), seal.size, seal.openings == 1 ? "is" : "are",
       seal.size);
+}
+
+std::span<const std::uint8_t> ThinFound::marks() const {
+  if (!report) return {};
+  return report->marks;
+}
+
+ThinFound add_thin_places(const TriangleSoup& soup, const SurfaceCheck& check,
+                          const CheckRequest& request, std::size_t most_kept, Json& section) {
+  if (request.thin.limit <= 0) return {};
+  ThinOptions options = request.thin;
+  options.most_places = std::max(most_kept, request.check.most_places);
+  options.mark_triangles = request.check.mark_triangles;
+  options.progress = request.check.progress;
+  ThinFound found{{}, find_thin_places(soup, options)};
+  ThinReport few = *found.report;
+  keep_places(few, request.check.most_places);
+  section["thickness"] = thickness_section(few);
+  found.text = thickness_text(few, check.valid_solid());
+  return found;
 }
 
 std::string add_near_faces(const TriangleSoup& soup, const CheckRequest& request, Json& section) {

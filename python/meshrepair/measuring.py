@@ -19,7 +19,8 @@ def check(mesh: Any, faces: Any = None, *, progress: Progress | bool | None = No
     Args:
         mesh, faces, progress: as in :func:`repair`. Polygons are triangulated first, and the report is about triangles;
             a polygon has the marks of all its triangles.
-        **options: of the program ``meshcheck``: ``weld=True``, ``places=20``, ``openings=True``, and those of limits.
+        **options: of the program ``meshcheck``: ``weld=True``, ``places=20``, ``openings=True``, ``thickness=0.8``,
+            and those of limits.
 
     Returns:
         A check, which is true if the mesh is the boundary of a solid.

@@ -91,15 +91,21 @@ export async function pressed(page, key) {
   return picture(page);
 }
 
+// Defects and what is thin, by the keys of the page.
+function foundIn({defects, thickness}) {
+  if (!thickness) return defects;
+  return {...defects, thin_walls: thickness.walls, thin_pins: thickness.pins, narrow_gaps: thickness.gaps, sharp_edges: thickness.edges};
+}
+
 // Of "html" in the report: each count that the page has is there, and the verdict is that of the last mesh.
 export async function compareCounts(page, html) {
   const shown = await page.$$eval('[data-count]', (cells) => cells.map((cell) => [cell.dataset.count, cell.textContent]));
   const cells = new Map(shown);
   const roles = ['input', 'result'].filter((name) => html[name]);
   for (const role of roles) {
-    for (const [key, {count}] of Object.entries(html[role].check.defects)) {
+    for (const [key, {count}] of Object.entries(foundIn(html[role].check))) {
       const cell = cells.get(`${role}:${key}`);
-      const elsewhere = roles.some((name) => html[name].check.defects[key].count > 0);
+      const elsewhere = roles.some((name) => foundIn(html[name].check)[key].count > 0);
       expect(elsewhere ? cell?.replaceAll(',', '') === String(count) : cell === undefined, `${role} ${key}: ${cell}, not ${count}`);
     }
   }
@@ -114,7 +120,7 @@ export async function flyToAll(page, html) {
     const before = await picture(page);
     await name.click();
     const status = await page.textContent('#status');
-    const count = html.input.check.defects[key].count || html.result?.check.defects[key].count;
+    const count = foundIn(html.input.check)[key].count || (html.result && foundIn(html.result.check)[key].count);
     if (/no place/.test(status)) continue;
     expect(new RegExp(`place 1 of ${count.toLocaleString('en-US')} \\(at `).test(status), `${key}: "${status}"`);
     expect(await picture(page) !== before, `${key}: nothing moves`);

@@ -85,6 +85,17 @@ async function viewCheck({browser, folder}) {
   await page.close();
 }
 
+async function viewThin({browser, folder}) {
+  about('meshcheck hollow_sphere.obj --thickness');
+  const {page: file, report} = made(program('meshcheck'), folder, mesh('hollow_sphere.obj'), '--thickness', '0.395');
+  const page = await opened(browser, file);
+  await compareCounts(page, report.html);
+  await flyToAll(page, report.html);
+  await toggleLayers(page);
+  expect(/ thick$/.test(await page.textContent('#status')), 'does not say how thick it is');
+  await page.close();
+}
+
 // A pyramid with a picture on its sides, and without a bottom.
 function writePyramid(folder) {
   const file = path.join(folder, 'pyramid.obj');
@@ -194,5 +205,5 @@ async function viewWithoutWebGl({playwright, folder}) {
 }
 
 await withBrowser(async (room) => {
-  for (const view of [viewRepairs, viewCheck, viewLooks, viewBoolean, viewDistance, viewLevels, viewWithoutWebGl]) await view(room);
+  for (const view of [viewRepairs, viewCheck, viewThin, viewLooks, viewBoolean, viewDistance, viewLevels, viewWithoutWebGl]) await view(room);
 });

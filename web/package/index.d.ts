@@ -111,7 +111,8 @@ export interface Written {
 /** Turns a mesh, or the points of a scan, into the boundary of a solid: the bytes that the program writes. */
 export function repair(input: Mesh | FileBytes, options?: RepairOptions): Promise<Repaired>;
 /** What is wrong with it. */
-export function check(input: Mesh | FileBytes, options?: FileOptions & {html?: boolean}): Promise<Checked>;
+export function check(
+    input: Mesh | FileBytes, options?: FileOptions & {html?: boolean, thickness?: number | string}): Promise<Checked>;
 /** Combines solids; options are those of bspbool. */
 export function boolean(
     inputs: Array<Mesh | FileBytes>, op: 'union' | 'intersection' | 'difference' | 'xor', options?: RepairOptions): Promise<Repaired>;

@@ -46,6 +46,17 @@ struct Box {
   [[nodiscard]] double diagonal() const {
     return Vec3d(high[0] - low[0], high[1] - low[1], high[2] - low[2]).norm();
   }
+  // To its nearest point; 0 within.
+  [[nodiscard]] double squared_distance(const Vec3d& point) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = point[static_cast<Eigen::Index>(k)];
+      const double below = low[k] - x, above = x - high[k];
+      const double beyond = below > above ? below : above;
+      if (beyond > 0) sum += beyond * beyond;
+    }
+    return sum;
+  }
   // Have the two a point in common?
   [[nodiscard]] bool meets(const Box& other) const {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&

@@ -20,16 +20,6 @@ Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   return a + t * along;
 }
 
-double squared_distance_to_box(const Vec3d& p, const Box& box) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = p[static_cast<Eigen::Index>(k)];
-    const double beyond = std::max({box.low[k] - x, x - box.high[k], 0.0});
-    sum += beyond * beyond;
-  }
-  return sum;
-}
-
 RawVector<Box> boxes_of(std::span<const Corners> triangles) {
   RawVector<Box> boxes(triangles.size());
   parallel_tasks(boxes.size(), kBoxedPerTask,
@@ -111,8 +101,8 @@ Nearest NearestTriangle::find(const Vec3d& p, std::uint32_t hint) const {
       continue;
     }
     Candidate near = {candidate.node + 1, 0}, far = {node.right, 0};
-    near.squared_distance = squared_distance_to_box(p, tree_.nodes()[near.node].box);
-    far.squared_distance = squared_distance_to_box(p, tree_.nodes()[far.node].box);
+    near.squared_distance = tree_.nodes()[near.node].box.squared_distance(p);
+    far.squared_distance = tree_.nodes()[far.node].box.squared_distance(p);
     if (far.squared_distance < near.squared_distance) std::swap(near, far);
     stack[size++] = far;
     stack[size++] = near;

@@ -51,6 +51,7 @@ export const TOOLS = [
       mesh: MESH,
       places: {type: 'integer', description: 'How many places of each defect to return. Default 10', minimum: 0, maximum: MOST_IN_A_LIST},
       openings: flag('Look for narrow openings of much wider spaces, too, which seal of repair would close'),
+      thickness: length('Look for walls, pins, gaps and sharp edges thinner than this, too.'),
     }),
     words: ({mesh, ...set}, paths) => [paths.input(mesh), ...options(set)],
   },

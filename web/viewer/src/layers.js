@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The list of defects: shows and hides each kind, and goes from place to place.
 import {button, make, swatch} from './dom.js';
-import {defectWords, grouped, subjectOf} from './words.js';
+import {defectWords, foundOf, grouped, subjectOf} from './words.js';
 
 export class Layers {
   // `go` is called with the surface, the key, and the number of the place.
@@ -18,7 +18,7 @@ export class Layers {
   }
 
   counts(key) {
-    return this.surfaces.map((surface) => surface.facts.check.defects[key].count);
+    return this.surfaces.map(({facts}) => foundOf(facts.check, key).count);
   }
 
   section() {

@@ -10,7 +10,7 @@ import {Layers} from './layers.js';
 import {Stage} from './stage.js';
 import {Surface} from './surface.js';
 import {keysSection, tools} from './tools.js';
-import {coordinate, grouped, measure, rough, subjectOf, verdict} from './words.js';
+import {coordinate, foundOf, grouped, measure, rough, subjectOf, verdict} from './words.js';
 
 const FAR = 100;  // beyond all that is drawn
 const NEAR = 0.12;  // how much is seen around a place, of half of the largest side
@@ -245,10 +245,11 @@ export class Viewer {
     this.ringAt(place);
     const {bit} = this.page.looks.find((look) => look.key === key);
     this.stage.look(place, NEAR, surface, surface.normalAt(place, bit));
-    const count = surface.facts.check.defects[key].count;
+    const {count, first} = foundOf(surface.facts.check, key);
+    const thick = first[at]?.thickness;
     const words = this.layers.buttons.get(key).textContent;
     const where = place.map((value, axis) => coordinate(this.grid.own(value, axis), 2 * this.grid.half)).join(', ');
-    return this.say(`${words}: place ${grouped(at + 1)} of ${grouped(count)} (at ${where})`);
+    return this.say(`${words}: place ${grouped(at + 1)} of ${grouped(count)} (at ${where})${thick === undefined ? '' : `, ${measure(thick)} thick`}`);
   }
 
   // Where one alone is shown.

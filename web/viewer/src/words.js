@@ -12,7 +12,19 @@ export const defectWords = {
   duplicate_triangles: ['Duplicate triangles', 'The same triangle is there more than once.'],
   not_finite_triangles: ['Triangles that are not finite', 'A coordinate is infinite, or no number.'],
   unused_points: ['Points that no triangle uses', 'Left over. They do no harm.'],
+  thin_walls: ['Thin walls', 'The wall is thinner than the limit. It may break, or not be printed at all.'],
+  thin_pins: ['Thin pins', 'Thinner than the limit in both directions across.'],
+  narrow_gaps: ['Narrow gaps', 'Two faces are nearer than the limit. They may fuse.'],
+  sharp_edges: ['Sharp edges', 'An edge of a small angle is thinner than the limit near its tip.'],
 };
+
+// What the section of what is thin calls them.
+const thinKinds = {thin_walls: 'walls', thin_pins: 'pins', narrow_gaps: 'gaps', sharp_edges: 'edges'};
+
+// What a check has found of a kind: the count and the first places.
+export function foundOf(check, key) {
+  return check.defects[key] ?? check.thickness[thinKinds[key]];
+}
 
 // What a page is about, and what is said of it then.
 const subjects = {
