@@ -21,6 +21,7 @@
 #include "report/report_sections.h"
 #include "report/words.h"
 #include "steps/boolean_steps.h"
+#include "steps/common_unit.h"
 #include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
 #include "steps/run_steps.h"
@@ -45,28 +46,6 @@ bool is_tree_name(const std::string& name) {
 struct GivenMeshes : JoinedMeshes {
   View::Up up = View::Up::y;  // unless some mesh has z up
   std::vector<GivenOperand> operands;
-};
-
-// That of the first file that says one, or of the output.
-class CommonUnit {
- public:
-  explicit CommonUnit(const BoolOptions& options) : units_(options.command.step.assets.units) {
-    if (!options.output_has_unit) unit_ = units_;
-  }
-
-  // Brings the points of a file of this unit to it. Returns what lengths are multiplied with.
-  double apply(std::optional<LengthUnit> own, TriangleSoup& soup) {
-    if (!own) own = units_;
-    if (!unit_) unit_ = own;
-    if (!own) return 1;
-    bring_to_unit(*own, *unit_, soup);
-    return unit_scale(*own, *unit_);
-  }
-
-  [[nodiscard]] std::optional<LengthUnit> get() const { return unit_; }
-
- private:
-  std::optional<LengthUnit> units_, unit_;
 };
 
 // What all operands have in common.
@@ -223,7 +202,10 @@ ExitCode combine_files(BoolOptions options, Run& run) {
   options.output_has_unit = format.format && has_unit(*format.format);
   Json facts = Json::array();
   Operands operands;
-  Intake intake{CommonUnit(options), CommonOrigin(options.command.step.origin, format.format), {}};
+  const std::optional<LengthUnit> units = options.command.step.assets.units;
+  Intake intake{CommonUnit(units, options.output_has_unit ? std::nullopt : units),
+                CommonOrigin(options.command.step.origin, format.format),
+                {}};
   check_inputs(options.command.inputs);
   for (const std::string& name : options.command.inputs) {
     Operand operand = take_operand(options, name, run, facts, intake);

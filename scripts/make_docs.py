@@ -25,7 +25,7 @@ from manual import python_reference  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
 SCHEMA = DOCS / "report.schema.json"
-PROGRAMS = ("meshrepair", "meshconvert", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshcheck", "meshdist",
+PROGRAMS = ("meshrepair", "meshconvert", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshbodies", "meshcheck", "meshdist",
             "meshrepair-blocks plan", "meshrepair-blocks run", "meshrepair-blocks join")
 WIDTH = 138  # of a line
 UNLISTED = ("", "file")  # definitions whose keys the text of the key that refers to them names

@@ -32,6 +32,7 @@ constexpr auto kWarningKinds = std::to_array<WarningKind>({
     {"W-POINTS-UNUSED", true, "Many points are not on the result"},
     {"W-OPERAND-REPAIRED", true, "An operand is not the boundary of a solid and repaired first"},
     {"W-OPERAND-UNCERTIFIED", true, "An operand could not be certified as a solid"},
+    {"W-BODY-GONE", true, "A body lies in other bodies, which have all of it"},
     {"W-BYTES-IGNORED", false, "Bytes after the end of the content are ignored"},
     {"W-CONTENT-IGNORED", false, "Lines, points, curves, or elements that are unknown are ignored"},
     {"W-ATTRIBUTES-UNREADABLE", false, "Some normals, texture coordinates, colours are not read"},

@@ -20,7 +20,7 @@ import tempfile
 import time
 import unittest
 
-PROGRAMS = ("meshrepair", "meshconvert", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshcheck", "meshdist",
+PROGRAMS = ("meshrepair", "meshconvert", "pointmesh", "bspbuild", "bspsolid", "bspextract", "bspbool", "meshbodies", "meshcheck", "meshdist",
             "meshrepair-blocks")
 BASH_COMPLETION = pathlib.Path("/usr/share/bash-completion/bash_completion")
 SECONDS = 60  # for what takes one on an idle machine

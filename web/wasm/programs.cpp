@@ -8,6 +8,7 @@ int main_of_bspbool(int argc, char** argv);
 int main_of_bspbuild(int argc, char** argv);
 int main_of_bspextract(int argc, char** argv);
 int main_of_bspsolid(int argc, char** argv);
+int main_of_meshbodies(int argc, char** argv);
 int main_of_meshcheck(int argc, char** argv);
 int main_of_meshconvert(int argc, char** argv);
 int main_of_meshdist(int argc, char** argv);
@@ -22,11 +23,12 @@ struct ProgramOfModule {
   int (*main)(int argc, char** argv);
 };
 
-constexpr std::array<ProgramOfModule, 10> kPrograms = {{
+constexpr std::array<ProgramOfModule, 11> kPrograms = {{
     {"bspbool", main_of_bspbool},
     {"bspbuild", main_of_bspbuild},
     {"bspextract", main_of_bspextract},
     {"bspsolid", main_of_bspsolid},
+    {"meshbodies", main_of_meshbodies},
     {"meshcheck", main_of_meshcheck},
     {"meshconvert", main_of_meshconvert},
     {"meshdist", main_of_meshdist},

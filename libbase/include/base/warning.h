@@ -41,6 +41,7 @@ enum class WarningCode {
   points_unused,
   operand_repaired,
   operand_uncertified,
+  body_gone,
   // It is the same:
   bytes_ignored,
   content_ignored,

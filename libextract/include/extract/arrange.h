@@ -21,6 +21,7 @@
 #include <extract/cut_nonmanifold.h>
 #include <extract/extract_surface.h>
 #include <extract/surface.h>
+#include <mesh/edge_table.h>
 
 namespace meshrepair {
 
@@ -65,6 +66,17 @@ class Arrangement {
     std::uint32_t triangle = 0;
   };
   [[nodiscard]] std::vector<Layer> layers() const;
+
+  // What lies between regions, each a union of chambers: pieces of each place once, merged as those
+  // of boundary() are, with the higher number behind. Points are there once; triangles meet in
+  // corners and whole sides alone, until new points are rounded.
+  struct Faces {
+    Surface surface;  // no manifold where more than two regions meet
+    std::vector<std::array<std::uint32_t, 2>> regions;  // of each triangle, in front and behind
+  };
+  // `region`: of each chamber. Nothing in rare cases in which pieces cannot be triangulated.
+  [[nodiscard]] std::optional<Faces> faces(std::span<const std::uint32_t> region,
+                                           ProgressObserver* progress = nullptr) const;
 
   // The surface between the chambers that are solid and the others. Triangles of which all is kept
   // have their corners, others are merged where they can be, new points are rounded from their

@@ -13,6 +13,7 @@
 #include "chambers.h"
 #include "cut_set.h"
 #include "kept_facets.h"
+#include "region_facets.h"
 #include "sheet_edges.h"
 #include "sheet_surface.h"
 #include "stacks.h"
@@ -169,6 +170,19 @@ std::vector<Arrangement::Layer> Arrangement::layers() const {
     }
   });
   return layers;
+}
+
+std::optional<Arrangement::Faces> Arrangement::faces(std::span<const std::uint32_t> region,
+                                                     ProgressObserver* progress) const {
+  const internal::RegionFacets facets = internal::keep_facets_between(
+      state_->soup, state_->sheets, *state_->edges, *state_->stacks, state_->chambers, region);
+  auto made = internal::make_sheet_faces(state_->cut, *state_->points, state_->sheets,
+                                         *state_->edges, facets.kept, progress);
+  if (!made) return std::nullopt;
+  Faces faces;
+  faces.surface = std::move(made->surface);
+  for (const std::uint32_t f : made->facet) faces.regions.push_back(facets.regions[f]);
+  return faces;
 }
 
 std::optional<Arrangement::Boundary> Arrangement::boundary(const std::vector<char>& solid,

@@ -26,6 +26,7 @@ struct KeptFacets {
   // Of each slot whether more than two kept facets meet at its edge.
   std::vector<char> singular;
   std::size_t singular_edges = 0;
+  bool is_between_regions = false;  // as RegionFacets has them
   bool closed = true;  // an even number of facets at each edge, solid and empty in turn
 };
 

@@ -11,6 +11,8 @@
 // indexed mesh could not tell the two edges apart: each gets a vertex in its middle. That is tried
 // last, as it adds vertices.
 //
+// Where regions meet, a point is one vertex, and facets of other regions begin at their edges.
+//
 // Invariant: the result does not depend on the order of tasks. Regions come in the order of the
 // triangles that they begin in, and vertices in the order in which triangles use them.
 #include "sheet_surface.h"
@@ -205,6 +207,11 @@ class SheetSurfaceMaker {
     find_fans();
   }
 
+  // To be called before run(): fans of one point are one vertex.
+  void join_fans() { are_fans_joined_ = true; }
+  // Of each triangle of the result a facet of its region; to be called once run() is done.
+  [[nodiscard]] std::vector<std::uint32_t> facets() { return std::move(facet_); }
+
   // To be called before run(): edges along which the solid touches itself get middles. All of them
   // have to be in outlines.
   void find_middles(const SheetEdges& edges) {
@@ -217,7 +224,7 @@ class SheetSurfaceMaker {
     if (!make_regions()) return std::nullopt;
     number_points();
     place_points();
-    if (!may_touch_itself_ && !is_manifold()) return std::nullopt;
+    if (!may_touch_itself_ && !are_fans_joined_ && !is_manifold()) return std::nullopt;
     return std::move(surface_);
   }
 
@@ -233,6 +240,7 @@ class SheetSurfaceMaker {
     const auto join = [&](std::uint32_t s) {
       const std::uint32_t m = kept_.mate[s];
       if (m == kNone || m < s) return;
+      if (kept_.is_between_regions && kept_.singular[s] != 0) return;
       if (start(s) == start(m)) {
         fans.join(s, m);
         fans.join(next_side(s), next_side(m));
@@ -295,17 +303,19 @@ class SheetSurfaceMaker {
 
   // In the order in which triangles have them.
   void number_points() {
-    std::vector<std::uint32_t> vertex(fan_.size(), kNone);  // of a fan: its point of the surface
+    // Of a fan, or of a point, its point of the surface.
+    std::vector<std::uint32_t> vertex(are_fans_joined_ ? points_.size() : fan_.size(), kNone);
     std::vector<std::uint32_t> middle_vertex(middles_.size(), kNone);
     surface_.mesh.triangles.reserve(triangles_.size());
     surface_.source.reserve(triangles_.size());
     for (const SlotTriangle& triangle : triangles_) {
       IndexTriangle corners{};
       for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t& number = vertex[fan_[triangle.slots[k]]];
+        const std::uint32_t slot = triangle.slots[k];
+        std::uint32_t& number = vertex[are_fans_joined_ ? start(slot) : fan_[slot]];
         if (number == kNone) {
           number = static_cast<std::uint32_t>(point_.size());
-          point_.push_back(start(triangle.slots[k]));
+          point_.push_back(start(slot));
         }
         corners[k] = number;
       }
@@ -318,6 +328,7 @@ class SheetSurfaceMaker {
       static_assert(Surface::kNoSource == Triangle::kNoSource);
       surface_.source.resize(surface_.mesh.triangles.size(),
                              cut_.soup().triangles[TriangleId(triangle.source)].source);
+      if (are_fans_joined_) facet_.push_back(triangle.slots[0] / 3);
     }
     release(triangles_);
   }
@@ -377,11 +388,12 @@ class SheetSurfaceMaker {
   const KeptFacets& kept_;
   const SheetRegions regions_;
   ArrangeReport& report_;
-  bool may_touch_itself_;
+  bool may_touch_itself_, are_fans_joined_ = false;
   CancelOnly quiet_;
   std::vector<std::uint32_t> fan_;    // of each slot the lowest one of its fan
   std::vector<std::uint32_t> order_;  // facets by their regions
   std::vector<SlotTriangle> triangles_;
+  std::vector<std::uint32_t> facet_;
   // Of each point of the surface, that of the arrangement; kNone for middles.
   std::vector<std::uint32_t> point_;
   TouchingMiddles middles_;
@@ -403,6 +415,34 @@ std::optional<Surface> make_sheet_surface(const CutSet& cut, const ArrangedPoint
     if (!releases_touching) maker.find_middles(edges);
     std::optional<Surface> surface = maker.run();
     if (surface || kept.singular_edges == 0) return surface;
+  }
+  return std::nullopt;
+}
+
+// Nothing is merged.
+SheetRegions single_facets(const Sheets& sheets, const KeptFacets& kept, std::size_t points) {
+  SheetRegions regions;
+  regions.region.resize(sheets.size(), kNone);
+  for (std::uint32_t f = 0; f < sheets.size(); ++f) {
+    if (kept.kept[f] != Kept::no) regions.region[f] = f;
+  }
+  regions.dissolved.assign(3 * sheets.size(), 0);
+  regions.needed.assign(points, 1);
+  return regions;
+}
+
+std::optional<SheetFaces> make_sheet_faces(const CutSet& cut, const ArrangedPoints& points,
+                                           const Sheets& sheets, const SheetEdges& edges,
+                                           const KeptFacets& kept, ProgressObserver* progress) {
+  ExtractOptions options;
+  options.progress = progress;
+  for (const bool merges : {true, false}) {
+    SheetRegions regions = merges ? merge_sheets(cut, points, sheets, edges, kept, {})
+                                  : single_facets(sheets, kept, points.size());
+    ArrangeReport report;
+    SheetSurfaceMaker maker(cut, points, sheets, kept, std::move(regions), options, report);
+    maker.join_fans();
+    if (auto surface = maker.run()) return SheetFaces{std::move(*surface), maker.facets()};
   }
   return std::nullopt;
 }

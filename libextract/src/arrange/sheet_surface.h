@@ -18,4 +18,14 @@ namespace meshrepair::internal {
     const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets, const SheetEdges& edges,
     const KeptFacets& kept, const ExtractOptions& options, ArrangeReport& report);
 
+// Facets between regions, kept as RegionFacets says, merged as above. Points are there once, and
+// triangles of several regions meet in corners and whole sides alone.
+struct SheetFaces {
+  Surface surface;                   // no manifold
+  std::vector<std::uint32_t> facet;  // of each triangle one of those that it is made of
+};
+[[nodiscard]] std::optional<SheetFaces> make_sheet_faces(
+    const CutSet& cut, const ArrangedPoints& points, const Sheets& sheets, const SheetEdges& edges,
+    const KeptFacets& kept, ProgressObserver* progress);
+
 }  // namespace meshrepair::internal

@@ -25,7 +25,7 @@ vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/meshrepair)
 
 if("tools" IN_LIST FEATURES)
     vcpkg_copy_tools(
-        TOOL_NAMES meshrepair meshconvert pointmesh bspbuild bspsolid bspextract bspbool meshcheck meshdist meshrepair-blocks
+        TOOL_NAMES meshrepair meshconvert pointmesh bspbuild bspsolid bspextract bspbool meshbodies meshcheck meshdist meshrepair-blocks
         AUTO_CLEAN
     )
 endif()

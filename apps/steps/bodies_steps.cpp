@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "steps/bodies_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+
+#include <spdlog/logger.h>
+
+#include <base/error.h>
+#include <mesh/append_soup.h>
+#include <mesh/topology.h>
+
+#include "options/choice_option.h"
+#include "options/repair_options.h"
+#include "report/words.h"
+#include "steps/guarantees.h"
+#include "steps/run_steps.h"
+#include "summary/summary.h"
+#include "terminal/warning_log.h"
+
+namespace meshrepair {
+namespace {
+
+constexpr std::array<Choice<BodiesBy>, 3> kBy = {
+    {{"object", BodiesBy::object}, {"group", BodiesBy::group}, {"material", BodiesBy::material}}};
+
+const TriangleLabels& labels_of(const Attributes& attributes, BodiesBy by) {
+  switch (by) {
+    case BodiesBy::group:
+      return attributes.groups;
+    case BodiesBy::material:
+      return attributes.materials;
+    default:
+      return attributes.objects;
+  }
+}
+
+// How many names triangles have.
+std::size_t names_in(const TriangleLabels& labels) {
+  std::vector<char> is_used(labels.names.size() + 1, 0);
+  for (const std::uint32_t n : labels.of_triangle) {
+    is_used[std::min<std::size_t>(n, labels.names.size())] = 1;
+  }
+  return static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), 1));
+}
+
+const TriangleLabels& chosen_labels(const Attributes& attributes, BodiesBy by) {
+  for (const auto& [name, choice] : kBy) {
+    if (by != BodiesBy::any && by != choice) continue;
+    const TriangleLabels& labels = labels_of(attributes, choice);
+    if (names_in(labels) > (by == BodiesBy::any ? 1 : 0)) return labels;
+    if (by == choice) throw InputError("no " + std::string(name) + " has a name");
+  }
+  throw InputError("one body alone: it has no two objects, groups or materials");
+}
+
+Json region_facts(const Bodies& bodies, const ConformingBodies& result, const BodiesFacts& facts,
+                  std::uint32_t number) {
+  const BodyRegion& region = result.regions[number - 1];
+  Json neighbours = Json::array();
+  for (const BodyContact& contact : result.contacts) {
+    if (contact.a != number && contact.b != number) continue;
+    const std::uint32_t other = contact.a == number ? contact.b : contact.a;
+    neighbours.push_back(
+        {{"region", other}, {"triangles", contact.triangles}, {"area", contact.area}});
+  }
+  Json section = {{"region", number},        {"name", bodies.name_of(result, number)},
+                  {"bodies", region.bodies}, {"volume", region.volume},
+                  {"parts", region.parts},   {"triangles", region.triangles},
+                  {"neighbours", neighbours}};
+  if (!facts.files[number - 1].empty()) section["file"] = facts.files[number - 1];
+  return section;
+}
+
+Json bodies_section(const Bodies& bodies, const ConformingBodies& result,
+                    const BodiesCommand& command, const BodiesFacts& facts) {
+  const BodiesReport& report = facts.report;
+  Json regions = Json::array();
+  double volume = 0;
+  for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
+    regions.push_back(region_facts(bodies, result, facts, r));
+    volume += result.regions[r - 1].volume;
+  }
+  return {{"regions", std::move(regions)},
+          {"volume", volume},
+          {"points", result.mesh.points.size()},
+          {"triangles", result.mesh.triangles.size()},
+          {"overlap", overlap_name(command.overlap)},
+          {"overlaps", report.overlaps},
+          {"overlap_volume", report.overlap_volume},
+          {"cut_triangles", report.cut_triangles},
+          {"pairs_at_first", report.pairs_at_first},
+          {"rounds", report.rounds},
+          {"snapped_points", report.snapped_points},
+          {"snapped_by", report.snapped_by},
+          {"pairs", report.pairs},
+          {"certified", report.passed()}};
+}
+
+std::string region_line(const Bodies& bodies, const ConformingBodies& result,
+                        std::uint32_t number) {
+  const BodyRegion& region = result.regions[number - 1];
+  std::string line = fmt::format("{:<9} {}: volume {:.6g}", "region",
+                                 bodies.name_of(result, number), region.volume);
+  if (region.triangles == 0) return line + ", all of it is another's\n";
+  if (region.parts > 1) line += fmt::format(" in {}", number_of(region.parts, "part"));
+  for (const BodyContact& contact : result.contacts) {
+    if (contact.a == 0 || (contact.a != number && contact.b != number)) continue;
+    const std::uint32_t other = contact.a == number ? contact.b : contact.a;
+    line +=
+        fmt::format(", {:.6g} of its faces with {}", contact.area, bodies.name_of(result, other));
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+void add_bodies_command(CommandLine& app, BodiesCommand& command) {
+  static constexpr std::array<Choice<Overlap>, 4> kOverlaps = {{{"first", Overlap::first},
+                                                                {"last", Overlap::last},
+                                                                {"smaller", Overlap::smaller},
+                                                                {"own", Overlap::own}}};
+  add_choice(
+      app, "--overlap", kOverlaps, [&command](Overlap overlap) { command.overlap = overlap; },
+      "To which body a place belongs that several are around:\n"
+      "  first    to the first of them (default)\n"
+      "  last     to the last\n"
+      "  smaller  to the one with the least volume\n"
+      "  own      to a region of its own");
+  add_choice(
+      app, "--by", kBy, [&command](BodiesBy by) { command.by = by; },
+      "What tells the bodies of one file apart: object, group or material;\n"
+      "by default the first of these that has several names");
+  add_join_gaps_option(app, command.repair.join_gaps);
+  add_inside_options(app, command.repair.inside);
+  add_sew_option(app, command.repair.sew);
+  add_holes_option(app, command.repair.holes);
+  add_max_hole_option(app, command.repair.holes);
+}
+
+std::vector<NamedSoup> named_bodies(const TriangleSoup& soup, const Attributes& attributes,
+                                    BodiesBy by, const std::string& rest) {
+  const TriangleLabels& labels = chosen_labels(attributes, by);
+  std::vector<NamedSoup> bodies(labels.names.size() + 1);
+  for (std::size_t i = 0; i < labels.names.size(); ++i) bodies[i].name = labels.names[i];
+  bodies.back().name = rest;
+  std::vector<std::map<std::uint32_t, std::uint32_t>> number(bodies.size());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const std::size_t b = std::min<std::size_t>(labels.of_triangle[t], labels.names.size());
+    std::array<std::uint32_t, 3> corners = soup.triangles[t];
+    for (std::uint32_t& p : corners) {
+      const auto fresh = static_cast<std::uint32_t>(bodies[b].soup.points.size());
+      const auto [at, is_new] = number[b].emplace(p, fresh);
+      if (is_new) bodies[b].soup.points.push_back(soup.points[p]);
+      p = at->second;
+    }
+    bodies[b].soup.triangles.push_back(corners);
+  }
+  std::erase_if(bodies, [](const NamedSoup& body) { return body.soup.triangles.empty(); });
+  return bodies;
+}
+
+void Bodies::add(NamedSoup body, const BodiesCommand& command, Run& run, const Findings& findings,
+                 Json& facts) {
+  std::string name = body.name.empty() ? "body" : body.name;
+  for (int n = 2; std::find(names_.begin(), names_.end(), name) != names_.end(); ++n) {
+    name = (body.name.empty() ? "body" : body.name) + "-" + std::to_string(n);
+  }
+  const bool is_one_of_several = command.inputs.size() == 1;
+  Findings own(is_one_of_several ? findings.input + ", " + name : findings.input, "");
+  own.mesh_read = findings.mesh_read;
+  RepairOptions repair = command.repair;
+  repair.join_gaps = {};  // of all bodies together
+  repair.certify.precision = Precision::float64;
+  repair.progress = &run.progress;
+  Operand operand;
+  (void)with_findings(run, own, [&] {
+    operand = make_operand(std::move(body.soup), {}, repair, run, own);
+    return ExitCode::done;
+  });
+  end_operand(operand, own, run, facts);
+  solids_.push_back(std::move(operand.solid));
+  names_.push_back(std::move(name));
+}
+
+std::string Bodies::name_of(const ConformingBodies& result, std::uint32_t region) const {
+  std::string name;
+  for (const std::uint32_t body : result.regions[region - 1].bodies) {
+    name += (name.empty() ? "" : "+") + names_[body];
+  }
+  return name;
+}
+
+std::vector<std::string> Bodies::names_of(const ConformingBodies& result) const {
+  std::vector<std::string> names;
+  for (std::uint32_t r = 1; r <= result.regions.size(); ++r) names.push_back(name_of(result, r));
+  return names;
+}
+
+ConformingBodies divide_bodies(const Bodies& bodies, const BodiesCommand& command,
+                               BodiesReport& report, Run& run, Findings& findings) {
+  BodiesOptions options;
+  options.overlap = command.overlap;
+  options.join_gaps = command.repair.join_gaps;
+  options.precision = command.repair.certify.precision;
+  options.progress = &run.progress;
+  ConformingBodies result = conforming_bodies(bodies.solids(), options, report);
+  findings.repair.join_gaps = report.join_gaps;
+  findings.repair.stages = report.stages;
+  if (result.mesh.triangles.empty()) throw NoSolidError("no body encloses anything");
+  return result;
+}
+
+void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,
+                    const BodiesCommand& command, const BodiesFacts& facts, Run& run) {
+  run.report.set_section("bodies", bodies_section(bodies, result, command, facts));
+  for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
+    if (result.regions[r - 1].triangles > 0 || bodies.solids()[r - 1].triangles.empty()) continue;
+    warn(bodies.name_of(result, r),
+         {WarningCode::body_gone, "lies in other bodies, which have all of it"});
+  }
+}
+
+std::string bodies_summary(const Bodies& bodies, const ConformingBodies& result,
+                           const BodiesReport& report) {
+  std::string lines;
+  for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
+    lines += region_line(bodies, result, r);
+  }
+  if (report.overlaps > 0) {
+    lines += fmt::format("overlaps  {} of bodies, volume {:.6g}\n",
+                         number_of(report.overlaps, "set"), report.overlap_volume);
+  }
+  if (report.rounds > 0) {
+    lines += fmt::format("rounding  {} moved by up to {:.3g}, as faces met once rounded\n",
+                         number_of(report.snapped_points, "point"), report.snapped_by);
+  }
+  return lines;
+}
+
+std::pair<TriangleSoup, Attributes> as_objects(const ConformingBodies& result,
+                                               const std::vector<std::string>& names) {
+  TriangleSoup soup;
+  Attributes attributes;
+  attributes.objects.names = names;
+  std::uint32_t object = 0;
+  for (const TriangleSoup& boundary : boundaries_of(result)) {
+    append_soup(soup, boundary);
+    attributes.objects.of_triangle.resize(soup.triangles.size(), object++);
+  }
+  return {std::move(soup), std::move(attributes)};
+}
+
+ExitCode bodies_verdict(const BodiesReport& report, Findings& findings, Run& run) {
+  if (!report.passed()) {
+    findings.missing_guarantees =
+        "not certified: " + number_of(report.pairs + report.open_edges, "pair") +
+        " of triangles intersect; where faces of bodies nearly coincide, --join-gaps joins them";
+  }
+  return verdict(run, findings);
+}
+
+}  // namespace meshrepair

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Bodies that touch or overlap, divided so that no two have a point inside both, with common faces:
+// each face between two of them is there once, and both have it. That is what meshers for finite
+// elements need of several materials.
+//
+//   ConformingBodies bodies = conforming_bodies(solids, {}, report);
+//   for (std::size_t t = 0; t < bodies.mesh.triangles.size(); ++t) {
+//     const auto& [front, behind] = bodies.regions_of[t];  // 0: outside, k: solid k - 1
+//   }
+//
+// Guarantees, once report.passed(): no two triangles meet but in corners and sides that both have;
+// the triangles of each region bound it, each side of theirs being passed as often one way as the
+// other; so the exact volumes of all regions add up to that of their union. Triangles that nothing
+// meets come out bit for bit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <base/progress.h>
+#include <base/stage_meter.h>
+#include <mesh/precision.h>
+#include <mesh/soup.h>
+#include <repair/join_gaps.h>
+
+namespace meshrepair {
+
+// To which body a place belongs that several are around.
+enum class Overlap {
+  first,    // to the first of them
+  last,     // to the last
+  smaller,  // to the one of the least volume, of equal ones the first
+  own,      // to none: what the same bodies are around is a region of its own
+};
+
+struct BodiesOptions {
+  Overlap overlap = Overlap::first;
+  JoinGapsOptions join_gaps = {};            // of all bodies together, before they are divided
+  Precision precision = Precision::float64;  // of the coordinates that are certified
+  ProgressObserver* progress = nullptr;  // not owned; stages "join_gaps", "operands", "divide" and
+                                         // "certify"
+};
+
+// A body, or what is left of it.
+struct BodyRegion {
+  std::vector<std::uint32_t> bodies;  // that are around it, ascending: one, unless it is an overlap
+  double volume = 0;                  // in the unit of the input, cubed
+  std::size_t triangles = 0;          // that bound it
+  std::size_t parts = 0;              // that it falls into, which have no face in common
+};
+
+// A place inside a part of a region, or inside a void, which is a part of the outside: 0.
+struct BodySeed {
+  std::uint32_t region = 0;
+  Vec3d place = Vec3d::Zero();
+};
+
+// Two regions, a < b, that have faces in common; a is 0 for what is outside.
+struct BodyContact {
+  std::uint32_t a = 0, b = 0;
+  std::size_t triangles = 0;
+  double area = 0;
+};
+
+struct ConformingBodies {
+  TriangleSoup mesh;  // without two points in one place
+  // Of each triangle, the region in front, from where it is counter-clockwise, and that behind: 0
+  // is outside, others are 1 + their place in `regions`. Where one is outside, it is in front.
+  std::vector<std::array<std::uint32_t, 2>> regions_of;
+  // Of each triangle one in which it lies, counted through those of all solids.
+  std::vector<std::uint32_t> source;
+  std::vector<BodyRegion> regions;    // of all bodies, in their order, then overlaps
+  std::vector<BodyContact> contacts;  // ascending
+  // One for each part and each void, but for those too thin for a point that is surely inside.
+  std::vector<BodySeed> seeds;
+};
+
+struct BodiesReport {
+  JoinGapsReport join_gaps;
+  std::size_t cut_triangles = 0;   // of the bodies, that met others
+  std::size_t overlaps = 0;        // different sets of bodies that had points inside all of them
+  double overlap_volume = 0;       // of those points
+  std::size_t pairs_at_first = 0;  // of triangles that met once points were rounded
+  std::size_t rounds = 0;          // of moving points onto a grid and dividing anew
+  std::size_t snapped_points = 0;  // that were moved, in all rounds
+  double snapped_by = 0;           // at most, along each axis
+  std::size_t pairs = 0;           // that are left, and triangles without area
+  std::size_t open_edges = 0;      // of regions, that are not balanced
+  std::vector<StageReport> stages;
+
+  [[nodiscard]] bool passed() const { return pairs == 0 && open_edges == 0; }
+};
+
+// first, last, smaller, own.
+[[nodiscard]] std::string_view overlap_name(Overlap overlap);
+
+// `solids` are closed surfaces without self-intersections, turned outward, as repair() returns
+// them; one without triangles is nothing. The same for any number of threads. Throws InputError
+// where there is no solid, where one is nothing on the grid of 26 bits over all, or where more
+// triangles meet than can be divided; Cancelled.
+[[nodiscard]] ConformingBodies conforming_bodies(std::span<const TriangleSoup> solids,
+                                                 const BodiesOptions& options,
+                                                 BodiesReport& report);
+
+// Of each region its boundary, as triangles turned outward, and the points that they have, in their
+// order. A region that touches itself along an edge has four triangles there.
+[[nodiscard]] std::vector<TriangleSoup> boundaries_of(const ConformingBodies& bodies);
+
+}  // namespace meshrepair
