@@ -95,7 +95,7 @@ void write_faces(const Options& options, RegionFormat format, const ConformingBo
                  const std::vector<std::string>& names, Run& run) {
   std::vector<RegionSeed> seeds;
   for (const BodySeed& seed : result.seeds) seeds.push_back({seed.region, seed.place});
-  const RegionMesh mesh = {result.mesh, result.regions_of, names, seeds};
+  const RegionMesh mesh = {result.mesh, result.parts_of, result.region_of_part, names, seeds};
   const std::filesystem::path path = options.command.output;
   write_file_atomically(path, format_region_mesh(mesh, format), &run.progress);
   if (format != RegionFormat::msh) return;
@@ -137,9 +137,9 @@ void check_output(BodiesCommand& command) {
   }
   if (is_single(*format)) command.repair.certify.precision = Precision::float32;
   if (has_place_of_name(output) || has_instances(*format)) return;
-  throw UsageError(output + ": " + std::string(format_name(*format)) +
-                   " holds no several bodies; with {} in the name, each body gets a file, which "
-                   "has its name there");
+  throw UsageError(
+      output + ": " + std::string(format_name(*format)) +
+      " holds one body; with {} in the name, each body gets a file, with its name there");
 }
 
 ExitCode divide_files(const Options& options, Run& run) {
@@ -185,9 +185,9 @@ int main(int argc, char** argv) {
       "meshbodies",
       "Divides bodies that touch or overlap into regions with common faces, as meshers\n"
       "for simulation need them.",
-      "  meshbodies bone.stl implant.stl -o both.msh\n"
-      "  meshbodies layers.3mf --overlap own -o layers.poly\n"
-      "  meshbodies a.stl b.stl c.stl --join-gaps 0.01 -o part-{}.stl\n");
+      "  meshbodies body.stl drill.obj -o both.msh\n"
+      "  meshbodies assembly.3mf --overlap own -o assembly.poly\n"
+      "  meshbodies body.stl drill.obj --join-gaps 0.01 -o part-{}.stl\n");
   CommandLine& app = program.command_line();
   app.add_option("IN", options.command.inputs,
                  "Bodies, a file each; or one file whose objects, groups or materials are the\n"

@@ -16,8 +16,8 @@ Usage: scripts/setup.sh [build|python|all|bench|package|wasm|windows|arm64|clust
           are tested, Blender, OpenSCAD, mypy, Chromium, GNU parallel, what makes the manual's
           site, and of npm the validator of glTF, playwright, the SDK of
           the Model Context Protocol, esbuild and three.js (default)
-  bench   what is needed to build, and the libraries that the benchmarks compare
-          this project with
+  bench   what is needed to build, the libraries that the benchmarks compare
+          this project with, and the meshers and the solver of one long test
   wasm    what is needed to build for browsers and node: emscripten, and what
           builds Debian's sources of the libraries that are linked; of npm
           esbuild
@@ -106,10 +106,13 @@ command -v node >/dev/null || check_packages+=(nodejs)
 command -v npm >/dev/null || check_packages+=(npm)
 
 bench_packages=(
+  calculix-ccx
+  gmsh
   libcgal-dev
   libgmp-dev
   libmpfr-dev
   libopenvdb-dev
+  tetgen
 )
 
 package_packages=(

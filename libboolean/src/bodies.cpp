@@ -450,6 +450,8 @@ ConformingBodies conforming_bodies(std::span<const TriangleSoup> solids,
   if (!complex.region_of_part.empty()) find_seeds(complex, bodies);
   bodies.mesh = std::move(complex.mesh);
   bodies.regions_of = std::move(complex.regions_of);
+  bodies.parts_of = std::move(complex.parts_of);
+  bodies.region_of_part = std::move(complex.region_of_part);
   bodies.source = std::move(complex.source);
   measure(bodies, report);
   return bodies;

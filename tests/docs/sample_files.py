@@ -76,6 +76,7 @@ def make_folder(folder: pathlib.Path, programs: pathlib.Path) -> None:
     run("meshrepair", "hollow_sphere.obj", "a.ply")
     run("meshrepair", "hollow_sphere.obj", "b.ply")
     run("meshrepair", "broken.stl", "repaired.stl")
+    run("meshbodies", "body.stl", "drill.obj", "-o", "assembly.3mf")
     for name, mesh in (("a.bsp", "a.obj"), ("b.bsp", "b.off"), ("c.bsp", "broken.obj")):
         run("bspbuild", mesh, "-o", name)
         run("bspsolid", name, "-o", name)

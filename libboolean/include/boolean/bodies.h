@@ -71,6 +71,11 @@ struct ConformingBodies {
   // Of each triangle, the region in front, from where it is counter-clockwise, and that behind: 0
   // is outside, others are 1 + their place in `regions`. Where one is outside, it is in front.
   std::vector<std::array<std::uint32_t, 2>> regions_of;
+  // Regions fall into parts that have no face in common, numbered from 1; 0 is the outside, and
+  // other parts of the outside are voids. Of each triangle that in front and that behind, and of
+  // each part its region.
+  std::vector<std::array<std::uint32_t, 2>> parts_of;
+  std::vector<std::uint32_t> region_of_part;
   // Of each triangle one in which it lies, counted through those of all solids.
   std::vector<std::uint32_t> source;
   std::vector<BodyRegion> regions;    // of all bodies, in their order, then overlaps

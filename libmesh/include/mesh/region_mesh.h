@@ -35,12 +35,19 @@ struct RegionSeed {
   Vec3d place = Vec3d::Zero();
 };
 
-// Not owned. Triangles are counter-clockwise seen from the region in front.
+// Not owned. Regions fall into connected parts. Part 0 is the unbounded outside; other parts of
+// region 0 are voids. Triangles are counter-clockwise seen from the part in front.
 struct RegionMesh {
   const TriangleSoup& mesh;
-  std::span<const std::array<std::uint32_t, 2>> regions_of;  // in front, behind; 0 is outside
-  std::span<const std::string> names;                        // of the regions from number 1 on
+  std::span<const std::array<std::uint32_t, 2>> parts_of;  // of each triangle: in front, behind
+  std::span<const std::uint32_t> region_of_part;
+  std::span<const std::string> names;  // of the regions from number 1 on
   std::span<const RegionSeed> seeds;
+
+  // Of a triangle, in front and behind.
+  [[nodiscard]] std::array<std::uint32_t, 2> regions_of(std::size_t t) const {
+    return {region_of_part[parts_of[t][0]], region_of_part[parts_of[t][1]]};
+  }
 };
 
 // The bytes of the file. Triangles come by their pairs of regions, (0, 1) first, but for PLY and

@@ -21,22 +21,32 @@ constexpr std::array<std::pair<RegionFormat, std::string_view>, 5> kRegionFormat
     {RegionFormat::msh, "MSH"},
 }};
 
-// Two regions, the lower first, and the triangles between them: an interface.
+// Two regions, or parts of them, the lower first, and the triangles between them.
 struct Interface {
   std::uint32_t a = 0, b = 0;
   std::vector<std::uint32_t> triangles;  // ascending
 };
 
-std::vector<Interface> interfaces_of(const RegionMesh& regions) {
+// sides_of(t): what is on the sides of a triangle.
+template <class SidesOf>
+std::vector<Interface> interfaces_by(std::size_t triangles, const SidesOf& sides_of) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> by_pair;
-  for (std::uint32_t t = 0; t < regions.regions_of.size(); ++t) {
-    by_pair[std::minmax(regions.regions_of[t][0], regions.regions_of[t][1])].push_back(t);
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    const std::array<std::uint32_t, 2> sides = sides_of(t);
+    by_pair[std::minmax(sides[0], sides[1])].push_back(t);
   }
   std::vector<Interface> all;
-  for (auto& [pair, triangles] : by_pair) {
-    all.push_back({pair.first, pair.second, std::move(triangles)});
-  }
+  for (auto& [pair, list] : by_pair) all.push_back({pair.first, pair.second, std::move(list)});
   return all;
+}
+
+std::vector<Interface> interfaces_of_regions(const RegionMesh& regions) {
+  return interfaces_by(regions.parts_of.size(),
+                       [&](std::size_t t) { return regions.regions_of(t); });
+}
+
+std::vector<Interface> interfaces_of_parts(const RegionMesh& regions) {
+  return interfaces_by(regions.parts_of.size(), [&](std::size_t t) { return regions.parts_of[t]; });
 }
 
 // With an underscore for each character that would end it.
@@ -71,8 +81,8 @@ std::string as_ply(const RegionMesh& regions, std::span<const std::string> comme
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     out += '\3';
     out.append(reinterpret_cast<const char*>(mesh.triangles[t].data()), sizeof mesh.triangles[t]);
-    out.append(reinterpret_cast<const char*>(regions.regions_of[t].data()),
-               sizeof regions.regions_of[t]);
+    const std::array<std::uint32_t, 2> sides = regions.regions_of(t);
+    out.append(reinterpret_cast<const char*>(sides.data()), sizeof sides);
   }
   return out;
 }
@@ -85,7 +95,7 @@ std::string as_obj(const RegionMesh& regions, std::span<const std::string> comme
     append_triple(lines, regions.mesh.points[p]);
     lines += '\n';
   });
-  for (const Interface& one : interfaces_of(regions)) {
+  for (const Interface& one : interfaces_of_regions(regions)) {
     out += "g";
     for (const std::uint32_t r : {one.a, one.b}) {
       if (r != 0) out += " " + plain(name_of(regions, r));
@@ -116,7 +126,7 @@ std::string as_vtp(const RegionMesh& regions, std::span<const std::string> comme
   };
   const auto side = [&](std::size_t k) {
     return [&, k](std::string& lines, std::size_t t) {
-      append_number(lines, regions.regions_of[t][k]);
+      append_number(lines, regions.regions_of(t)[k]);
     };
   };
   for (std::string comment : comments) {
@@ -155,7 +165,7 @@ std::string as_poly(const RegionMesh& regions, std::span<const std::string> comm
   });
   std::uint32_t marker = 0;
   out += std::to_string(mesh.triangles.size()) + " 1\n";
-  for (const Interface& one : interfaces_of(regions)) {
+  for (const Interface& one : interfaces_of_regions(regions)) {
     out += "# marker " + std::to_string(++marker) + ":";
     for (const std::uint32_t r : {one.a, one.b}) {
       out += ' ' + (r == 0 ? std::string("outside") : plain(name_of(regions, r)));
@@ -189,10 +199,16 @@ std::string as_poly(const RegionMesh& regions, std::span<const std::string> comm
   return out;
 }
 
-// Of a file of Gmsh. Tags of surfaces count from 1, in the order of the interfaces.
+// Of a file of Gmsh. Tags of surfaces count from 1, in the order of the interfaces between parts;
+// those of physical groups, in the order of the pairs of regions.
 class MshText {
  public:
-  explicit MshText(const RegionMesh& regions) : regions_(regions), all_(interfaces_of(regions)) {}
+  explicit MshText(const RegionMesh& regions)
+      : regions_(regions), all_(interfaces_of_parts(regions)) {
+    for (const Interface& one : all_) groups_.emplace(regions_of(one), 0);
+    std::size_t tag = 0;
+    for (auto& [pair, number] : groups_) number = ++tag;
+  }
 
   std::string run(std::span<const std::string> comments) {
     out_ = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
@@ -209,13 +225,17 @@ class MshText {
   }
 
  private:
+  // The lower one first.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> regions_of(const Interface& one) const {
+    return std::minmax({regions_.region_of_part[one.a], regions_.region_of_part[one.b]});
+  }
+
   void add_names() {
-    out_ += "$PhysicalNames\n" + std::to_string(all_.size()) + "\n";
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      const std::uint32_t a = all_[i].a;
-      out_ += "2 " + std::to_string(i + 1) + " \"" +
-              (a == 0 ? std::string() : plain(name_of(regions_, a)) + "|") +
-              plain(name_of(regions_, all_[i].b)) + "\"\n";
+    out_ += "$PhysicalNames\n" + std::to_string(groups_.size()) + "\n";
+    for (const auto& [pair, tag] : groups_) {
+      out_ += "2 " + std::to_string(tag) + " \"" +
+              (pair.first == 0 ? std::string() : plain(name_of(regions_, pair.first)) + "|") +
+              plain(name_of(regions_, pair.second)) + "\"\n";
     }
     out_ += "$EndPhysicalNames\n";
   }
@@ -223,10 +243,9 @@ class MshText {
   void add_entities() {
     out_ += "$Entities\n0 0 " + std::to_string(all_.size()) + " 0\n";
     for (std::size_t i = 0; i < all_.size(); ++i) {
-      const std::string tag = std::to_string(i + 1);
-      out_ += tag + " ";
+      out_ += std::to_string(i + 1) + " ";
       add_box(all_[i]);
-      out_ += " 1 " + tag + " 0\n";
+      out_ += " 1 " + std::to_string(groups_.at(regions_of(all_[i]))) + " 0\n";
     }
     out_ += "$EndEntities\n";
   }
@@ -290,28 +309,35 @@ class MshText {
 
   const RegionMesh& regions_;
   std::vector<Interface> all_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> groups_;  // tags, by regions
   std::string out_;
 };
 
 }  // namespace
 
 std::string format_gmsh_script(const RegionMesh& regions, std::string_view msh) {
-  std::vector<std::vector<std::size_t>> around(regions.names.size() + 1);
+  std::vector<std::string> around(regions.region_of_part.size());  // of each part its surfaces
   std::size_t surface = 0;
-  for (const Interface& one : interfaces_of(regions)) {
+  for (const Interface& one : interfaces_of_parts(regions)) {
     ++surface;
-    for (const std::uint32_t r : {one.a, one.b}) around[r].push_back(surface);
+    for (const std::uint32_t part : {one.a, one.b}) {
+      around[part] += (around[part].empty() ? "" : ", ") + std::to_string(surface);
+    }
   }
   std::string out = "Merge \"" + std::string(msh) + "\";\n";
-  for (std::uint32_t r = 1; r < around.size(); ++r) {
-    if (around[r].empty()) continue;
-    const std::string tag = std::to_string(r);
-    out += "Surface Loop(" + tag + ") = {";
-    for (std::size_t i = 0; i < around[r].size(); ++i) {
-      out += (i == 0 ? "" : ", ") + std::to_string(around[r][i]);
-    }
-    out += "};\nVolume(" + tag + ") = {" + tag + "};\nPhysical Volume(\"" +
-           plain(name_of(regions, r)) + "\", " + tag + ") = {" + tag + "};\n";
+  std::vector<std::string> volumes(regions.names.size() + 1);
+  for (std::size_t part = 1; part < around.size(); ++part) {
+    const std::uint32_t region = regions.region_of_part[part];
+    if (region == 0) continue;
+    const std::string tag = std::to_string(part);
+    out += "Surface Loop(" + tag + ") = {" + around[part] + "};\nVolume(" + tag + ") = {" + tag +
+           "};\n";
+    volumes[region] += (volumes[region].empty() ? "" : ", ") + tag;
+  }
+  for (std::uint32_t r = 1; r < volumes.size(); ++r) {
+    if (volumes[r].empty()) continue;
+    out += "Physical Volume(\"" + plain(name_of(regions, r)) + "\", " + std::to_string(r) +
+           ") = {" + volumes[r] + "};\n";
   }
   return out;
 }
