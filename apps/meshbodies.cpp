@@ -119,8 +119,8 @@ void write_bodies(const Options& options, const Bodies& bodies, const Conforming
   if (is_each) return write_each(options, format, result, bodies, facts);
   const std::vector<std::string> names = bodies.names_of(result);
   if (regions) return write_faces(options, *regions, result, names, run);
-  const auto [soup, attributes] = as_objects(result, names);
-  format.extras.attributes = &attributes;
+  const auto [soup, scene] = as_scene(result, names);
+  format.extras.scene = &scene;
   write_soup(soup, output, format);
 }
 

@@ -240,17 +240,19 @@ std::string bodies_summary(const Bodies& bodies, const ConformingBodies& result,
   return lines;
 }
 
-std::pair<TriangleSoup, Attributes> as_objects(const ConformingBodies& result,
-                                               const std::vector<std::string>& names) {
+std::pair<TriangleSoup, Scene> as_scene(const ConformingBodies& result,
+                                        const std::vector<std::string>& names) {
   TriangleSoup soup;
-  Attributes attributes;
-  attributes.objects.names = names;
-  std::uint32_t object = 0;
+  Scene scene;
+  std::size_t region = 0;
   for (const TriangleSoup& boundary : boundaries_of(result)) {
+    const std::string& name = names[region++];
+    if (boundary.triangles.empty()) continue;
     append_soup(soup, boundary);
-    attributes.objects.of_triangle.resize(soup.triangles.size(), object++);
+    scene.instances.push_back({static_cast<std::uint32_t>(scene.meshes.size()), name, {}});
+    scene.meshes.push_back({name, boundary.points.size(), boundary.triangles.size()});
   }
-  return {std::move(soup), std::move(attributes)};
+  return {std::move(soup), std::move(scene)};
 }
 
 ExitCode bodies_verdict(const BodiesReport& report, Findings& findings, Run& run) {

@@ -9,6 +9,7 @@
 
 #include <boolean/bodies.h>
 #include <mesh/attributes.h>
+#include <mesh/scene.h>
 #include <mesh/soup.h>
 
 #include "options/command_line.h"
@@ -76,9 +77,9 @@ void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,
 [[nodiscard]] std::string bodies_summary(const Bodies& bodies, const ConformingBodies& result,
                                          const BodiesReport& report);
 
-// Each region as an object that is closed by itself.
-[[nodiscard]] std::pair<TriangleSoup, Attributes> as_objects(const ConformingBodies& result,
-                                                             const std::vector<std::string>& names);
+// Each region that has faces as a mesh of its own, which is closed.
+[[nodiscard]] std::pair<TriangleSoup, Scene> as_scene(const ConformingBodies& result,
+                                                      const std::vector<std::string>& names);
 
 // What the output does not hold is told, and is an error of the report.
 [[nodiscard]] ExitCode bodies_verdict(const BodiesReport& report, Findings& findings, Run& run);
