@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // meshbodies A B ... -o OUT: bodies with common faces.
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
@@ -77,17 +78,32 @@ std::string in_file_name(std::string name) {
   return name;
 }
 
-// A file for each region; its name goes to the region's facts.
-void write_each(const Options& options, const WriteOptions& format, const ConformingBodies& result,
-                const Bodies& bodies, BodiesFacts& facts) {
+// Of each region that has faces, its file; all differ, and none is an input.
+std::vector<std::string> files_of(const Options& options, const ConformingBodies& result,
+                                  const Bodies& bodies) {
+  std::vector<std::string> files(result.regions.size());
+  for (std::uint32_t r = 1; r <= files.size(); ++r) {
+    if (result.regions[r - 1].triangles == 0) continue;
+    const std::string name = in_file_name(bodies.name_of(result, r));
+    std::string file;
+    for (int n = 1; n == 1 || std::find(files.begin(), files.end(), file) != files.end(); ++n) {
+      file = options.command.output;
+      file.replace(file.find(kPlaceOfName), kPlaceOfName.size(),
+                   n == 1 ? name : name + "-" + std::to_string(n));
+    }
+    for (const std::string& input : options.command.inputs) {
+      if (is_same_file(file, input)) throw UsageError(file + ": is an input, too");
+    }
+    files[r - 1] = std::move(file);
+  }
+  return files;
+}
+
+void write_each(const WriteOptions& format, const ConformingBodies& result,
+                const std::vector<std::string>& files) {
   const std::vector<TriangleSoup> boundaries = boundaries_of(result);
-  for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
-    if (boundaries[r - 1].triangles.empty()) continue;
-    std::string file = options.command.output;
-    file.replace(file.find(kPlaceOfName), kPlaceOfName.size(),
-                 in_file_name(bodies.name_of(result, r)));
-    write_soup(boundaries[r - 1], file, format);
-    facts.files[r - 1] = std::move(file);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!files[i].empty()) write_soup(boundaries[i], files[i], format);
   }
 }
 
@@ -116,7 +132,10 @@ void write_bodies(const Options& options, const Bodies& bodies, const Conforming
   run.report.set_output({{"path", output},
                          {"format", regions && !is_each ? region_format_name(*regions)
                                                         : format_name(*format.format)}});
-  if (is_each) return write_each(options, format, result, bodies, facts);
+  if (is_each) {
+    facts.files = files_of(options, result, bodies);
+    return write_each(format, result, facts.files);
+  }
   const std::vector<std::string> names = bodies.names_of(result);
   if (regions) return write_faces(options, *regions, result, names, run);
   const auto [soup, scene] = as_scene(result, names);

@@ -104,7 +104,10 @@ std::string region_line(const Bodies& bodies, const ConformingBodies& result,
   const BodyRegion& region = result.regions[number - 1];
   std::string line = fmt::format("{:<9} {}: volume {:.6g}", "region",
                                  bodies.name_of(result, number), region.volume);
-  if (region.triangles == 0) return line + ", all of it is another's\n";
+  if (region.triangles == 0) {
+    const bool is_empty = bodies.is_empty(result, number);
+    return line + (is_empty ? ", as the input is empty\n" : ", all of it is another's\n");
+  }
   if (region.parts > 1) line += fmt::format(" in {}", number_of(region.parts, "part"));
   for (const BodyContact& contact : result.contacts) {
     if (contact.a == 0 || (contact.a != number && contact.b != number)) continue;
@@ -193,6 +196,10 @@ std::string Bodies::name_of(const ConformingBodies& result, std::uint32_t region
   return name;
 }
 
+bool Bodies::is_empty(const ConformingBodies& result, std::uint32_t region) const {
+  return solids_[result.regions[region - 1].bodies[0]].triangles.empty();
+}
+
 std::vector<std::string> Bodies::names_of(const ConformingBodies& result) const {
   std::vector<std::string> names;
   for (std::uint32_t r = 1; r <= result.regions.size(); ++r) names.push_back(name_of(result, r));
@@ -217,7 +224,7 @@ void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,
                     const BodiesCommand& command, const BodiesFacts& facts, Run& run) {
   run.report.set_section("bodies", bodies_section(bodies, result, command, facts));
   for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
-    if (result.regions[r - 1].triangles > 0 || bodies.solids()[r - 1].triangles.empty()) continue;
+    if (result.regions[r - 1].triangles > 0 || bodies.is_empty(result, r)) continue;
     warn(bodies.name_of(result, r),
          {WarningCode::body_gone, "lies in other bodies, which have all of it"});
   }

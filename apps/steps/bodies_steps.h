@@ -54,6 +54,8 @@ class Bodies {
   [[nodiscard]] const std::vector<TriangleSoup>& solids() const { return solids_; }
   // "A", or "A+B" of an overlap. All names differ.
   [[nodiscard]] std::string name_of(const ConformingBodies& result, std::uint32_t region) const;
+  // Whether its first body was empty to begin with.
+  [[nodiscard]] bool is_empty(const ConformingBodies& result, std::uint32_t region) const;
   [[nodiscard]] std::vector<std::string> names_of(const ConformingBodies& result) const;
 
  private:

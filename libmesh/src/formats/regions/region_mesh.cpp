@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <initializer_list>
 #include <map>
 #include <utility>
 
@@ -36,6 +37,7 @@ std::vector<Interface> interfaces_by(std::size_t triangles, const SidesOf& sides
     by_pair[std::minmax(sides[0], sides[1])].push_back(t);
   }
   std::vector<Interface> all;
+  all.reserve(by_pair.size());
   for (auto& [pair, list] : by_pair) all.push_back({pair.first, pair.second, std::move(list)});
   return all;
 }
@@ -324,20 +326,23 @@ std::string format_gmsh_script(const RegionMesh& regions, std::string_view msh) 
       around[part] += (around[part].empty() ? "" : ", ") + std::to_string(surface);
     }
   }
-  std::string out = "Merge \"" + std::string(msh) + "\";\n";
+  std::string out;
+  const auto add = [&](std::initializer_list<std::string_view> words) {
+    for (const std::string_view word : words) out += word;
+  };
+  add({"Merge \"", msh, "\";\n"});
   std::vector<std::string> volumes(regions.names.size() + 1);
   for (std::size_t part = 1; part < around.size(); ++part) {
     const std::uint32_t region = regions.region_of_part[part];
     if (region == 0) continue;
     const std::string tag = std::to_string(part);
-    out += "Surface Loop(" + tag + ") = {" + around[part] + "};\nVolume(" + tag + ") = {" + tag +
-           "};\n";
+    add({"Surface Loop(", tag, ") = {", around[part], "};\nVolume(", tag, ") = {", tag, "};\n"});
     volumes[region] += (volumes[region].empty() ? "" : ", ") + tag;
   }
   for (std::uint32_t r = 1; r < volumes.size(); ++r) {
     if (volumes[r].empty()) continue;
-    out += "Physical Volume(\"" + plain(name_of(regions, r)) + "\", " + std::to_string(r) +
-           ") = {" + volumes[r] + "};\n";
+    add({"Physical Volume(\"", plain(name_of(regions, r)), "\", ", std::to_string(r), ") = {",
+         volumes[r], "};\n"});
   }
   return out;
 }
