@@ -15,6 +15,7 @@
 #include <boolean/boolean.h>
 #include <mesh/append_soup.h>
 #include <mesh/topology.h>
+#include <simplify/decimate.h>
 
 #include "common/depth.h"
 #include "drains/place_drains.h"
@@ -34,8 +35,10 @@ using internal::Piece;
 using internal::Place;
 using internal::Proof;
 
-// What is to be subtracted: of the error, this is for the rounding of coordinates.
+// Shares of the error: of taking triangles away, and of the rounding of coordinates.
+constexpr double kForFewer = 0.25;
 constexpr double kForRounding = 0.1;
+constexpr int kMostRounds = 8;
 constexpr double kLeastBall = 0.25;  // of the wall, that a cavity without drains holds
 constexpr std::size_t kMostPieces = 4000;
 constexpr std::size_t kTrianglesPerTask = 64;
@@ -63,6 +66,8 @@ class Hollower {
     hollowed_.volume_before = signed_volume(solid_.mesh);
     meter_.begin("cavities");
     find();
+    meter_.begin("fewer");
+    take_away_triangles();
     keep_large();
     if (hollowed_.cavities.empty()) return solid_;
     meter_.begin("drains");
@@ -80,12 +85,70 @@ class Hollower {
   void find() {
     internal::CavityOptions options;
     options.thickness = options_.wall;
-    options.error = (1 - kForRounding) * kHollowError * options_.wall;
+    options.error = (1 - kForFewer - kForRounding) * kHollowError * options_.wall;
     options.progress = repair_.progress;
     found_ = internal::find_cavities(solid_.mesh, depth_, options);
     hollowed_.cells = found_.cells;
     hollowed_.finest = std::isfinite(found_.finest) ? found_.finest : 0;
     hollowed_.unproven = found_.unproven;
+  }
+
+  // Where tetrahedra are small, most triangles lie in one plane. Collapses are bounded at points;
+  // where a triangle is farther off than that, the points that it came from stay next time.
+  void take_away_triangles() {
+    if (found_.cavity.empty()) return;
+    CancelOnly quiet(repair_.progress);
+    std::vector<DecimationOptions::Stay> stays(found_.walls.points.size(),
+                                               DecimationOptions::Stay::no);
+    for (int round = 0; round < kMostRounds; ++round) {
+      DecimationOptions options;
+      options.distance = kForFewer * kHollowError * options_.wall;
+      options.precision = repair_.certify.precision;
+      options.stays = stays;
+      options.progress = &quiet;
+      DecimationReport report;
+      DecimatedMesh fewer = decimate(found_.walls, options, report);
+      std::vector<char> is_beside(fewer.mesh.points.size(), 0);
+      std::size_t beside = 0;
+      for (const std::uint32_t t : triangles_beside(fewer.mesh)) {
+        for (const std::uint32_t point : fewer.mesh.triangles[t]) is_beside[point] = 1;
+        ++beside;
+      }
+      fprintf(stderr, "round %d: %zu triangles, %zu beside\n", round, fewer.mesh.triangles.size(),
+              beside);
+      if (beside == 0) return take(std::move(fewer));
+      for (std::size_t i = 0; i < stays.size(); ++i) {
+        if (is_beside[fewer.point[i]] != 0) stays[i] = DecimationOptions::Stay::alone;
+      }
+    }
+  }
+
+  void take(DecimatedMesh&& fewer) {
+    std::vector<std::uint32_t> cavity;
+    for (const std::uint32_t t : fewer.source) cavity.push_back(found_.cavity[t]);
+    found_.walls = std::move(fewer.mesh);
+    found_.cavity = std::move(cavity);
+  }
+
+  // For which the bounds that were asked for are not proven.
+  [[nodiscard]] std::vector<std::uint32_t> triangles_beside(const TriangleSoup& walls) const {
+    std::vector<char> beside(walls.triangles.size(), 0);
+    CancelOnly quiet(repair_.progress);
+    SharedProgress polled(&quiet, tasks_of(beside.size(), kTrianglesPerTask));
+    parallel_tasks(beside.size(), kTrianglesPerTask,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     for (std::size_t t = first; t < last; ++t) {
+                       const auto& [a, b, c] = walls.triangles[t];
+                       beside[t] = !holds({walls.points[a], walls.points[b], walls.points[c]},
+                                          (1 - kForRounding) * kHollowError);
+                     }
+                     polled.done();
+                   });
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t t = 0; t < beside.size(); ++t) {
+      if (beside[t] != 0) found.push_back(t);
+    }
+    return found;
   }
 
   // Numbers cavities anew, and drops the triangles of those that stay full.
@@ -210,16 +273,30 @@ class Hollower {
     std::size_t beside = 0;  // triangles for which what was asked for is not proven
   };
 
-  [[nodiscard]] Bounds bounds_of(const std::array<Vec3d, 3>& triangle) const {
+  [[nodiscard]] Piece piece_of(const std::array<Vec3d, 3>& triangle) const {
     Piece piece;
-    for (std::size_t i = 0; i < 3; ++i) piece[i] = depth_.place(triangle[i], 0);
+    piece[0] = depth_.place(triangle[0], 0);
+    for (std::size_t i = 1; i < 3; ++i) piece[i] = depth_.place(triangle[i], piece[0].nearest);
     piece[3] = piece[2];
-    Bounds bounds;
+    return piece;
+  }
+
+  [[nodiscard]] bool is_proven(const Piece& piece, double error, DepthProver& prover) const {
+    return prover.is_beyond(piece, options_.wall * (1 - error)) == Proof::holds &&
+           prover.is_within(piece, options_.wall * (1 + error)) == Proof::holds;
+  }
+
+  [[nodiscard]] bool holds(const std::array<Vec3d, 3>& triangle, double error) const {
+    DepthProver prover(depth_, kMostPieces);
+    return is_proven(piece_of(triangle), error, prover);
+  }
+
+  [[nodiscard]] Bounds bounds_of(const std::array<Vec3d, 3>& triangle) const {
+    const Piece piece = piece_of(triangle);
     const double wall = options_.wall;
     DepthProver prover(depth_, kMostPieces);
-    const bool holds = prover.is_beyond(piece, wall * (1 - kHollowError)) == Proof::holds &&
-                       prover.is_within(piece, wall * (1 + kHollowError)) == Proof::holds;
-    if (holds) return {prover.least(), prover.most(), 0};
+    if (is_proven(piece, kHollowError, prover)) return {prover.least(), prover.most(), 0};
+    Bounds bounds;
     bounds.beside = 1;
     bounds.least = 0;
     for (const double share : kLower) {

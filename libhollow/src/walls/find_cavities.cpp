@@ -3,7 +3,8 @@
 // than the thickness is in a cavity, and a wall passes between those that are and those that are
 // not. A tetrahedron is done once it is proven that
 //
-// - no point on the side of the cavity is less deep than the thickness less the error;
+// - no point of the wall, or on the side of the cavity, is less deep than the thickness less the
+//   error;
 // - no point on the other side is deeper than the thickness and the error.
 //
 // Else it is cut, with those around it. So they become small where the solid is curved or has
@@ -238,21 +239,47 @@ class CavityFinder : public WallPoints {
     return std::sqrt(longest);
   }
 
+  // All of it, for sure; no corner is in a cavity.
+  [[nodiscard]] bool is_outside(const CutCell& cell) const {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double distance = cell.places[i].distance;
+      if (reach_of(cell.places, i) >= distance) continue;
+      // The surface does not pass.
+      return in_[cell.corners[i]] < 0 || !depth_.is_inside(cell.places[i].at);
+    }
+    return false;
+  }
+
+  // No surface is in it, as one corner at least is farther from that. Where the wall is beyond it,
+  // all of the cavity is: the way from there to the surface passes the wall.
+  [[nodiscard]] bool is_small(std::uint32_t cell) const {
+    return longest_edge(cell) < options_.thickness;
+  }
+
+  static std::vector<Piece> pieces_of(const WallInCell& wall) {
+    std::vector<Piece> pieces;
+    for (const auto& [a, b, c] : wall.triangles) {
+      pieces.push_back({a.place, b.place, c.place, c.place});
+    }
+    return pieces;
+  }
+
   [[nodiscard]] bool is_proven(std::uint32_t number) const {
     const CutCell cell = cell_of(number);
     const double least = options_.thickness - options_.error;
     const double most = options_.thickness + options_.error;
     DepthProver prover(depth_, kMostPieces);
     if (!is_cut(cell.corners)) {
-      return (cell.in[0] ? prover.is_beyond(cell.places, least)
-                         : prover.is_within(cell.places, most)) == Proof::holds;
+      if (cell.in[0]) return prover.is_beyond(cell.places, least) == Proof::holds;
+      return is_outside(cell) || prover.is_within(cell.places, most) == Proof::holds;
     }
     const WallInCell wall = wall_in(cell, *this, finder_);
     const auto all_of = [](const std::vector<Piece>& pieces, const auto& proof) {
       return std::all_of(pieces.begin(), pieces.end(),
                          [&](const Piece& piece) { return proof(piece) == Proof::holds; });
     };
-    return all_of(wall.in, [&](const Piece& piece) { return prover.is_beyond(piece, least); }) &&
+    return all_of(is_small(number) ? pieces_of(wall) : wall.in,
+                  [&](const Piece& piece) { return prover.is_beyond(piece, least); }) &&
            all_of(wall.out, [&](const Piece& piece) { return prover.is_within(piece, most); });
   }
 
@@ -306,8 +333,7 @@ class CavityFinder : public WallPoints {
         const WallPoint& point = triangle[i];
         std::uint32_t& known = point.number == kTip ? tip : number[point.number];
         if (known == kNoPoint) {
-          known = static_cast<std::uint32_t>(found.places.size());
-          found.places.push_back(point.place);
+          known = static_cast<std::uint32_t>(found.walls.points.size());
           found.walls.points.push_back(point.place.at);
         }
         corners[i] = known;

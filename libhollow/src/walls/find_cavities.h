@@ -22,7 +22,6 @@ struct Cavities {
   // Closed and free of self-intersections, turned out of the cavities.
   TriangleSoup walls;
   std::vector<std::uint32_t> cavity;  // of each triangle
-  std::vector<Place> places;          // of each point of `walls`
   std::vector<Place> deepest;         // of each cavity, nearly
   std::size_t cells = 0;              // tetrahedra
   double finest = 0;                  // the shortest longest edge of one that a wall passes

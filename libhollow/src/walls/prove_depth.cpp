@@ -4,9 +4,12 @@
 // - From above: the distance to one triangle is a convex function, so it is largest at a corner,
 //   and d is nowhere above that, whichever triangle it is.
 // - From below, first: d(x) >= d(v) - |x - v| for each v.
-// - From below, second: let q be the point of the surface nearest to x. As x is a mean of the
-//   corners, (v - x) (q - x) >= 0 for one of them. For that one |q - v|^2 <= |q - x|^2 + |v - x|^2,
-//   so d(x)^2 >= d(v)^2 - |v - x|^2: the loss is of second order in the size of the piece.
+// - From below, second: let x be the mean of the corners with weights w, q the point of the surface
+//   nearest to x, and c any point. As the mean of |v - y|^2 is least at x, and larger by |x - y|^2
+//   elsewhere,
+//     d(x)^2 = |q - x|^2 = mean |q - v|^2 - mean |x - v|^2 >= mean (d(v)^2 - |c - v|^2),
+//   which is not below the least of d(v)^2 - |c - v|^2. So the loss is of second order in the size
+//   of the piece. The smallest ball around it has the best c, if all corners are equally deep.
 // - From below, third: a triangle and the piece are at least as far apart as their shadows on any
 //   line.
 //
@@ -24,6 +27,8 @@ namespace {
 // asked with a margin of 1e-3 of the distance at least, which is far more for all that has a wall:
 // the thickness is above a millionth of the size.
 constexpr std::size_t kMostApart = 24;  // triangles that are looked at one by one
+constexpr int kCentres = 8;             // that are tried
+constexpr double kWorthShadows = 0.3;   // of the distance: smaller pieces do without
 constexpr double kRoom = 1.0625;        // of the distance, around the piece
 
 struct LongestEdge {
@@ -42,13 +47,25 @@ LongestEdge longest_edge(const Piece& piece) {
   return longest;
 }
 
-// The largest distance of a corner from one of them.
-double reach_of(const Piece& piece, std::size_t corner) {
-  double squared = 0;
-  for (const Place& other : piece) {
-    squared = std::max(squared, (other.at - piece[corner].at).squaredNorm());
+// The least of d(v)^2 - |c - v|^2 for a good c, which moves to the corner that has it in smaller
+// and smaller steps (as in M. Badoiu and K. Clarkson, "Smaller core-sets for balls", 2003).
+double power_bound(const Piece& piece) {
+  Vec3d centre = 0.25 * (piece[0].at + piece[1].at + piece[2].at + piece[3].at);
+  double best = -std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kCentres; ++step) {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double power =
+          piece[i].distance * piece[i].distance - (piece[i].at - centre).squaredNorm();
+      if (power >= least) continue;
+      least = power;
+      worst = i;
+    }
+    best = std::max(best, least);
+    centre += (piece[worst].at - centre) / (step + 2);
   }
-  return std::sqrt(squared);
+  return best;
 }
 
 Box box_of(const Piece& piece) {
@@ -58,6 +75,14 @@ Box box_of(const Piece& piece) {
 }
 
 }  // namespace
+
+double reach_of(const Piece& piece, std::size_t corner) {
+  double squared = 0;
+  for (const Place& other : piece) {
+    squared = std::max(squared, (other.at - piece[corner].at).squaredNorm());
+  }
+  return std::sqrt(squared);
+}
 
 template <class Judge>
 Proof DepthProver::prove(const Piece& piece, const Judge& judge) {
@@ -97,9 +122,13 @@ Proof DepthProver::judge_beyond(const Piece& piece, double distance) {
     bound = std::max(bound, piece[i].distance - reach_of(piece, i));
   }
   if (nearest < distance) return Proof::fails;
-  const double squared = nearest * nearest - longest_edge(piece).squared;
+  const double squared = power_bound(piece);
   if (squared > 0) bound = std::max(bound, std::sqrt(squared));
-  if (bound < distance && !is_apart(piece, distance, bound)) return Proof::open;
+  if (bound < distance) {
+    const double room = kWorthShadows * distance;
+    const bool is_large = longest_edge(piece).squared > room * room;
+    if (!is_large || !is_apart(piece, distance, bound)) return Proof::open;
+  }
   least_ = std::min(least_, bound);
   return Proof::holds;
 }

@@ -13,6 +13,9 @@ namespace meshrepair::internal {
 // The convex hull of its corners, some of which may be the same.
 using Piece = std::array<Place, 4>;
 
+// The largest distance of a corner from this one.
+[[nodiscard]] double reach_of(const Piece& piece, std::size_t corner);
+
 enum class Proof {
   holds,
   fails,  // some point tells so
