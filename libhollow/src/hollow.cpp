@@ -38,9 +38,9 @@ using internal::Proof;
 // Shares of the error: of taking triangles away, and of the rounding of coordinates.
 constexpr double kForFewer = 0.25;
 constexpr double kForRounding = 0.1;
-constexpr int kMostRounds = 8;
-constexpr double kLeastBall = 0.25;  // of the wall, that a cavity without drains holds
-constexpr std::size_t kMostPieces = 4000;
+constexpr int kMostRounds = 3;               // of taking triangles away
+constexpr double kLeastBall = 0.25;          // of the wall, that a cavity without drains holds
+constexpr std::size_t kMostPieces = 200000;  // of a triangle: large ones need many
 constexpr std::size_t kTrianglesPerTask = 64;
 // Where the bounds that were asked for do not hold: shares of the thickness that are tried.
 constexpr std::array<double, 5> kLower = {0.95, 0.9, 0.75, 0.5, 0.25};
@@ -109,14 +109,12 @@ class Hollower {
       DecimationReport report;
       DecimatedMesh fewer = decimate(found_.walls, options, report);
       std::vector<char> is_beside(fewer.mesh.points.size(), 0);
-      std::size_t beside = 0;
-      for (const std::uint32_t t : triangles_beside(fewer.mesh)) {
+      const std::vector<std::uint32_t> beside = triangles_beside(fewer.mesh);
+      // What was not proven before does not get better.
+      if (beside.empty() || found_.unproven > 0) return take(std::move(fewer));
+      for (const std::uint32_t t : beside) {
         for (const std::uint32_t point : fewer.mesh.triangles[t]) is_beside[point] = 1;
-        ++beside;
       }
-      fprintf(stderr, "round %d: %zu triangles, %zu beside\n", round, fewer.mesh.triangles.size(),
-              beside);
-      if (beside == 0) return take(std::move(fewer));
       for (std::size_t i = 0; i < stays.size(); ++i) {
         if (is_beside[fewer.point[i]] != 0) stays[i] = DecimationOptions::Stay::alone;
       }
