@@ -18,9 +18,9 @@
 #include <simplify/decimate.h>
 
 #include "common/depth.h"
+#include "common/prove_depth.h"
 #include "drains/place_drains.h"
 #include "walls/find_cavities.h"
-#include "walls/prove_depth.h"
 
 namespace meshrepair {
 namespace {
@@ -66,6 +66,7 @@ class Hollower {
     hollowed_.volume_before = signed_volume(solid_.mesh);
     meter_.begin("cavities");
     find();
+    note_places();
     meter_.begin("fewer");
     take_away_triangles();
     keep_large();
@@ -91,6 +92,26 @@ class Hollower {
     hollowed_.cells = found_.cells;
     hollowed_.finest = std::isfinite(found_.finest) ? found_.finest : 0;
     hollowed_.unproven = found_.unproven;
+  }
+
+  // Drains are looked for where tetrahedra are: later there are few corners.
+  void note_places() {
+    all_places_.resize(found_.deepest.size());
+    for (std::size_t c = 0; c < found_.deepest.size(); ++c) {
+      all_places_[c].deepest = found_.deepest[c];
+    }
+    if (options_.drain == 0) return;
+    std::vector<char> is_noted(found_.walls.points.size(), 0);
+    for (std::size_t t = 0; t < found_.cavity.size(); ++t) {
+      CavityPlaces& places = all_places_[found_.cavity[t]];
+      const auto& points = found_.walls.points;
+      const auto& [a, b, c] = found_.walls.triangles[t];
+      places.triangles.push_back({points[a], points[b], points[c]});
+      for (const std::uint32_t point : {a, b, c}) {
+        if (std::exchange(is_noted[point], 1) != 0) continue;
+        places.corners.push_back(depth_.place(points[point], places.deepest.nearest));
+      }
+    }
   }
 
   // Where tetrahedra are small, most triangles lie in one plane. Collapses are bounded at points;
@@ -168,16 +189,13 @@ class Hollower {
         continue;
       }
       hollowed_.cavities.push_back(cavity);
-      for (const Vec3d& point : walls[c].points) {
-        if (places_.size() < hollowed_.cavities.size()) places_.emplace_back();
-        places_.back().walls.push_back(depth_.place(point, found_.deepest[c].nearest));
-      }
-      places_.back().deepest = found_.deepest[c];
+      places_.push_back(std::move(all_places_[c]));
       cavity_of_wall_.insert(cavity_of_wall_.end(), walls[c].triangles.size(),
                              static_cast<std::uint32_t>(hollowed_.cavities.size() - 1));
       append_soup(walls_, walls[c]);
     }
     found_ = {};
+    all_places_.clear();
   }
 
   // With the points that these have.
@@ -378,7 +396,7 @@ class Hollower {
   Cavities found_;
   TriangleSoup walls_;  // of all cavities that are made
   std::vector<std::uint32_t> cavity_of_wall_;
-  std::vector<CavityPlaces> places_;
+  std::vector<CavityPlaces> all_places_, places_;  // also of those that stay full
   std::vector<TriangleSoup> drills_;
 };
 

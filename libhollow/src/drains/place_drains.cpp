@@ -92,41 +92,50 @@ std::optional<Drill> DrainPlacer::through(const Place& wall) const {
   return std::nullopt;
 }
 
+namespace {
+
+Vec3d nearest_of(const Vec3d& point, const std::vector<Corners>& triangles) {
+  Vec3d nearest = triangles[0][0];
+  for (const Corners& triangle : triangles) {
+    const Vec3d other = nearest_point(point, triangle);
+    if ((other - point).squaredNorm() < (nearest - point).squaredNorm()) nearest = other;
+  }
+  return nearest;
+}
+
+}  // namespace
+
 double DrainPlacer::distance(const Vec3d& point, const CavityPlaces& cavity) const {
   const Vec3d mouth = depth_.foot(depth_.place(point, 0));
-  double least = std::numeric_limits<double>::infinity();
-  for (const Place& wall : cavity.walls) least = std::min(least, (wall.at - mouth).norm());
-  return least;
+  return (nearest_of(mouth, cavity.triangles) - mouth).norm();
 }
 
 std::optional<Drill> DrainPlacer::from_point(const Vec3d& point, const CavityPlaces& cavity) const {
   const Place given = depth_.place(point, 0);
   const Vec3d mouth = depth_.foot(given);
-  const auto nearest = std::min_element(
-      cavity.walls.begin(), cavity.walls.end(), [&](const Place& a, const Place& b) {
-        return (a.at - mouth).squaredNorm() < (b.at - mouth).squaredNorm();
-      });
-  const Vec3d inward = (nearest->at - mouth).normalized();
-  const double radius = 0.5 * options_.drain;
+  const Vec3d wall = nearest_of(mouth, cavity.triangles);
+  const Vec3d inward = (wall - mouth).normalized();
   for (double share = 1; share > 0.1; share *= 0.5) {
-    const Place end = depth_.place(nearest->at + share * radius * inward, nearest->nearest);
-    if (end.distance <= options_.wall) continue;
-    return drill(mouth, inward, end.at, given.nearest);
+    const Place end = depth_.place(wall + share * 0.5 * options_.drain * inward, given.nearest);
+    // Walls are less deep by their error at most.
+    if (end.distance > (1 + kHollowError) * options_.wall) {
+      return drill(mouth, inward, end.at, given.nearest);
+    }
   }
   return std::nullopt;
 }
 
 std::vector<Drill> DrainPlacer::for_cavity(const CavityPlaces& cavity) const {
-  std::vector<std::uint32_t> order(cavity.walls.size());
+  std::vector<std::uint32_t> order(cavity.corners.size());
   std::iota(order.begin(), order.end(), 0);
   const auto first_by = [&](const auto& key) -> std::optional<Drill> {
     std::vector<double> keys;
-    for (const Place& wall : cavity.walls) keys.push_back(key(wall.at));
+    for (const Place& wall : cavity.corners) keys.push_back(key(wall.at));
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
     });
     for (std::size_t i = 0; i < std::min(order.size(), kMostTried); ++i) {
-      if (auto found = through(cavity.walls[order[i]])) return found;
+      if (auto found = through(cavity.corners[order[i]])) return found;
     }
     return std::nullopt;
   };

@@ -19,7 +19,8 @@ struct Drill {
 
 // The walls of one cavity, and its deepest place.
 struct CavityPlaces {
-  std::vector<Place> walls;  // corners of the walls
+  std::vector<Place> corners;      // of the walls: among them drains are looked for
+  std::vector<Corners> triangles;  // the walls
   Place deepest;
 };
 

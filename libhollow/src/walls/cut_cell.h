@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "common/depth.h"
-#include "walls/prove_depth.h"
+#include "common/prove_depth.h"
 
 namespace meshrepair::internal {
 

@@ -25,8 +25,8 @@
 #include <base/parallel.h>
 #include <base/shared_progress.h>
 
+#include "common/prove_depth.h"
 #include "walls/cut_cell.h"
-#include "walls/prove_depth.h"
 #include "walls/tetrahedra.h"
 
 namespace meshrepair::internal {

@@ -14,11 +14,13 @@
 //   line.
 //
 // What is not decided so is cut in the middle of its longest edge.
-#include "walls/prove_depth.h"
+#include "common/prove_depth.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 namespace meshrepair::internal {
 namespace {
@@ -72,6 +74,24 @@ Box box_of(const Piece& piece) {
   Box box;
   for (const Place& corner : piece) box.add(corner.at);
   return box;
+}
+
+// Between their shadows on a line.
+double gap_along(const Vec3d& line, const Piece& piece, const Corners& triangle) {
+  double low = std::numeric_limits<double>::infinity();
+  for (const Place& corner : piece) low = std::min(low, line.dot(corner.at - triangle[0]));
+  double high = 0;
+  for (const Vec3d& corner : triangle) high = std::max(high, line.dot(corner - triangle[0]));
+  return low - high;
+}
+
+// On the better of two lines: from the triangle to the piece, and at right angles to the triangle.
+double gap(const Piece& piece, const Corners& triangle) {
+  const Vec3d middle = 0.25 * (piece[0].at + piece[1].at + piece[2].at + piece[3].at);
+  const Vec3d between = (middle - nearest_point(middle, triangle)).normalized();
+  Vec3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+  if (normal.dot(middle - triangle[0]) < 0) normal = -normal;
+  return std::max(gap_along(between, piece, triangle), gap_along(normal, piece, triangle));
 }
 
 }  // namespace
@@ -138,29 +158,16 @@ bool DepthProver::is_apart(const Piece& piece, double distance, double& least) c
   const double room = kRoom * distance;
   Box box = box_of(piece);
   box.widen(room);
-  const Vec3d middle = 0.25 * (piece[0].at + piece[1].at + piece[2].at + piece[3].at);
   std::size_t seen = 0;
-  bool apart = true;
   double found = room;  // what the box leaves out is farther
-  depth_.visit([&](const Box& other) { return apart && other.meets(box); },
+  depth_.visit([&](const Box& other) { return found >= distance && other.meets(box); },
                [&](const Corners& triangle) {
-                 if (!apart) return;
-                 if (++seen > kMostApart) {
-                   apart = false;
-                   return;
-                 }
-                 const Vec3d line = (middle - nearest_point(middle, triangle)).normalized();
-                 double low = std::numeric_limits<double>::infinity();
-                 for (const Place& corner : piece)
-                   low = std::min(low, line.dot(corner.at - triangle[0]));
-                 double high = 0;
-                 for (const Vec3d& corner : triangle)
-                   high = std::max(high, line.dot(corner - triangle[0]));
-                 if (low - high < distance) apart = false;
-                 found = std::min(found, low - high);
+                 if (found < distance) return;
+                 found = ++seen > kMostApart ? 0 : std::min(found, gap(piece, triangle));
                });
-  if (apart) least = found;
-  return apart;
+  if (found < distance) return false;
+  least = found;
+  return true;
 }
 
 Proof DepthProver::judge_within(const Piece& piece, double distance) {
