@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <bsp/tree.h>
-#include <hollow/hollow.h>
+#include <hollow/hollow_report.h>
 #include <mesh/point_io.h>
 #include <mesh/soup_io.h>
 #include <repair/fidelity.h>

@@ -225,6 +225,7 @@ Json section_of(const HollowReport& hollow) {
           {"unproven", hollow.unproven},
           {"drain", hollow.drain},
           {"cavities", std::move(cavities)},
+          {"least_diameter", hollow.least_diameter},
           {"left_full", hollow.left_full},
           {"left_full_volume", hollow.left_full_volume},
           {"volume_before", hollow.volume_before},

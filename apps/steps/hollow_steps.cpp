@@ -11,6 +11,7 @@
 #include <base/error.h>
 #include <base/stage_meter.h>
 #include <check/mesh_distance.h>
+#include <hollow/hollow.h>
 #include <mesh/append_soup.h>
 #include <repair/transfer_attributes.h>
 
@@ -55,8 +56,10 @@ void warn_of_hollows(const Findings& findings) {
     warn(findings.input_name(), {WarningCode::not_hollowed, text, {}});
   };
   if (hollow.cavities.empty()) {
-    tell(fmt::format("nothing is hollowed: no {} is deeper than {:.6g} below the surface",
-                     hollow.left_full > 0 ? "large part" : "part", hollow.wall));
+    tell("nothing is hollowed: " +
+         (hollow.left_full > 0
+              ? fmt::format("no cavity holds a ball of diameter {:.6g}", hollow.least_diameter)
+              : fmt::format("no part is deeper than {:.6g} below the surface", hollow.wall)));
   }
   if (hollow.unproven > 0) {
     tell(fmt::format("the thickness of the walls is not proven in {}",

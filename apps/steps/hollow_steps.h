@@ -2,12 +2,13 @@
 // --hollow, --drain and --drain-at: cavities in what was repaired.
 #pragma once
 
-#include <hollow/hollow.h>
 #include <string>
 #include <vector>
 
 #include <extract/surface.h>
+#include <hollow/hollow_options.h>
 #include <mesh/attributes.h>
+#include <repair/repair_options.h>
 
 #include "options/command_line.h"
 #include "program/program.h"

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <hollow/hollow.h>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -13,7 +12,9 @@
 #include <base/shared_progress.h>
 #include <base/stage_meter.h>
 #include <boolean/boolean.h>
+#include <hollow/hollow.h>
 #include <mesh/append_soup.h>
+#include <mesh/mesh_parts.h>
 #include <mesh/topology.h>
 #include <simplify/decimate.h>
 
@@ -118,7 +119,7 @@ class Hollower {
   // where a triangle is farther off than that, the points that it came from stay next time.
   void take_away_triangles() {
     if (found_.cavity.empty()) return;
-    CancelOnly quiet(repair_.progress);
+    HalvedStage progress(repair_.progress);
     std::vector<DecimationOptions::Stay> stays(found_.walls.points.size(),
                                                DecimationOptions::Stay::no);
     for (int round = 0; round < kMostRounds; ++round) {
@@ -126,7 +127,8 @@ class Hollower {
       options.distance = kForFewer * kHollowError * options_.wall;
       options.precision = repair_.certify.precision;
       options.stays = stays;
-      options.progress = &quiet;
+      options.progress = &progress;
+      progress.begin_step();
       DecimationReport report;
       DecimatedMesh fewer = decimate(found_.walls, options, report);
       std::vector<char> is_beside(fewer.mesh.points.size(), 0);
@@ -178,6 +180,7 @@ class Hollower {
       walls[found_.cavity[t]].triangles.push_back(found_.walls.triangles[t]);
     }
     const double least = options_.drain > 0 ? options_.drain : kLeastBall * options_.wall;
+    hollowed_.least_diameter = least;
     for (std::size_t c = 0; c < count; ++c) {
       walls[c] = without_others(walls[c].triangles);
       Cavity cavity;
@@ -359,20 +362,19 @@ class Hollower {
     all.beside += one.beside;
   }
 
-  // A void that is closed is a component of its own, turned inward.
+  // A void that is closed has a component of its own around it, turned inward.
   void look_for_voids(const Surface& result) {
     TopologyPlaces places;
-    (void)examine_topology(result.mesh.triangles, result.mesh.points.size(), &places);
-    std::vector<char> is_open;  // of each part: some triangle is of the solid's surface
-    for (std::uint32_t t = 0; t < result.source.size(); ++t) {
-      const std::uint32_t part = places.parts[t];
-      if (part >= is_open.size()) is_open.resize(part + 1, 0);
-      if (result.source[t] < solid_.mesh.triangles.size()) is_open[part] = 1;
-    }
+    const auto& triangles = result.mesh.triangles;
+    const Topology topology = examine_topology(triangles, result.mesh.points.size(), &places);
+    const std::vector<PartSize> sizes =
+        part_sizes(result.mesh.points, triangles, places.parts,
+                   static_cast<std::uint32_t>(topology.parts), UnitScale(result.mesh.points));
+    for (Cavity& cavity : hollowed_.cavities) cavity.opens = true;
     for (std::uint32_t t = 0; t < result.source.size(); ++t) {
       const std::uint32_t cavity = cavity_of(result.source[t]);
-      if (cavity != kNoCavity && is_open[places.parts[t]] != 0) {
-        hollowed_.cavities[cavity].opens = true;
+      if (cavity != kNoCavity && sizes[places.parts[t]].volume < 0) {
+        hollowed_.cavities[cavity].opens = false;
       }
     }
   }

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <hollow/hollow.h>
 #include <optional>
 #include <vector>
+
+#include <hollow/hollow_options.h>
+#include <hollow/hollow_report.h>
+#include <mesh/soup.h>
 
 #include "common/depth.h"
 

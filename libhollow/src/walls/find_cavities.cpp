@@ -24,6 +24,7 @@
 #include <base/error.h>
 #include <base/parallel.h>
 #include <base/shared_progress.h>
+#include <mesh/topology.h>
 
 #include "common/prove_depth.h"
 #include "walls/cut_cell.h"
@@ -35,6 +36,9 @@ namespace {
 constexpr double kCubes = 12;       // along the longest side of the box at first
 constexpr double kFinest = 0x1p-6;  // of the thickness: shorter edges are not cut
 constexpr std::size_t kMostCells = std::size_t{1} << 25;  // some 4 GB
+// For each square of the surface with sides as long as the wall is thick, at the very least: from
+// 20 for a cube to 50.
+constexpr double kCellsOfSquare = 4;
 constexpr std::size_t kCellsPerTask = 64;
 // Pieces that are looked at before a tetrahedron is cut: cutting takes longer, and stays.
 constexpr std::size_t kMostPieces = 600;
@@ -57,25 +61,29 @@ using KeyMap = std::unordered_map<std::array<std::uint32_t, N>, std::uint32_t, K
 
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 
+[[noreturn]] void throw_too_many() {
+  throw LimitError("--hollow: walls so thin beside the body take more than " +
+                   std::to_string(kMostCells) + " tetrahedra; thicker ones take fewer");
+}
+
 class CavityFinder : public WallPoints {
  public:
   CavityFinder(const TriangleSoup& solid, const Depth& depth, const CavityOptions& options)
       : depth_(depth),
         options_(options),
         finder_(depth, options.thickness, options.error),
-        grid_(box_of(solid), first_edge(solid)) {}
+        grid_(box_of(solid), first_edge(solid)),
+        progress_(options.progress) {}
 
   Cavities run() {
     std::vector<std::uint32_t> pending = grid_.take_changed();
     while (!pending.empty()) {
+      progress_.begin_step();
       place_points();
       place_wall_points(pending);
       cut(pending, judge(pending));
       pending = grid_.take_changed();
-      if (grid_.size() > kMostCells) {
-        throw LimitError("--hollow: walls so thin beside the body take more than " +
-                         std::to_string(kMostCells) + " tetrahedra; thicker ones take fewer");
-      }
+      if (grid_.size() > kMostCells) throw_too_many();
     }
     return collect();
   }
@@ -138,8 +146,7 @@ class CavityFinder : public WallPoints {
 
   template <class Body>
   void for_each_part(std::size_t count, const Body& body) {
-    CancelOnly quiet(options_.progress);
-    SharedProgress shared(&quiet, tasks_of(count, kCellsPerTask));
+    SharedProgress shared(&progress_, tasks_of(count, kCellsPerTask));
     parallel_tasks(count, kCellsPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) body(i);
       shared.done();
@@ -383,6 +390,7 @@ class CavityFinder : public WallPoints {
   const CavityOptions& options_;
   WallFinder finder_;
   Tetrahedra grid_;
+  HalvedStage progress_;         // each round is a step
   std::vector<Place> places_;    // of the points of the grid
   std::vector<signed char> in_;  // 1: deeper than the thickness; -1: so far outside; 0: neither
   std::vector<Verdict> state_;
@@ -395,6 +403,8 @@ class CavityFinder : public WallPoints {
 
 Cavities find_cavities(const TriangleSoup& solid, const Depth& depth,
                        const CavityOptions& options) {
+  const double squares = surface_area(solid) / (options.thickness * options.thickness);
+  if (kCellsOfSquare * squares > static_cast<double>(kMostCells)) throw_too_many();
   return CavityFinder(solid, depth, options).run();
 }
 
