@@ -87,7 +87,7 @@ TEST(HollowProperties, WallsOfRandomSolidsAreProvenAndDrained) {
     const Surface solid = repair(bodies_to_hollow(random), how, report);
     ASSERT_TRUE(report.certify.passed());
     const double size = bounding_diagonal(solid.mesh);
-    for (const double share : {0.03, 0.06, 0.12}) {
+    for (const double share : {0.05, 0.08, 0.12}) {
       HollowOptions options;
       options.wall = share * size;
       if (random.integer(0, 1) == 0) options.drain = random.real(0.2, 1.5) * options.wall;
