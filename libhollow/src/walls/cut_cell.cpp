@@ -96,7 +96,7 @@ Place WallFinder::at_depth(const Place& from, const Vec3d& to) const {
   const bool below = low.distance < thickness_;
   if (below == (high.distance < thickness_)) return high;
   for (int step = 0; step < kMostSteps; ++step) {
-    const Place middle = depth_.place(0.5 * low.at + 0.5 * high.at, low.nearest);
+    Place middle = depth_.place(0.5 * low.at + 0.5 * high.at, low.nearest);
     if (misfit(middle) <= kAlmost * error_) return middle;
     ((middle.distance < thickness_) == below ? low : high) = middle;
   }
@@ -176,6 +176,7 @@ Place WallFinder::in_cell(const std::array<Vec3d, 4>& cell, const std::vector<Pl
   for (const Place& p : ridges) candidates[0] += p.at / static_cast<double>(ridges.size());
   for (const Place& p : loop) candidates[1] += p.at / static_cast<double>(loop.size());
   std::vector<Vec3d> normals;
+  normals.reserve(loop.size());
   for (const Place& p : loop) normals.push_back(depth_.inward(p));
   if (const auto corner = corner_of(loop, normals)) candidates.push_back(*corner);
   std::optional<Place> best;
