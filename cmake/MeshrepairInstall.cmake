@@ -1,5 +1,5 @@
 # The package that other projects find: find_package(meshrepair) gives meshrepair::bsp, meshrepair::extract,
-# meshrepair::repair and meshrepair::boolean.
+# meshrepair::repair, meshrepair::boolean and meshrepair::hollow.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/meshrepair)

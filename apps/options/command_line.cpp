@@ -132,6 +132,11 @@ CommandOption* CommandOption::repeated() {
   return this;
 }
 
+CommandOption* CommandOption::one_each_time() {
+  option_.expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return this;
+}
+
 CommandOption* CommandOption::delimiter(char mark) {
   option_.delimiter(mark);
   return this;

@@ -47,6 +47,7 @@ class CommandOption {
   CommandOption* required();
   CommandOption* repeated();            // an argument that stands for several
   CommandOption* delimiter(char mark);  // between the values of a list
+  CommandOption* one_each_time();       // of a list: an option that may be given several times
   CommandOption* default_str(const std::string& text);
   CommandOption* capture_default_str();  // what its variable holds now
   CommandOption* description(const std::string& text);

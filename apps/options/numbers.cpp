@@ -51,6 +51,19 @@ std::optional<std::pair<double, bool>> length_in(std::string_view word) {
   return length && length->first > 0 ? length : std::nullopt;
 }
 
+std::optional<Vec3d> vector_in(std::string_view word) {
+  Vec3d vector;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = word.find(',');
+    if ((comma == std::string_view::npos) != (axis == 2)) return std::nullopt;
+    const std::optional<double> number = parse_number(word.substr(0, comma));
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    vector[axis] = *number;
+    word.remove_prefix(axis == 2 ? word.size() : comma + 1);
+  }
+  return vector;
+}
+
 std::string why_no_length(const std::string& word) {
   return length_in(word) ? std::string()
                          : word + " is no length: a number above 0, or one with a % behind it";

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include <base/vec3.h>
+
 #include "options/command_line.h"
 
 namespace meshrepair {
@@ -27,6 +29,9 @@ inline constexpr std::size_t kMostThreads = 1024;  // that --threads takes
 
 // The same above 0.
 [[nodiscard]] std::optional<std::pair<double, bool>> length_in(std::string_view word);
+
+// Three finite numbers, as X,Y,Z; nothing where the word is anything else.
+[[nodiscard]] std::optional<Vec3d> vector_in(std::string_view word);
 
 // For check() of an option: an empty text where the word is a length.
 [[nodiscard]] std::string why_no_length(const std::string& word);

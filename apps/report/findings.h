@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <bsp/tree.h>
+#include <hollow/hollow_report.h>
 #include <mesh/point_io.h>
 #include <mesh/soup_io.h>
 #include <repair/fidelity.h>
@@ -60,6 +61,7 @@ struct Findings {
   std::optional<TreeFacts> tree_read;
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
+  HollowReport hollow;
   bool has_walls = false;       // of sheets, in some mesh of a scene
   bool wants_fidelity = false;  // though there is no report
   std::optional<Fidelity> fidelity;

@@ -204,6 +204,35 @@ Json section_of(const ThickenReport& thicken) {
           {"solid_volume", thicken.solid_volume}};
 }
 
+Json vector_of(const Vec3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+// A bound that was not found is null.
+Json section_of(const HollowReport& hollow) {
+  Json cavities = Json::array();
+  for (const Cavity& cavity : hollow.cavities) {
+    Json drains = Json::array();
+    for (const Drain& drain : cavity.drains) {
+      drains.push_back({{"at", vector_of(drain.at)}, {"direction", vector_of(drain.direction)}});
+    }
+    cavities.push_back({{"volume", cavity.volume},
+                        {"diameter", cavity.diameter},
+                        {"opens", cavity.opens},
+                        {"drains", std::move(drains)}});
+  }
+  return {{"wall", hollow.wall},
+          {"least", hollow.least},
+          {"most", std::isfinite(hollow.most) ? Json(hollow.most) : Json()},
+          {"unproven", hollow.unproven},
+          {"drain", hollow.drain},
+          {"cavities", std::move(cavities)},
+          {"least_diameter", hollow.least_diameter},
+          {"left_full", hollow.left_full},
+          {"left_full_volume", hollow.left_full_volume},
+          {"volume_before", hollow.volume_before},
+          {"cells", hollow.cells},
+          {"finest", hollow.finest}};
+}
+
 Json section_of(const BuildTreeReport& tree) {
   return {{"nodes", tree.nodes},         {"leaves", tree.leaves},
           {"depth", tree.depth},         {"spatial_cuts", tree.spatial_cuts},
@@ -470,6 +499,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("extract", section_of(repair.extract));
   }
   add_what_was_taken_away(repair, report);
+  if (findings.hollow.wall > 0) report.set_section("hollow", section_of(findings.hollow));
   // meshcheck has a stage of this name, too, but no result.
   if (has("extract") && was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));

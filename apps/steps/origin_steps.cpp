@@ -19,19 +19,6 @@
 namespace meshrepair {
 namespace {
 
-std::optional<Vec3d> vector_in(std::string_view word) {
-  Vec3d vector;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t comma = word.find(',');
-    if ((comma == std::string_view::npos) != (axis == 2)) return std::nullopt;
-    const std::optional<double> number = parse_number(word.substr(0, comma));
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    vector[axis] = *number;
-    word.remove_prefix(axis == 2 ? word.size() : comma + 1);
-  }
-  return vector;
-}
-
 void set_origin(const std::string& word, OriginOptions& options) {
   options.automatic = word == "auto";
   options.stays = word == "none";

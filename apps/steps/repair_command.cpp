@@ -114,6 +114,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   const CommandOption& max_hole = add_max_hole_option(app, options.repair.holes);
   add_thicken_options(app, max_hole, options.repair.thicken);
   add_keep_options(app, options.repair.keep);
+  add_hollow_options(app, command.hollow);
   add_triangles_option(app, options.repair.fewer);
   add_max_error_option(app, options.repair.fewer);
   add_touching_option(app, options.repair.extract.touching);
@@ -173,12 +174,18 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   fit_to_input(input, command, repair_options);
   if (!input.scene.meshes.empty()) {
     if (points.repair.base) throw UsageError("--base: cannot be used with --scene each");
+    if (command.hollow.options.wanted()) {
+      throw UsageError("--hollow: cannot be used with --scene each");
+    }
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
-  const Surface surface = repair_or_advise(input, points, repair_options, run, findings);
+  Surface surface = repair_or_advise(input, points, repair_options, run, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
-  const Attributes attributes =
+  Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
+  HollowRequest hollow = command.hollow;
+  hollow.scale_and_move(scale, findings);
+  hollow_stage(hollow, repair_options, surface, attributes, run, findings);
   const std::vector<std::uint32_t> sources = sources_in_file(surface, before);
   format.extras.sources = sources;
   write_mesh_stage(surface, attributes, format, options, run, findings);
@@ -206,6 +213,7 @@ RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run&
                          findings);
   result.attributes =
       transfer_attributes_stage(input.soup, input.attributes, result.surface, run, findings);
+  hollow_stage(command.hollow, repair_options, result.surface, result.attributes, run, findings);
   look_at_file(result.surface, format, findings);
   findings.missing_guarantees = missing_guarantees(findings, format);
   warn_of_findings(findings);

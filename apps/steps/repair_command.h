@@ -8,6 +8,7 @@
 #include "options/command_line.h"
 #include "program/program.h"
 #include "report/findings.h"
+#include "steps/hollow_steps.h"
 #include "steps/point_steps.h"
 #include "steps/step_options.h"
 
@@ -16,6 +17,7 @@ namespace meshrepair {
 struct RepairCommand {
   StepOptions steps;
   PointOptions points;
+  HollowRequest hollow;
   NegativeVolumes negative = NegativeVolumes::subtract;
   bool always = false;  // do the whole work, also for what is a solid already
 };

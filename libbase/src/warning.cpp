@@ -28,6 +28,7 @@ constexpr auto kWarningKinds = std::to_array<WarningKind>({
     {"W-SLITS-FILLED", true, "Slits too narrow for the numbers of OUT are filled"},
     {"W-HOLLOW-FILLED", true, "The hollow of double walls, or of negative volumes, is filled"},
     {"W-WALL-POKES-OUT", true, "The wall of a cavity pokes out of the solid around it"},
+    {"W-NOT-HOLLOWED", true, "Cavities, walls or drains are not all as `--hollow` asked for"},
     {"W-POINTS-NOISY", true, "The points are noisy, and the triangles of few of them agree"},
     {"W-POINTS-UNUSED", true, "Many points are not on the result"},
     {"W-OPERAND-REPAIRED", true, "An operand is not the boundary of a solid and repaired first"},

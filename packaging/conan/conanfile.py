@@ -14,7 +14,7 @@ required_conan_version = ">=2.0"
 CMAKE_FILES = {"draco": "draco", "eigen": "Eigen3", "meshoptimizer": "meshoptimizer", "nanoflann": "nanoflann", "onetbb": "TBB",
                "openmesh": "OpenMesh"}
 CMAKE_TARGETS = {"draco": "draco::draco", "openmesh::openmeshcore": "OpenMeshCore"}
-LIBRARIES = ("boolean", "repair", "extract", "simplify", "points", "picture", "check", "bsp", "mesh", "exact", "base")
+LIBRARIES = ("hollow", "boolean", "repair", "extract", "simplify", "points", "picture", "check", "bsp", "mesh", "exact", "base")
 
 
 class MeshrepairConan(ConanFile):

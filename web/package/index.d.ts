@@ -66,6 +66,11 @@ export interface RepairOptions extends FileOptions {
   simplify?: number;
   triangles?: number | string;
   maxError?: number | string;
+  /** Thickness of the walls that cavities leave. */
+  hollow?: number | string;
+  /** Diameter of drain holes; `drainAt` is "X,Y,Z". */
+  drain?: number | string;
+  drainAt?: string;
   always?: boolean;
   precision?: 'float32' | 'float64';
   /** Make the page that --html writes, too. Of files. */

@@ -37,6 +37,7 @@ enum class WarningCode {
   slits_filled,
   hollow_filled,
   wall_pokes_out,
+  not_hollowed,
   points_noisy,
   points_unused,
   operand_repaired,

@@ -37,6 +37,8 @@ class NearestTriangle {
 
   // In the order of the tree.
   [[nodiscard]] std::span<const Corners> triangles() const { return triangles_; }
+  // Of their boxes; its items are the numbers of the triangles as they were given.
+  [[nodiscard]] const BoxTree& tree() const { return tree_; }
 
  private:
   BoxTree tree_;

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "steps/hollow_steps.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <base/error.h>
+#include <base/stage_meter.h>
+#include <check/mesh_distance.h>
+#include <hollow/hollow.h>
+#include <mesh/append_soup.h>
+#include <repair/transfer_attributes.h>
+
+#include "options/numbers.h"
+#include "pictures/picture_steps.h"
+#include "report/words.h"
+#include "terminal/warning_log.h"
+
+namespace meshrepair {
+namespace {
+
+HollowOptions options_for(const HollowRequest& request, const TriangleSoup& solid,
+                          const Findings& findings) {
+  HollowOptions options = request.options;
+  const double diagonal = bounding_diagonal(solid);
+  if (request.is_share) options.wall *= diagonal;
+  if (request.is_drain_share) options.drain *= diagonal;
+  for (const std::string& word : request.places) options.drains_at.push_back(*vector_in(word));
+  options.up = up_of(findings) == View::Up::y ? Vec3d::UnitY() : Vec3d::UnitZ();
+  return options;
+}
+
+// Those of walls are behind those of the solid, without attributes.
+Attributes with_walls(const TriangleSoup& solid, Attributes attributes, const Surface& hollowed) {
+  TriangleSoup walls;
+  walls.points = hollowed.mesh.points;
+  Surface sources = hollowed;
+  for (std::size_t t = 0; t < sources.source.size(); ++t) {
+    if (sources.source[t] != Surface::kNoSource) continue;
+    sources.source[t] = static_cast<std::uint32_t>(solid.triangles.size() + walls.triangles.size());
+    walls.triangles.push_back(hollowed.mesh.triangles[t]);
+  }
+  TriangleSoup joined = solid;
+  append_soup(joined, walls);
+  append_attributes(attributes, solid.triangles.size(), {}, walls.triangles.size());
+  return transfer_attributes(joined, attributes, sources);
+}
+
+void warn_of_hollows(const Findings& findings) {
+  const HollowReport& hollow = findings.hollow;
+  const auto tell = [&](const std::string& text) {
+    warn(findings.input_name(), {WarningCode::not_hollowed, text, {}});
+  };
+  if (hollow.cavities.empty()) {
+    tell("nothing is hollowed: " +
+         (hollow.left_full > 0
+              ? fmt::format("no cavity holds a ball of diameter {:.6g}", hollow.least_diameter)
+              : fmt::format("no part is deeper than {:.6g} below the surface", hollow.wall)));
+  }
+  if (hollow.unproven > 0) {
+    tell(fmt::format("the thickness of the walls is not proven in {}",
+                     number_of(hollow.unproven, "place")));
+  }
+  const auto closed =
+      static_cast<std::size_t>(std::count_if(hollow.cavities.begin(), hollow.cavities.end(),
+                                             [](const Cavity& cavity) { return !cavity.opens; }));
+  if (hollow.drain > 0 && closed > 0) {
+    tell(fmt::format("{} without a drain: none of that diameter fits",
+                     number_of(closed, "cavity is", "cavities are")));
+  }
+}
+
+}  // namespace
+
+void HollowRequest::scale_and_move(double factor, const Findings& findings) {
+  if (!is_share) options.wall *= factor;
+  if (!is_drain_share) options.drain *= factor;
+  for (const std::string& word : std::exchange(places, {})) {
+    Vec3d place = factor * *vector_in(word);
+    if (findings.origin) place -= *findings.origin;
+    options.drains_at.push_back(place);
+  }
+}
+
+void add_hollow_options(CommandLine& app, HollowRequest& request) {
+  const auto set_length = [](const std::string& word, double& length, bool& is_share) {
+    std::tie(length, is_share) = *length_in(word);
+  };
+  const CommandOption* const hollow =
+      app.add_option_function(
+             "--hollow",
+             [&request, set_length](const std::string& word) {
+               set_length(word, request.options.wall, request.is_share);
+             },
+             "Make cavities in the repaired solid, so that its walls have this thickness: in\n"
+             "units of IN, or as a percentage of the bounding box diagonal, such as 2%.\n"
+             "The thickness is proven within 2 %. The outer surface does not change")
+          ->check(why_no_length)
+          ->type_name("X|X%")
+          ->group("Repair");
+  const CommandOption* const drain =
+      app.add_option_function(
+             "--drain",
+             [&request, set_length](const std::string& word) {
+               set_length(word, request.options.drain, request.is_drain_share);
+             },
+             "With --hollow, drill drain holes of this diameter: for each cavity one at its\n"
+             "lowest place, and one far from it. Cavities that are too small for them stay full.\n"
+             "Without it, cavities are closed")
+          ->check(why_no_length)
+          ->needs(hollow)
+          ->type_name("X|X%")
+          ->group("Repair");
+  app.add_option("--drain-at", request.places,
+                 "Drill a drain hole from the place of the surface that is nearest to this point\n"
+                 "into the nearest cavity, instead of those that would be there; may be repeated")
+      ->check([](const std::string& word) {
+        return vector_in(word) ? std::string() : word + " is no point: three numbers X,Y,Z";
+      })
+      ->needs(drain)
+      ->one_each_time()
+      ->type_name("X,Y,Z")
+      ->group("Repair");
+}
+
+void hollow_stage(const HollowRequest& request, const RepairOptions& options, Surface& surface,
+                  Attributes& attributes, Run& run, Findings& findings) {
+  if (!request.options.wanted()) return;
+  RepairOptions quiet = options;
+  quiet.progress = &run.progress;
+  Surface hollowed = hollow(surface, options_for(request, surface.mesh, findings), quiet,
+                            findings.hollow, findings.repair);
+  if (!findings.hollow.cavities.empty()) {
+    if (!attributes.is_bare()) {
+      attributes = with_walls(surface.mesh, std::move(attributes), hollowed);
+    }
+    for (std::uint32_t& source : hollowed.source) {
+      if (source != Surface::kNoSource) source = surface.source[source];
+    }
+    surface = std::move(hollowed);
+  }
+  warn_of_hollows(findings);
+}
+
+}  // namespace meshrepair
