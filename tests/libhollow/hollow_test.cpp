@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <hollow/hollow.h>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include <base/error.h>
+#include <hollow/hollow.h>
 #include <mesh/topology.h>
 
 #include "shapes.h"
