@@ -23,6 +23,7 @@
 #include "report/words.h"
 #include "steps/bodies_steps.h"
 #include "steps/common_unit.h"
+#include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
 #include "steps/run_steps.h"
 #include "summary/summary.h"
@@ -190,7 +191,8 @@ ExitCode divide_files(const Options& options, Run& run) {
                     fmt::format("written   {}: {}, in {:.2f} s\n", options.command.output,
                                 number_of(result.mesh.triangles.size(), "triangle"), seconds));
     }
-    return bodies_verdict(told.report, findings, run);
+    findings.missing_guarantees = missing_guarantees(told.report);
+    return verdict(run, findings);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <base/error.h>
 
 #include "report/words.h"
+#include "steps/bodies_steps.h"
 #include "steps/boolean_steps.h"
 #include "steps/run_steps.h"
 #include "summary/warnings.h"
@@ -20,7 +21,7 @@ const std::vector<std::string_view> kOfFiles = {
     "scene",   "sources",        "staging",      "root",           "units",
     "explain", "picture",        "picture-size", "picture-view",   "picture-colours",
     "show",    "show-as",        "html",         "html-triangles", "points",
-    "origin",  "restore-origin", "negative",     "beam-sides"};
+    "origin",  "restore-origin", "negative",     "beam-sides",     "by"};
 
 // What the caller gives in single precision comes back so, certified so, unless it is asked
 // otherwise.
@@ -107,6 +108,38 @@ RepairOutcome boolean_call(std::vector<AnySoup> operands, bool from_float32,
         return combine_in_memory(std::move(operands), command, run, findings);
       });
   outcome.as_float32 = as_float32;
+  return outcome;
+}
+
+BodiesOutcome bodies_call(std::vector<TriangleSoup> meshes, const Keywords& keywords,
+                          const Runner& runner) {
+  Session session("meshbodies");
+  BodiesCommand command;
+  add_bodies_command(session.options(), command);
+  session.parse(keywords, kOfFiles);
+  BodiesOutcome outcome;
+  static_cast<Outcome&>(outcome) = runner(session, [&](Run& run) {
+    Bodies bodies;
+    Json facts = Json::array();
+    for (std::size_t n = 0; n < meshes.size(); ++n) {
+      Findings findings(operand_name(n), "");
+      findings.mesh_read.emplace();
+      bodies.add({std::to_string(n), std::move(meshes[n])}, command, run, findings, facts);
+    }
+    run.report.set_section("operands", std::move(facts));
+    Findings findings("the bodies", "the result");
+    return with_findings(run, findings, [&] {
+      run.report.set_input(nullptr);
+      BodiesFacts told;
+      outcome.bodies = divide_bodies(bodies, command, told.report, run, findings);
+      told.files.resize(outcome.bodies.regions.size());
+      tell_of_bodies(bodies, outcome.bodies, command, told, run);
+      const std::string missing = missing_guarantees(told.report);
+      if (missing.empty()) return ExitCode::done;
+      run.report.set_error("the result is " + missing);
+      return ExitCode::not_certified;
+    });
+  });
   return outcome;
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Repairs as calls: of a mesh or points in memory, of a file, and of several meshes as one.
+// Repairs as calls: of a mesh or points in memory, of a file, of several meshes as one, and of
+// several bodies with common faces.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include <boolean/bodies.h>
 
 #include "calls/session.h"
 #include "steps/repair_command.h"
@@ -32,6 +35,13 @@ struct RepairOutcome : Outcome {
                                        const Runner& runner);
 [[nodiscard]] RepairOutcome boolean_call(std::vector<AnySoup> operands, bool from_float32,
                                          const Keywords& keywords, const Runner& runner);
+
+struct BodiesOutcome : Outcome {
+  ConformingBodies bodies;  // where the code is done or not_certified
+};
+// Regions are named by the numbers of the meshes, from 0.
+[[nodiscard]] BodiesOutcome bodies_call(std::vector<TriangleSoup> meshes, const Keywords& keywords,
+                                        const Runner& runner);
 // Of the n-th operand, for messages.
 [[nodiscard]] std::string operand_name(std::size_t n);
 

@@ -15,7 +15,6 @@
 #include "options/choice_option.h"
 #include "options/repair_options.h"
 #include "report/words.h"
-#include "steps/guarantees.h"
 #include "steps/run_steps.h"
 #include "summary/summary.h"
 #include "terminal/warning_log.h"
@@ -171,8 +170,8 @@ void Bodies::add(NamedSoup body, const BodiesCommand& command, Run& run, const F
   for (int n = 2; std::find(names_.begin(), names_.end(), name) != names_.end(); ++n) {
     name = (body.name.empty() ? "body" : body.name) + "-" + std::to_string(n);
   }
-  const bool is_one_of_several = command.inputs.size() == 1;
-  Findings own(is_one_of_several ? findings.input + ", " + name : findings.input, "");
+  const bool is_of_several = command.inputs.size() == 1;  // in the only file
+  Findings own(is_of_several ? findings.input + ", " + name : findings.input, "");
   own.mesh_read = findings.mesh_read;
   RepairOptions repair = command.repair;
   repair.join_gaps = {};  // of all bodies together
@@ -262,13 +261,10 @@ std::pair<TriangleSoup, Scene> as_scene(const ConformingBodies& result,
   return {std::move(soup), std::move(scene)};
 }
 
-ExitCode bodies_verdict(const BodiesReport& report, Findings& findings, Run& run) {
-  if (!report.passed()) {
-    findings.missing_guarantees =
-        "not certified: " + number_of(report.pairs + report.open_edges, "pair") +
-        " of triangles intersect; where faces of bodies nearly coincide, --join-gaps joins them";
-  }
-  return verdict(run, findings);
+std::string missing_guarantees(const BodiesReport& report) {
+  if (report.passed()) return {};
+  return "not certified: " + number_of(report.pairs + report.open_edges, "pair") +
+         " of triangles intersect; where faces of bodies nearly coincide, --join-gaps joins them";
 }
 
 }  // namespace meshrepair

@@ -83,7 +83,7 @@ void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,
 [[nodiscard]] std::pair<TriangleSoup, Scene> as_scene(const ConformingBodies& result,
                                                       const std::vector<std::string>& names);
 
-// What the output does not hold is told, and is an error of the report.
-[[nodiscard]] ExitCode bodies_verdict(const BodiesReport& report, Findings& findings, Run& run);
+// What the result does not hold, for people; empty: it holds all.
+[[nodiscard]] std::string missing_guarantees(const BodiesReport& report);
 
 }  // namespace meshrepair

@@ -16,9 +16,9 @@ from .errors import (CancelledError, Error, InputError, InternalError, LimitErro
 from .files import read, write
 from .folders import repair_folder
 from .measuring import check, distance
-from .repairing import boolean, repair, repair_file, repair_points
-from .results import Check, Distance, Mesh, Points, Result
+from .repairing import bodies, boolean, repair, repair_file, repair_points
+from .results import Bodies, Check, Distance, Mesh, Points, Result
 
-__all__ = ["Attributes", "CancelledError", "Check", "Distance", "Error", "InputError", "InternalError", "LimitError", "Mesh",
-           "NoSolidError", "NotCertifiedError", "OutputError", "Points", "Result", "UsageError", "__version__", "boolean",
-           "check", "distance", "read", "repair", "repair_file", "repair_folder", "repair_points", "write"]
+__all__ = ["Attributes", "Bodies", "CancelledError", "Check", "Distance", "Error", "InputError", "InternalError", "LimitError",
+           "Mesh", "NoSolidError", "NotCertifiedError", "OutputError", "Points", "Result", "UsageError", "__version__",
+           "bodies", "boolean", "check", "distance", "read", "repair", "repair_file", "repair_folder", "repair_points", "write"]

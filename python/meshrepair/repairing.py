@@ -7,6 +7,7 @@ import json
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from ._input import mesh_of, points_of
@@ -14,7 +15,7 @@ from ._options import is_true, keywords_of, path_of, raise_unless
 from .attributes import for_core
 from .errors import UsageError, error_of
 from .progress import Progress, observer
-from .results import Result
+from .results import Bodies, Result
 
 
 def may_be_not_finite(nan: str) -> bool:
@@ -170,24 +171,66 @@ def boolean(meshes: Any, op: str, *, progress: Progress | bool | None = None, na
     """
     drop = may_be_not_finite(nan)
     keywords = keywords_of({"op": op, **options})
+    given, face_of = _several(meshes)
+    if len(given) < 2:
+        raise UsageError("meshes: at least two solids are needed")
+    with observer(progress) as told:
+        outcome = _core.boolean([(one.vertices, one.faces, *for_core(one.attributes)) for one in given], drop, keywords, told)
+    _certified_or_raise(outcome, options)
+    return Result(outcome, face_of=face_of)
+
+
+def bodies(meshes: Any, *, progress: Progress | bool | None = None, nan: str = "raise", **options: Any) -> Bodies:
+    """Divides bodies that touch or overlap into regions with common faces; invalid ones are repaired first.
+
+    Args:
+        meshes: pairs (vertices, faces), or objects that :func:`repair` takes, a body each.
+        progress, nan: as in :func:`repair`.
+        **options: those of the program ``meshbodies``, with _ for -: ``overlap="own"``, ``join_gaps=0.01``, ...
+
+    Returns:
+        Each face once, with the regions on both sides. Region 0 is the outside, region k is what is left of the k-th
+        mesh; those after are overlaps. ``report["bodies"]`` has the volume and the neighbours of each.
+
+    >>> import meshrepair
+    >>> def box(low, high):
+    ...     corners = [(x, y, z) for x in (low, high) for y in (0, 1) for z in (0, 1)]
+    ...     return corners, [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> both = meshrepair.bodies([box(0, 1), box(1, 3)])
+    >>> both
+    <Bodies: 2 regions, 12 vertices, 22 faces, certified>
+    >>> sorted(set(map(tuple, both.regions.tolist())))
+    [(0, 1), (0, 2), (1, 2)]
+    >>> vertices, faces = both.boundary(2)
+    >>> len(vertices), len(faces)
+    (8, 12)
+    """
+    drop = may_be_not_finite(nan)
+    keywords = keywords_of(options)
+    given, face_of = _several(meshes)
+    if not given:
+        raise UsageError("meshes: is empty")
+    with observer(progress) as told:
+        outcome = _core.bodies([(one.vertices, one.faces) for one in given], drop, keywords, told)
+    _certified_or_raise(outcome, options)
+    return Bodies(outcome, face_of)
+
+
+def _several(meshes: Any) -> tuple[list[Any], npt.NDArray[Any]]:
+    """The meshes, and of each of their triangles its face, counted through all of them."""
     try:
         all_meshes = list(meshes)
     except TypeError:
         raise UsageError(f"meshes: {type(meshes).__name__} is no list of meshes") from None
-    if len(all_meshes) < 2:
-        raise UsageError("meshes: at least two solids are needed")
-    given, faces_of, faces = [], [], 0
+    given, faces_of, faces = [], [np.zeros(0, np.int32)], 0
     for number, mesh in enumerate(all_meshes):
         try:
             one = mesh_of(mesh)
         except UsageError as error:
             raise UsageError(f"operand {number}: {error}") from None
-        given.append((one.vertices, one.faces, *for_core(one.attributes)))
-        rows = one.faces.shape[0] if one.faces.ndim > 0 else 0  # other shapes are refused below
+        given.append(one)
+        rows = one.faces.shape[0] if one.faces.ndim > 0 else 0  # other shapes are refused later
         face_of = np.arange(rows) if one.face_of is None else one.face_of
         faces_of.append((face_of + faces).astype(np.int32))
         faces += int(face_of.max(initial=-1)) + 1
-    with observer(progress) as told:
-        outcome = _core.boolean(given, drop, keywords, told)
-    _certified_or_raise(outcome, options)
-    return Result(outcome, face_of=np.concatenate(faces_of))
+    return given, np.concatenate(faces_of)

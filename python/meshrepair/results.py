@@ -83,6 +83,39 @@ class Result(Mesh):
         return f"<Result: {len(self.vertices)} vertices, {len(self.faces)} faces, {seal}>"
 
 
+class Bodies(Mesh):
+    """Bodies with common faces, each face once.
+
+    Attributes, in addition to those of a mesh:
+        regions: (m, 2) int32, of each face the region in front, from where it is counter-clockwise, and the one behind; 0
+            is outside, and always in front.
+        source: (m,) int32, of each face the row of the input's faces that it lies in, counted through all meshes.
+        certified: whether no two faces intersect and each region is closed, by an exact test of these vertices and faces.
+    """
+
+    def __init__(self, outcome: dict[str, Any], face_of: npt.NDArray[Any]) -> None:
+        super().__init__(outcome)
+        self.certified: bool = outcome["code"] == 0
+        self.regions: npt.NDArray[Any] = outcome["regions"]
+        source = outcome["source"]
+        self.source: npt.NDArray[Any] = np.where(source < 0, -1, face_of[source]) if len(face_of) else source
+
+    def boundary(self, region: int) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+        """The vertices and faces of the closed boundary of a region, from 1, turned outward."""
+        count = len(self.report["bodies"]["regions"])
+        if not 1 <= region <= count:
+            raise UsageError(f"region: is {region}, not from 1 to {count}")
+        behind, front = (self.faces[self.regions[:, side] == region] for side in (1, 0))
+        faces = np.concatenate([behind, front[:, ::-1]])
+        rows, numbers = np.unique(faces, return_inverse=True)
+        return self.vertices[rows], numbers.reshape(-1, 3).astype(np.int32)
+
+    def __repr__(self) -> str:
+        seal = "certified" if self.certified else "not certified"
+        regions = len(self.report["bodies"]["regions"])
+        return f"<Bodies: {regions} regions, {len(self.vertices)} vertices, {len(self.faces)} faces, {seal}>"
+
+
 class Points(_WithReport):
     """A point cloud.
 

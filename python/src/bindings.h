@@ -15,7 +15,7 @@
 
 namespace meshrepair {
 
-// repair(), repair_points(), repair_file(), boolean().
+// repair(), repair_points(), repair_file(), boolean(), bodies().
 void bind_repairs(pybind11::module_& module);
 // check(), distance().
 void bind_measures(pybind11::module_& module);

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Repairs: of a mesh or points in memory, of a file, and of several meshes as one.
+// Repairs: of a mesh or points in memory, of a file, of several meshes as one, and of several
+// bodies with common faces.
+#include <array>
+#include <cstdint>
+#include <memory>
 #include <pybind11/stl.h>
 #include <string>
 #include <tuple>
@@ -83,6 +87,33 @@ py::dict combine_meshes(const std::vector<GivenMesh>& meshes, bool may_be_not_fi
   return result_of(boolean_call(std::move(operands), all_float32, keywords, without_lock(told)));
 }
 
+// Of each triangle what is in front and behind: (m, 2) int32.
+py::array sides_of(std::vector<std::array<std::uint32_t, 2>> sides) {
+  using Sides = std::vector<std::array<std::uint32_t, 2>>;
+  const auto owner = std::make_shared<Sides>(std::move(sides));
+  return view_of(owner, reinterpret_cast<const std::int32_t*>(owner->data()),
+                 {static_cast<py::ssize_t>(owner->size()), 2});
+}
+
+py::dict divide_bodies(const std::vector<std::pair<py::array, py::array>>& meshes,
+                       bool may_be_not_finite, const Keywords& keywords, const py::object& told) {
+  std::vector<TriangleSoup> bodies;
+  for (const auto& [vertices, faces] : meshes) {
+    try {
+      bodies.push_back(soup_of(vertices, faces, may_be_not_finite));
+    } catch (const UsageError& error) {
+      throw UsageError(operand_name(bodies.size()) + ": " + error.what());
+    }
+  }
+  BodiesOutcome outcome = bodies_call(std::move(bodies), keywords, without_lock(told));
+  py::dict answer = dict_of(outcome);
+  if (outcome.code != ExitCode::done && outcome.code != ExitCode::not_certified) return answer;
+  answer["source"] = indices_of(std::move(outcome.bodies.source));
+  answer["regions"] = sides_of(std::move(outcome.bodies.regions_of));
+  add_mesh(answer, std::move(outcome.bodies.mesh), {}, false);
+  return answer;
+}
+
 }  // namespace
 
 void bind_repairs(py::module_& module) {
@@ -90,6 +121,7 @@ void bind_repairs(py::module_& module) {
   module.def("repair_points", &repair_cloud);
   module.def("repair_file", &repair_path);
   module.def("boolean", &combine_meshes);
+  module.def("bodies", &divide_bodies);
 }
 
 }  // namespace meshrepair

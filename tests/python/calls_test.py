@@ -213,6 +213,34 @@ class Booleans(unittest.TestCase):
             meshrepair.boolean([(CUBE, QUADS)], "union")
 
 
+class BodiesWithCommonFaces(unittest.TestCase):
+    def test_each_face_has_a_region_on_both_sides(self):
+        bodies = meshrepair.bodies([(CUBE, QUADS), (CUBE + [1, 0, 0], QUADS), (CUBE + [0.5, 0.5, 0.5], QUADS)], overlap="own")
+        self.assertTrue(bodies.certified)
+        regions = bodies.report["bodies"]["regions"]
+        self.assertEqual([region["name"] for region in regions], ["0", "1", "2", "0+2", "1+2"])
+        for region in regions:
+            vertices, faces = bodies.boundary(region["region"])
+            self.assertAlmostEqual(meshrepair.check(vertices, faces).volume, region["volume"])
+        self.assertAlmostEqual(sum(region["volume"] for region in regions), 2.75)
+        self.assertEqual(bodies.regions.shape, bodies.faces.shape[:1] + (2,))
+        self.assertTrue((bodies.regions[:, 0] < bodies.regions[:, 1]).all())
+
+    def test_sources_are_of_the_meshes_that_were_given(self):
+        bodies = meshrepair.bodies([(CUBE, QUADS), (CUBE + [1, 0, 0], QUADS)])
+        self.assertEqual(set(bodies.source.tolist()) - {len(QUADS)}, set(range(2 * len(QUADS))) - {len(QUADS)})
+
+    def test_messages_name_the_operand(self):
+        with self.assertRaisesRegex(meshrepair.UsageError, "^operand 1: faces: row 0 has the index 8"):
+            meshrepair.bodies([(CUBE, QUADS), (CUBE, [(0, 1, 8)])])
+        with self.assertRaisesRegex(meshrepair.UsageError, "--overlap: bogus not in {first,"):
+            meshrepair.bodies([(CUBE, QUADS)], overlap="bogus")
+        with self.assertRaisesRegex(meshrepair.UsageError, "^meshes: is empty"):
+            meshrepair.bodies([])
+        with self.assertRaisesRegex(meshrepair.UsageError, "^region: is 2, not from 1 to 1"):
+            meshrepair.bodies([(CUBE, QUADS)]).boundary(2)
+
+
 class Interrupting(unittest.TestCase):
     def test_progress_tells_stages_and_shares(self):
         told = []
