@@ -276,7 +276,30 @@ class Hollower {
     report_.output_area = told.result.output_area;
     report_.spared_cells |= std::exchange(report_.kept_valid, false);
     report_.same_triangles = false;
+    count_drilled(result);
     return result;
+  }
+
+  // Triangles that drains go through are whole no more.
+  void count_drilled(const Surface& result) {
+    const std::vector<IndexTriangle>& given = solid_.mesh.triangles;
+    std::vector<char> is_whole(given.size(), 0);
+    for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+      const std::uint32_t source = result.source[t];
+      if (source == Surface::kNoSource || source >= given.size()) continue;
+      const auto is_corner = [&](std::uint32_t p) {
+        return std::any_of(given[source].begin(), given[source].end(), [&](std::uint32_t q) {
+          return solid_.mesh.points[q] == result.mesh.points[p];
+        });
+      };
+      const IndexTriangle& corners = result.mesh.triangles[t];
+      if (std::all_of(corners.begin(), corners.end(), is_corner)) is_whole[source] = 1;
+    }
+    TriangleFates& fates = report_.triangles;
+    const auto drilled = static_cast<std::size_t>(std::count(is_whole.begin(), is_whole.end(), 0));
+    const std::size_t changed = std::min(drilled, fates.untouched);
+    fates.untouched -= changed;
+    fates.cut += changed;
   }
 
   // Of a triangle of the result, the cavity whose wall it is a part of.
