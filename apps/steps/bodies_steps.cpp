@@ -239,7 +239,7 @@ std::string bodies_summary(const Bodies& bodies, const ConformingBodies& result,
     lines += fmt::format("overlaps  {} of bodies, volume {:.6g}\n",
                          number_of(report.overlaps, "set"), report.overlap_volume);
   }
-  if (report.rounds > 0) {
+  if (report.snapped_points > 0) {
     lines += fmt::format("rounding  {} moved by up to {:.3g}, as faces met once rounded\n",
                          number_of(report.snapped_points, "point"), report.snapped_by);
   }

@@ -35,8 +35,10 @@ using internal::JoinedSolids;
 
 constexpr std::uint32_t kOutside = 0;
 
-// Of moving points; each goes twice as far as the one before.
-constexpr std::size_t kMostRounds = 10;
+// Of moving points. The first go so many units in the last place far, and the next so many times as
+// far each, up to the grid's unit; then twice as far each.
+constexpr double kFirstUnit = 8;
+constexpr std::size_t kMostRounds = 20;
 // How many times as many triangles as at first are too many.
 constexpr std::size_t kMostGrowth = 4;
 // That are looked at in a round.
@@ -314,21 +316,24 @@ void make_sound(std::size_t regions, const Grid& grid, Precision precision, Comp
   Faults faults = find_faults(complex.mesh, &quiet);
   report.pairs_at_first = report.pairs = faults.count;
   const std::size_t most_triangles = kMostGrowth * complex.mesh.triangles.size();
-  double unit = std::max(grid.unit, internal::number_spacing(complex.mesh, precision));
-  Complex best;
+  double unit = kFirstUnit * internal::number_spacing(complex.mesh, precision);
+  Complex best = faults.count > 0 ? complex : Complex();
+  BodiesReport moved;
   while (faults.count > 0 && report.rounds < kMostRounds) {
-    if (report.rounds == 0) best = complex;
     ++report.rounds;
-    snap(faults.triangles, unit, complex.mesh, report);
-    complex = divided_again(complex, regions, grid, &quiet);
+    snap(faults.triangles, unit, complex.mesh, moved);
+    // What is closer than the grid's unit the division would not see.
+    if (unit >= grid.unit) complex = divided_again(complex, regions, grid, &quiet);
     round_points(precision, complex.mesh);
     faults = find_faults(complex.mesh, &quiet);
     if (faults.count < report.pairs) {
       report.pairs = faults.count;
+      report.snapped_points = moved.snapped_points;
+      report.snapped_by = moved.snapped_by;
       best = complex;
     }
     if (complex.mesh.triangles.size() > most_triangles) break;
-    unit *= 2;
+    unit *= unit < grid.unit ? kFirstUnit : 2;
   }
   if (report.rounds > 0) complex = std::move(best);
 }

@@ -72,7 +72,7 @@ TriangleSoup wedge(double degrees) {
 }
 
 TEST(ThinPlaces, PlateIsOneWall) {
-  for (const std::uint64_t seed : {0, 1, 2}) {
+  for (const std::uint64_t seed : {0u, 1u, 2u}) {
     TriangleSoup plate = box({0, 0, 0}, {10, 10, 1});
     if (seed > 0) plate = placed(plate, seed);
     const ThinReport report = thin(plate, 1.5);
