@@ -95,7 +95,8 @@ std::vector<ThinPlace> find_places(ThinKind kind, ThinSamples& samples,
   for (auto begin = numbers.begin(); begin != numbers.end();) {
     const auto end = std::find_if(begin, numbers.end(),
                                   [&](std::uint32_t s) { return root[s] != root[*begin]; });
-    const auto place = place_of(samples, {begin, end}, triangles, least_area);
+    const std::span<const std::uint32_t> sorted(&*begin, static_cast<std::size_t>(end - begin));
+    const auto place = place_of(samples, sorted, triangles, least_area);
     if (place) places.push_back(*place);
     if (!place) std::for_each(begin, end, [&](std::uint32_t s) { samples[s].is_told = false; });
     begin = end;
