@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // meshbodies A B ... -o OUT: bodies with common faces.
-#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +25,7 @@
 #include "steps/common_unit.h"
 #include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
+#include "steps/origin_steps.h"
 #include "steps/run_steps.h"
 #include "summary/summary.h"
 #include "terminal/logging.h"
@@ -34,11 +35,6 @@ namespace meshrepair {
 namespace {
 
 constexpr std::string_view kPlaceOfName = "{}";  // in the name of the output
-
-struct Options {
-  BodiesCommand command;
-  std::optional<LengthUnit> units;  // that the output is to be in, and files that say none are
-};
 
 bool has_place_of_name(const std::string& output) {
   return output.find(kPlaceOfName) != std::string::npos;
@@ -50,24 +46,34 @@ std::string stem_of(const std::string& path, const std::string& otherwise) {
   return std::filesystem::path(without_packing(path)).stem().string();
 }
 
+// What all files have in common.
+struct Intake {
+  CommonUnit unit;
+  CommonOrigin origin;
+  Bodies bodies;
+  Json facts = Json::array();
+};
+
 // The bodies of a file: all of it if there are several files, else what its triangles are named.
-void take_file(const Options& options, const std::string& name, Run& run, CommonUnit& unit,
-               Json& facts, Bodies& bodies) {
+void take_file(const BodiesCommand& command, const std::string& name, Run& run, Intake& intake) {
   Findings findings(name, "");
   std::vector<NamedSoup> given;
   (void)with_findings(run, findings, [&] {
     ReadOptions reading = read_options(run);
     reading.may_be_empty = true;
-    reading.attributes = options.command.inputs.size() == 1;
+    reading.attributes = command.inputs.size() == 1;
     auto [soup, attributes, scene, report, placed] = read_mesh_stage(reading, run, findings);
-    (void)unit.apply(findings.unit, soup);
+    const double scale = intake.unit.apply(findings.unit, soup);
+    if (report.offset) *report.offset *= scale;
+    intake.origin.apply(report.offset, soup, findings);
     const std::string stem = stem_of(name, findings.input_name());
-    given = options.command.inputs.size() == 1
-                ? named_bodies(soup, attributes, options.command.by, stem)
-                : std::vector<NamedSoup>{{stem, std::move(soup)}};
+    given = command.inputs.size() == 1 ? named_bodies(std::move(soup), attributes, command.by, stem)
+                                       : std::vector<NamedSoup>{{stem, std::move(soup)}};
     return ExitCode::done;
   });
-  for (NamedSoup& body : given) bodies.add(std::move(body), options.command, run, findings, facts);
+  for (NamedSoup& body : given) {
+    intake.bodies.add(std::move(body), command, run, findings, intake.facts);
+  }
 }
 
 // What "{}" stands for in the name of a region's file: nothing that leads elsewhere.
@@ -79,23 +85,19 @@ std::string in_file_name(std::string name) {
   return name;
 }
 
-// Of each region that has faces, its file; all differ, and none is an input.
-std::vector<std::string> files_of(const Options& options, const ConformingBodies& result,
-                                  const Bodies& bodies) {
+// Of each region that has faces, its file; all differ, and none is an input, or the report.
+std::vector<std::string> files_of(const BodiesCommand& command, const ConformingBodies& result,
+                                  const Bodies& bodies, Run& run) {
   std::vector<std::string> files(result.regions.size());
+  std::set<std::string> taken;
   for (std::uint32_t r = 1; r <= files.size(); ++r) {
     if (result.regions[r - 1].triangles == 0) continue;
     const std::string name = in_file_name(bodies.name_of(result, r));
-    std::string file;
-    for (int n = 1; n == 1 || std::find(files.begin(), files.end(), file) != files.end(); ++n) {
-      file = options.command.output;
-      file.replace(file.find(kPlaceOfName), kPlaceOfName.size(),
-                   n == 1 ? name : name + "-" + std::to_string(n));
-    }
-    for (const std::string& input : options.command.inputs) {
-      if (is_same_file(file, input)) throw UsageError(file + ": is an input, too");
-    }
-    files[r - 1] = std::move(file);
+    std::string unique = name;
+    for (int n = 2; !taken.insert(unique).second; ++n) unique = name + "-" + std::to_string(n);
+    files[r - 1] = command.output;
+    files[r - 1].replace(command.output.find(kPlaceOfName), kPlaceOfName.size(), unique);
+    check_side_file({"--output", files[r - 1], "output"}, command.inputs, run);
   }
   return files;
 }
@@ -108,37 +110,36 @@ void write_each(const WriteOptions& format, const ConformingBodies& result,
   }
 }
 
-void write_faces(const Options& options, RegionFormat format, const ConformingBodies& result,
-                 const std::vector<std::string>& names, Run& run) {
-  std::vector<RegionSeed> seeds;
-  for (const BodySeed& seed : result.seeds) seeds.push_back({seed.region, seed.place});
-  const RegionMesh mesh = {result.mesh, result.parts_of, result.region_of_part, names, seeds};
-  const std::filesystem::path path = options.command.output;
-  write_file_atomically(path, format_region_mesh(mesh, format), &run.progress);
+// Beside a file for Gmsh.
+std::filesystem::path script_of(std::filesystem::path msh) { return msh.replace_extension(".geo"); }
+
+void write_faces(const std::filesystem::path& path, RegionFormat format, const RegionMesh& mesh,
+                 const std::vector<std::string>& comments, Run& run) {
+  write_file_atomically(path, format_region_mesh(mesh, format, comments), &run.progress);
   if (format != RegionFormat::msh) return;
-  std::filesystem::path script = path;
-  script.replace_extension(".geo");
-  write_file_atomically(script, format_gmsh_script(mesh, path.filename().string()), &run.progress);
+  write_file_atomically(script_of(path), format_gmsh_script(mesh, path.filename().string()),
+                        &run.progress);
 }
 
-void write_bodies(const Options& options, const Bodies& bodies, const ConformingBodies& result,
-                  std::optional<LengthUnit> unit, BodiesFacts& facts, Run& run) {
-  const std::string& output = options.command.output;
+void write_bodies(const BodiesCommand& command, const Bodies& bodies,
+                  const ConformingBodies& result, WriteOptions format, BodiesFacts& facts,
+                  Run& run) {
+  const std::string& output = command.output;
   const auto regions = region_format_of(output);
   const bool is_each = has_place_of_name(output);
-  WriteOptions format;
-  format.format = format_of_extension(output);
-  format.extras.unit = unit;
-  format.progress = &run.progress;
   run.report.set_output({{"path", output},
                          {"format", regions && !is_each ? region_format_name(*regions)
                                                         : format_name(*format.format)}});
   if (is_each) {
-    facts.files = files_of(options, result, bodies);
+    facts.files = files_of(command, result, bodies, run);
     return write_each(format, result, facts.files);
   }
   const std::vector<std::string> names = bodies.names_of(result);
-  if (regions) return write_faces(options, *regions, result, names, run);
+  if (regions) {
+    const RegionMesh mesh = {result.mesh, result.parts_of, result.region_of_part, names,
+                             result.seeds};
+    return write_faces(output, *regions, mesh, format.extras.comments, run);
+  }
   const auto [soup, scene] = as_scene(result, names);
   format.extras.scene = &scene;
   write_soup(soup, output, format);
@@ -162,33 +163,34 @@ void check_output(BodiesCommand& command) {
       " holds one body; with {} in the name, each body gets a file, with its name there");
 }
 
-ExitCode divide_files(const Options& options, Run& run) {
-  check_inputs(options.command.inputs);
-  Bodies bodies;
-  CommonUnit unit(options.units);
-  Json facts = Json::array();
-  for (const std::string& name : options.command.inputs) {
-    take_file(options, name, run, unit, facts, bodies);
-  }
-  run.report.set_section("operands", std::move(facts));
-  Findings findings(joined_with(", ", options.command.inputs), options.command.output);
+ExitCode divide_files(const BodiesCommand& command, Run& run) {
+  check_inputs(command.inputs);
+  WriteOptions format;
+  format.format = format_of_extension(command.output);
+  format.progress = &run.progress;
+  Intake intake{CommonUnit({}), CommonOrigin({}, format.format), {}};
+  for (const std::string& name : command.inputs) take_file(command, name, run, intake);
+  run.report.set_section("operands", std::move(intake.facts));
+  format.extras.unit = intake.unit.get();
+  Findings findings(joined_with(", ", command.inputs), command.output);
+  findings.origin = intake.origin.get();
+  keep_origin(findings, format);
   return with_findings(run, findings, [&] {
     BodiesFacts told;
     const ConformingBodies result =
-        divide_bodies(bodies, options.command, told.report, run, findings);
-    told.files.resize(result.regions.size());
+        divide_bodies(intake.bodies, command, told.report, run, findings);
     {
       StageMeter meter(findings.repair.stages, &run.progress);
       meter.begin("write");
-      write_bodies(options, bodies, result, unit.get(), told, run);
+      write_bodies(command, intake.bodies, result, format, told, run);
     }
-    tell_of_bodies(bodies, result, options.command, told, run);
+    tell_of_bodies(intake.bodies, result, command, told, run);
     const double seconds = run.progress.seconds();
     run.progress.finish();
     show_held_warnings();
     if (!run.options.quiet) {
-      print_summary(bodies_summary(bodies, result, told.report) +
-                    fmt::format("written   {}: {}, in {:.2f} s\n", options.command.output,
+      print_summary(bodies_summary(intake.bodies, result, told.report) +
+                    fmt::format("written   {}: {}, in {:.2f} s\n", command.output,
                                 number_of(result.mesh.triangles.size(), "triangle"), seconds));
     }
     findings.missing_guarantees = missing_guarantees(told.report);
@@ -201,7 +203,7 @@ ExitCode divide_files(const Options& options, Run& run) {
 
 int main(int argc, char** argv) {
   using namespace meshrepair;
-  Options options;
+  BodiesCommand command;
   Program program(
       "meshbodies",
       "Divides bodies that touch or overlap into regions with common faces, as meshers\n"
@@ -210,23 +212,25 @@ int main(int argc, char** argv) {
       "  meshbodies assembly.3mf --overlap own -o assembly.poly\n"
       "  meshbodies body.stl drill.obj --join-gaps 0.01 -o part-{}.stl\n");
   CommandLine& app = program.command_line();
-  app.add_option("IN", options.command.inputs,
+  app.add_option("IN", command.inputs,
                  "Bodies, a file each; or one file whose objects, groups or materials are the\n"
                  "bodies; a mesh that is not a solid is repaired first")
       ->check(names_file(mesh_extensions()))
       ->required()
       ->repeated();
   add_output_option(
-      app, options.command.output, "OUT", ".ply, .obj, .vtp, .poly, .msh, .3mf, .glb, .gltf",
+      app, command.output, "OUT", ".ply, .obj, .vtp, .poly, .msh, .3mf, .glb, .gltf",
       "File to write. Each face once, with the regions on both sides: PLY, OBJ, VTP,\n"
       "POLY (TetGen) and MSH (Gmsh). Each region a closed object: 3MF, GLB and glTF.\n"
       "With {} in the name, a file for each region");
-  add_bodies_command(app, options.command);
+  add_bodies_command(app, command);
   return program.run(argc, argv, [&](Run& run) {
-    check_output(options.command);
-    for (const std::string& input : options.command.inputs) {
-      check_files(input, options.command.output, run);
+    check_output(command);
+    for (const std::string& input : command.inputs) check_files(input, command.output, run);
+    if (region_format_of(command.output) == RegionFormat::msh) {
+      check_side_file({"--output", script_of(command.output).string(), "script of Gmsh"},
+                      command.inputs, run);
     }
-    return divide_files(options, run);
+    return divide_files(command, run);
   });
 }

@@ -132,7 +132,6 @@ BodiesOutcome bodies_call(std::vector<TriangleSoup> meshes, const Keywords& keyw
       run.report.set_input(nullptr);
       BodiesFacts told;
       outcome.bodies = divide_bodies(bodies, command, told.report, run, findings);
-      told.files.resize(outcome.bodies.regions.size());
       tell_of_bodies(bodies, outcome.bodies, command, told, run);
       const std::string missing = missing_guarantees(told.report);
       if (missing.empty()) return ExitCode::done;

@@ -15,29 +15,21 @@ constexpr std::size_t kThinnestPerLine = 3;
 
 // Worst first: the first that a triangle has is its colour.
 constexpr std::array<ThinLook, kThinKinds> kLooks = {{
-    {ThinKind::wall, "thin_walls", "violet", "of a thin wall", {130, 70, 200}},
-    {ThinKind::pin, "thin_pins", "brown", "of a thin pin", {140, 90, 50}},
-    {ThinKind::gap, "narrow_gaps", "teal", "at a narrow gap", {0, 130, 140}},
-    {ThinKind::edge, "sharp_edges", "pink", "at a sharp edge", {250, 150, 180}},
+    {ThinKind::wall, "wall", "walls", "thin_walls", "violet", "of a thin wall", {130, 70, 200}},
+    {ThinKind::pin, "pin", "pins", "thin_pins", "brown", "of a thin pin", {140, 90, 50}},
+    {ThinKind::gap, "gap", "gaps", "narrow_gaps", "teal", "at a narrow gap", {0, 130, 140}},
+    {ThinKind::edge,
+     "sharp edge",
+     "edges",
+     "sharp_edges",
+     "pink",
+     "at a sharp edge",
+     {250, 150, 180}},
 }};
 
-std::string_view one_of(ThinKind kind) {
-  switch (kind) {
-    case ThinKind::wall:
-      return "wall";
-    case ThinKind::pin:
-      return "pin";
-    case ThinKind::gap:
-      return "gap";
-    case ThinKind::edge:
-      return "sharp edge";
-  }
-  return {};
-}
-
-std::string line_of(ThinKind kind, const ThinPlaces& places) {
+std::string line_of(const ThinLook& look, const ThinPlaces& places) {
   if (places.count == 0) return {};
-  std::string text = fmt::format("          {}", number_of(places.count, one_of(kind)));
+  std::string text = fmt::format("          {}", number_of(places.count, look.noun));
   const std::size_t shown = std::min(kThinnestPerLine, places.first.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const ThinPlace& place = places.first[i];
@@ -82,7 +74,7 @@ std::string thickness_text(const ThinReport& thin, bool is_solid) {
   std::string text =
       fmt::format("thin      {:.3g} % of the surface, area {:.6g}, is thinner than {:.6g}\n",
                   100 * share_of(thin), thin.thin_area, thin.limit);
-  for (const ThinLook& look : kLooks) text += line_of(look.kind, thin[look.kind]);
+  for (const ThinLook& look : kLooks) text += line_of(look, thin[look.kind]);
   return text.append(caution);
 }
 
@@ -92,7 +84,7 @@ Json thickness_section(const ThinReport& thin) {
                   {"area", thin.thin_area},
                   {"share", share_of(thin)}};
   for (const ThinLook& look : kLooks) {
-    section[std::string(thin_name(look.kind))] = places_of(thin[look.kind]);
+    section[std::string(look.section)] = places_of(thin[look.kind]);
   }
   return section;
 }

@@ -18,8 +18,10 @@ namespace meshrepair {
 
 struct ThinLook {
   ThinKind kind;
-  std::string_view key;   // in a page, where those of defects are, too
-  std::string_view name;  // of the colour
+  std::string_view noun;     // for people
+  std::string_view section;  // of the report
+  std::string_view key;      // in a page, where those of defects are, too
+  std::string_view name;     // of the colour
   std::string_view meaning;
   Colour colour;
 };

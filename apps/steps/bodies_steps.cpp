@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <map>
 
 #include <spdlog/logger.h>
 
 #include <base/error.h>
 #include <mesh/append_soup.h>
-#include <mesh/topology.h>
 
 #include "options/choice_option.h"
 #include "options/repair_options.h"
@@ -21,6 +19,9 @@
 
 namespace meshrepair {
 namespace {
+
+// Of regions in the summary.
+constexpr std::size_t kMostRegionLines = 20;
 
 constexpr std::array<Choice<BodiesBy>, 3> kBy = {
     {{"object", BodiesBy::object}, {"group", BodiesBy::group}, {"material", BodiesBy::material}}};
@@ -55,22 +56,33 @@ const TriangleLabels& chosen_labels(const Attributes& attributes, BodiesBy by) {
   throw InputError("one body alone: it has no two objects, groups or materials");
 }
 
-Json region_facts(const Bodies& bodies, const ConformingBodies& result, const BodiesFacts& facts,
-                  std::uint32_t number) {
-  const BodyRegion& region = result.regions[number - 1];
-  Json neighbours = Json::array();
+// Of one region what it has faces in common with.
+struct Neighbour {
+  std::uint32_t region = 0;
+  const BodyContact* contact = nullptr;
+};
+
+// Of each region, by their numbers; of the outside, too.
+std::vector<std::vector<Neighbour>> neighbours_of(const ConformingBodies& result) {
+  std::vector<std::vector<Neighbour>> neighbours(result.regions.size() + 1);
   for (const BodyContact& contact : result.contacts) {
-    if (contact.a != number && contact.b != number) continue;
-    const std::uint32_t other = contact.a == number ? contact.b : contact.a;
-    neighbours.push_back(
-        {{"region", other}, {"triangles", contact.triangles}, {"area", contact.area}});
+    neighbours[contact.a].push_back({contact.b, &contact});
+    neighbours[contact.b].push_back({contact.a, &contact});
   }
-  Json section = {{"region", number},        {"name", bodies.name_of(result, number)},
-                  {"bodies", region.bodies}, {"volume", region.volume},
-                  {"parts", region.parts},   {"triangles", region.triangles},
-                  {"neighbours", neighbours}};
-  if (!facts.files[number - 1].empty()) section["file"] = facts.files[number - 1];
-  return section;
+  return neighbours;
+}
+
+Json region_facts(const Bodies& bodies, const ConformingBodies& result, std::uint32_t number,
+                  const std::vector<Neighbour>& neighbours) {
+  const BodyRegion& region = result.regions[number - 1];
+  Json list = Json::array();
+  for (const auto& [other, contact] : neighbours) {
+    list.push_back({{"region", other}, {"triangles", contact->triangles}, {"area", contact->area}});
+  }
+  return {{"region", number},        {"name", bodies.name_of(result, number)},
+          {"bodies", region.bodies}, {"volume", region.volume},
+          {"parts", region.parts},   {"triangles", region.triangles},
+          {"neighbours", list}};
 }
 
 Json bodies_section(const Bodies& bodies, const ConformingBodies& result,
@@ -78,8 +90,11 @@ Json bodies_section(const Bodies& bodies, const ConformingBodies& result,
   const BodiesReport& report = facts.report;
   Json regions = Json::array();
   double volume = 0;
+  const auto neighbours = neighbours_of(result);
   for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
-    regions.push_back(region_facts(bodies, result, facts, r));
+    Json region = region_facts(bodies, result, r, neighbours[r]);
+    if (!facts.files.empty() && !facts.files[r - 1].empty()) region["file"] = facts.files[r - 1];
+    regions.push_back(std::move(region));
     volume += result.regions[r - 1].volume;
   }
   return {{"regions", std::move(regions)},
@@ -98,8 +113,8 @@ Json bodies_section(const Bodies& bodies, const ConformingBodies& result,
           {"certified", report.passed()}};
 }
 
-std::string region_line(const Bodies& bodies, const ConformingBodies& result,
-                        std::uint32_t number) {
+std::string region_line(const Bodies& bodies, const ConformingBodies& result, std::uint32_t number,
+                        const std::vector<Neighbour>& neighbours) {
   const BodyRegion& region = result.regions[number - 1];
   std::string line = fmt::format("{:<9} {}: volume {:.6g}", "region",
                                  bodies.name_of(result, number), region.volume);
@@ -108,11 +123,10 @@ std::string region_line(const Bodies& bodies, const ConformingBodies& result,
     return line + (is_empty ? ", as the input is empty\n" : ", all of it is another's\n");
   }
   if (region.parts > 1) line += fmt::format(" in {}", number_of(region.parts, "part"));
-  for (const BodyContact& contact : result.contacts) {
-    if (contact.a == 0 || (contact.a != number && contact.b != number)) continue;
-    const std::uint32_t other = contact.a == number ? contact.b : contact.a;
+  for (const auto& [other, contact] : neighbours) {
+    if (other == 0) continue;
     line +=
-        fmt::format(", {:.6g} of its faces with {}", contact.area, bodies.name_of(result, other));
+        fmt::format(", {:.6g} of its faces with {}", contact->area, bodies.name_of(result, other));
   }
   return line + "\n";
 }
@@ -142,34 +156,23 @@ void add_bodies_command(CommandLine& app, BodiesCommand& command) {
   add_max_hole_option(app, command.repair.holes);
 }
 
-std::vector<NamedSoup> named_bodies(const TriangleSoup& soup, const Attributes& attributes,
-                                    BodiesBy by, const std::string& rest) {
-  const TriangleLabels& labels = chosen_labels(attributes, by);
-  std::vector<NamedSoup> bodies(labels.names.size() + 1);
-  for (std::size_t i = 0; i < labels.names.size(); ++i) bodies[i].name = labels.names[i];
-  bodies.back().name = rest;
-  std::vector<std::map<std::uint32_t, std::uint32_t>> number(bodies.size());
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    const std::size_t b = std::min<std::size_t>(labels.of_triangle[t], labels.names.size());
-    std::array<std::uint32_t, 3> corners = soup.triangles[t];
-    for (std::uint32_t& p : corners) {
-      const auto fresh = static_cast<std::uint32_t>(bodies[b].soup.points.size());
-      const auto [at, is_new] = number[b].emplace(p, fresh);
-      if (is_new) bodies[b].soup.points.push_back(soup.points[p]);
-      p = at->second;
-    }
-    bodies[b].soup.triangles.push_back(corners);
+std::vector<NamedSoup> named_bodies(TriangleSoup soup, const Attributes& attributes, BodiesBy by,
+                                    const std::string& rest) {
+  Attributes named;
+  named.objects = chosen_labels(attributes, by);
+  const Scene scene = split_objects(soup, named);
+  std::vector<NamedSoup> bodies;
+  for (TriangleSoup& mesh : meshes_of(soup, scene)) {
+    const std::string& name = scene.meshes[bodies.size()].name;
+    bodies.push_back({name.empty() ? rest : name, std::move(mesh)});
   }
-  std::erase_if(bodies, [](const NamedSoup& body) { return body.soup.triangles.empty(); });
   return bodies;
 }
 
 void Bodies::add(NamedSoup body, const BodiesCommand& command, Run& run, const Findings& findings,
                  Json& facts) {
-  std::string name = body.name.empty() ? "body" : body.name;
-  for (int n = 2; std::find(names_.begin(), names_.end(), name) != names_.end(); ++n) {
-    name = (body.name.empty() ? "body" : body.name) + "-" + std::to_string(n);
-  }
+  std::string name = body.name;
+  for (int n = 2; !taken_.insert(name).second; ++n) name = body.name + "-" + std::to_string(n);
   const bool is_of_several = command.inputs.size() == 1;  // in the only file
   Findings own(is_of_several ? findings.input + ", " + name : findings.input, "");
   own.mesh_read = findings.mesh_read;
@@ -221,6 +224,7 @@ ConformingBodies divide_bodies(const Bodies& bodies, const BodiesCommand& comman
 
 void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,
                     const BodiesCommand& command, const BodiesFacts& facts, Run& run) {
+  warn_of_common_grid(bodies.names(), facts.report.operands);
   run.report.set_section("bodies", bodies_section(bodies, result, command, facts));
   for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
     if (result.regions[r - 1].triangles > 0 || bodies.is_empty(result, r)) continue;
@@ -232,8 +236,13 @@ void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,
 std::string bodies_summary(const Bodies& bodies, const ConformingBodies& result,
                            const BodiesReport& report) {
   std::string lines;
-  for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
-    lines += region_line(bodies, result, r);
+  const auto neighbours = neighbours_of(result);
+  const std::size_t shown = std::min(kMostRegionLines, result.regions.size());
+  for (std::uint32_t r = 1; r <= shown; ++r) {
+    lines += region_line(bodies, result, r, neighbours[r]);
+  }
+  if (const std::size_t more = result.regions.size() - shown; more > 0) {
+    lines += fmt::format("          and {}: --report has all\n", number_of(more, "more region"));
   }
   if (report.overlaps > 0) {
     lines += fmt::format("overlaps  {} of bodies, volume {:.6g}\n",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,9 +42,8 @@ struct NamedSoup {
 // The bodies of one file, by the names that its triangles have: of objects, groups or materials; if
 // any will do, by the first of these that has several. Triangles without a name are one body, which
 // is called as `rest`. Throws InputError where there are no such names.
-[[nodiscard]] std::vector<NamedSoup> named_bodies(const TriangleSoup& soup,
-                                                  const Attributes& attributes, BodiesBy by,
-                                                  const std::string& rest);
+[[nodiscard]] std::vector<NamedSoup> named_bodies(TriangleSoup soup, const Attributes& attributes,
+                                                  BodiesBy by, const std::string& rest);
 
 class Bodies {
  public:
@@ -52,6 +52,7 @@ class Bodies {
            Json& facts);
 
   [[nodiscard]] const std::vector<TriangleSoup>& solids() const { return solids_; }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   // "A", or "A+B" of an overlap. All names differ.
   [[nodiscard]] std::string name_of(const ConformingBodies& result, std::uint32_t region) const;
   // Whether its first body was empty to begin with.
@@ -61,6 +62,7 @@ class Bodies {
  private:
   std::vector<TriangleSoup> solids_;
   std::vector<std::string> names_;
+  std::set<std::string> taken_;  // names
 };
 
 // conforming_bodies(); the findings get what was joined. Throws NoSolidError where nothing is left.
@@ -69,7 +71,7 @@ class Bodies {
 
 struct BodiesFacts {
   BodiesReport report;
-  std::vector<std::string> files;  // of the regions; empty: none
+  std::vector<std::string> files;  // of the regions; an empty name: none; no names: of none
 };
 // The section "bodies" of the report, and a warning of bodies of which nothing is left.
 void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,

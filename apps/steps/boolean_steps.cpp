@@ -66,21 +66,6 @@ Json facts_of_operand(const Operand& operand, const Findings& findings, const Js
   return facts;
 }
 
-// What repair says of its own grid, of the one of all operands.
-void warn_of_common_grid(const BooleanCommand& command, const BooleanReport& report) {
-  for (std::size_t i = 0; i < report.operands.size(); ++i) {
-    const OperandReport& operand = report.operands[i];
-    if (operand.clean.dropped_below_grid > 0) {
-      warn(command.inputs[i],
-           {WarningCode::below_grid,
-            fmt::format("{} left out: narrower than the step of the common grid, {:.3g}",
-                        number_of(operand.clean.dropped_below_grid, "triangle"),
-                        operand.clean.grid_unit),
-            {{"triangles", operand.clean.dropped_below_grid}, {"step", operand.clean.grid_unit}}});
-    }
-  }
-}
-
 Json merge_section(const BooleanReport& report, SetOperation operation) {
   Json merges = Json::array();
   for (const MergeReport& merge : report.merges) {
@@ -208,9 +193,21 @@ BooleanOptions boolean_options(const BooleanCommand& command, Run& run) {
   return options;
 }
 
+void warn_of_common_grid(const std::vector<std::string>& names,
+                         const std::vector<OperandReport>& operands) {
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    const CleanReport& clean = operands[i].clean;
+    if (clean.dropped_below_grid == 0) continue;
+    warn(names[i], {WarningCode::below_grid,
+                    fmt::format("{} left out: narrower than the step of the common grid, {:.3g}",
+                                number_of(clean.dropped_below_grid, "triangle"), clean.grid_unit),
+                    {{"triangles", clean.dropped_below_grid}, {"step", clean.grid_unit}}});
+  }
+}
+
 void tell_of_boolean(const BooleanCommand& command, const BooleanReport& report, Run& run) {
   run.report.set_section("boolean", merge_section(report, command.operation));
-  warn_of_common_grid(command, report);
+  warn_of_common_grid(command.inputs, report.operands);
 }
 
 Surface combine(const Operands& operands, const BooleanCommand& command,

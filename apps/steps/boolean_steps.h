@@ -63,6 +63,9 @@ struct Operands {
 };
 
 [[nodiscard]] BooleanOptions boolean_options(const BooleanCommand& command, Run& run);
+// What repair says of its own grid, of the one of all operands, which have these names.
+void warn_of_common_grid(const std::vector<std::string>& names,
+                         const std::vector<OperandReport>& operands);
 // The section "boolean" of the report, and warnings of the grid that operands share.
 void tell_of_boolean(const BooleanCommand& command, const BooleanReport& report, Run& run);
 // boolean(), and what is to be told of it. The result may be without triangles.

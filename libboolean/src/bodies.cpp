@@ -35,25 +35,31 @@ using internal::JoinedSolids;
 
 constexpr std::uint32_t kOutside = 0;
 
-// Of moving points. The first go so many units in the last place far, and the next so many times as
-// far each, up to the grid's unit; then twice as far each.
-constexpr double kFirstUnit = 8;
-constexpr std::size_t kMostRounds = 20;
+// Of moving points; each goes twice as far as the one before.
+constexpr std::size_t kMostRounds = 10;
 // How many times as many triangles as at first are too many.
 constexpr std::size_t kMostGrowth = 4;
 // That are looked at in a round.
 constexpr std::size_t kMostPairs = 200'000;
 
+// What is in front of triangles and behind them.
+using TriangleSides = std::vector<std::array<std::uint32_t, 2>>;
+
 // Triangles between regions, as in ConformingBodies.
 struct Complex {
   TriangleSoup mesh;
-  std::vector<char> input_point;
-  std::vector<std::array<std::uint32_t, 2>> regions_of;
-  // Regions fall into connected parts. Of each triangle those in front and behind, and of each part
-  // its region.
-  std::vector<std::array<std::uint32_t, 2>> parts_of;
+  TriangleSides parts_of;
   std::vector<std::uint32_t> region_of_part;
   std::vector<std::uint32_t> source;
+
+  [[nodiscard]] TriangleSides regions_of() const {
+    TriangleSides regions;
+    regions.reserve(parts_of.size());
+    for (const auto& [front, behind] : parts_of) {
+      regions.push_back({region_of_part[front], region_of_part[behind]});
+    }
+    return regions;
+  }
 };
 
 // Chambers of one region that are next to each other are one part.
@@ -131,17 +137,14 @@ class Divider {
     Complex complex;
     complex.region_of_part = std::move(parts.region);
     complex.mesh = std::move(faces->surface.mesh);
-    complex.input_point = std::move(faces->surface.input_point);
     complex.source = std::move(faces->surface.source);
-    for (std::size_t t = 0; t < complex.mesh.triangles.size(); ++t) {
-      std::array<std::uint32_t, 2> sides = faces->regions[t];
-      const auto region_behind = [&] { return complex.region_of_part[sides[1]]; };
-      if (region_behind() == kOutside) {
-        std::swap(sides[0], sides[1]);
-        std::swap(complex.mesh.triangles[t][1], complex.mesh.triangles[t][2]);
-      }
-      complex.parts_of.push_back(sides);
-      complex.regions_of.push_back({complex.region_of_part[sides[0]], region_behind()});
+    complex.parts_of = std::move(faces->regions);
+    // A void has a higher number than the outside, and may be behind.
+    for (std::size_t t = 0; t < complex.parts_of.size(); ++t) {
+      auto& [front, behind] = complex.parts_of[t];
+      if (complex.region_of_part[behind] != kOutside) continue;
+      std::swap(front, behind);
+      std::swap(complex.mesh.triangles[t][1], complex.mesh.triangles[t][2]);
     }
     return complex;
   }
@@ -187,9 +190,6 @@ class Divider {
   std::size_t sets_ = 0;
   double overlap_volume_ = 0;
 };
-
-// What is in front of triangles and behind them.
-using TriangleSides = std::vector<std::array<std::uint32_t, 2>>;
 
 // Takes the boundaries of regions, or of parts, out of a mesh.
 class BoundaryTaker {
@@ -293,8 +293,9 @@ Complex divided_again(const Complex& complex, std::size_t regions, const Grid& g
   std::vector<CleanSoup> soups;
   std::vector<std::size_t> given;
   std::vector<std::uint32_t> source;
-  BoundaryTaker taker(complex.mesh, complex.regions_of);
-  for (const auto& triangles : triangles_around(complex.regions_of, regions)) {
+  const TriangleSides regions_of = complex.regions_of();
+  BoundaryTaker taker(complex.mesh, regions_of);
+  for (const auto& triangles : triangles_around(regions_of, regions)) {
     const auto region = static_cast<std::uint32_t>(soups.size() + 1);
     CleanReport cleaned;
     soups.push_back(clean_soup(taker.take(triangles, region), grid, cleaned, progress));
@@ -316,14 +317,13 @@ void make_sound(std::size_t regions, const Grid& grid, Precision precision, Comp
   Faults faults = find_faults(complex.mesh, &quiet);
   report.pairs_at_first = report.pairs = faults.count;
   const std::size_t most_triangles = kMostGrowth * complex.mesh.triangles.size();
-  double unit = kFirstUnit * internal::number_spacing(complex.mesh, precision);
+  double unit = std::max(grid.unit, internal::number_spacing(complex.mesh, precision));
   Complex best = faults.count > 0 ? complex : Complex();
   BodiesReport moved;
   while (faults.count > 0 && report.rounds < kMostRounds) {
     ++report.rounds;
     snap(faults.triangles, unit, complex.mesh, moved);
-    // What is closer than the grid's unit the division would not see.
-    if (unit >= grid.unit) complex = divided_again(complex, regions, grid, &quiet);
+    complex = divided_again(complex, regions, grid, &quiet);
     round_points(precision, complex.mesh);
     faults = find_faults(complex.mesh, &quiet);
     if (faults.count < report.pairs) {
@@ -333,7 +333,7 @@ void make_sound(std::size_t regions, const Grid& grid, Precision precision, Comp
       best = complex;
     }
     if (complex.mesh.triangles.size() > most_triangles) break;
-    unit *= unit < grid.unit ? kFirstUnit : 2;
+    unit *= 2;
   }
   if (report.rounds > 0) complex = std::move(best);
 }
@@ -402,10 +402,43 @@ std::vector<CleanSoup> clean_bodies(std::span<const TriangleSoup> solids, const 
   return soups;
 }
 
-std::vector<std::size_t> sizes_of(std::span<const TriangleSoup> solids) {
-  std::vector<std::size_t> sizes;
-  for (const TriangleSoup& solid : solids) sizes.push_back(solid.triangles.size());
-  return sizes;
+// Once gaps are joined.
+ConformingBodies divide(std::span<const TriangleSoup> solids, const BodiesOptions& options,
+                        BodiesReport& report) {
+  StageMeter meter(report.stages, options.progress);
+  meter.begin("operands");
+  BooleanReport operands;
+  const Grid grid = internal::grid_of(solids, operands);
+  CancelOnly quiet(options.progress);
+  std::vector<CleanSoup> soups = clean_bodies(solids, grid, operands, &quiet);
+  report.operands = std::move(operands.operands);
+  std::vector<std::size_t> given;
+  std::vector<double> volumes;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    given.push_back(solids[i].triangles.size());
+    volumes.push_back(report.operands[i].volume);
+  }
+  Divider divider(solids.size(), OverlapRule(options.overlap, std::move(volumes)),
+                  options.progress);
+  ArrangeReport arranged;
+  meter.begin("divide");
+  Complex complex = divider.divide(std::move(soups), given, arranged);
+  report.cut_triangles = arranged.cut_triangles;
+  report.overlaps = divider.sets_that_overlap();
+  report.overlap_volume = divider.overlap_volume() * grid.unit * grid.unit * grid.unit;
+  ConformingBodies bodies;
+  for (std::uint32_t i = 0; i < solids.size(); ++i) bodies.regions.push_back({{i}});
+  for (const auto& set : divider.overlaps()) bodies.regions.push_back({set});
+  meter.begin("certify");
+  make_sound(bodies.regions.size(), grid, options.precision, complex, report, options.progress);
+  if (!complex.region_of_part.empty()) find_seeds(complex, bodies);
+  bodies.regions_of = complex.regions_of();
+  bodies.mesh = std::move(complex.mesh);
+  bodies.parts_of = std::move(complex.parts_of);
+  bodies.region_of_part = std::move(complex.region_of_part);
+  bodies.source = std::move(complex.source);
+  measure(bodies, report);
+  return bodies;
 }
 
 }  // namespace
@@ -422,43 +455,12 @@ ConformingBodies conforming_bodies(std::span<const TriangleSoup> solids,
   joining.repair.join_gaps = options.join_gaps;
   joining.repair.progress = options.progress;
   RepairReport before;
-  if (const auto joined = internal::join_operands(solids, joining, before)) {
-    BodiesOptions without_gaps = options;
-    without_gaps.join_gaps = {};
-    ConformingBodies bodies = conforming_bodies(joined->solids, without_gaps, report);
-    for (std::uint32_t& t : bodies.source) t = internal::given_source(*joined, t);
-    report.join_gaps = before.join_gaps;
-    report.stages.insert(report.stages.begin(), before.stages.begin(), before.stages.end());
-    return bodies;
-  }
-  StageMeter meter(report.stages, options.progress);
-  meter.begin("operands");
-  BooleanReport operands;
-  const Grid grid = internal::grid_of(solids, operands);
-  CancelOnly quiet(options.progress);
-  std::vector<CleanSoup> soups = clean_bodies(solids, grid, operands, &quiet);
-  std::vector<double> volumes;
-  for (const OperandReport& operand : operands.operands) volumes.push_back(operand.volume);
-  Divider divider(solids.size(), OverlapRule(options.overlap, std::move(volumes)),
-                  options.progress);
-  ArrangeReport arranged;
-  meter.begin("divide");
-  Complex complex = divider.divide(std::move(soups), sizes_of(solids), arranged);
-  report.cut_triangles = arranged.cut_triangles;
-  report.overlaps = divider.sets_that_overlap();
-  report.overlap_volume = divider.overlap_volume() * grid.unit * grid.unit * grid.unit;
-  ConformingBodies bodies;
-  for (std::uint32_t i = 0; i < solids.size(); ++i) bodies.regions.push_back({{i}});
-  for (const auto& set : divider.overlaps()) bodies.regions.push_back({set});
-  meter.begin("certify");
-  make_sound(bodies.regions.size(), grid, options.precision, complex, report, options.progress);
-  if (!complex.region_of_part.empty()) find_seeds(complex, bodies);
-  bodies.mesh = std::move(complex.mesh);
-  bodies.regions_of = std::move(complex.regions_of);
-  bodies.parts_of = std::move(complex.parts_of);
-  bodies.region_of_part = std::move(complex.region_of_part);
-  bodies.source = std::move(complex.source);
-  measure(bodies, report);
+  const auto joined = internal::join_operands(solids, joining, before);
+  report.join_gaps = before.join_gaps;
+  report.stages = std::move(before.stages);
+  if (!joined) return divide(solids, options, report);
+  ConformingBodies bodies = divide(joined->solids, options, report);
+  for (std::uint32_t& t : bodies.source) t = internal::given_source(*joined, t);
   return bodies;
 }
 

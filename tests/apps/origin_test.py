@@ -137,6 +137,12 @@ class Origin(unittest.TestCase):
             self.run_program("bspbool", self.folder / first, self.folder / second, "--op", "intersection", "--origin", "auto", "-o",
                              self.folder / "both.stl", "--report", self.folder / "r.json")
             sizes.add(round(json.loads((self.folder / "r.json").read_text(encoding="utf-8"))["result"]["volume"], 4))
+            if "near_a.obj" == first:  # its offset is that of the output
+                self.run_program("meshbodies", self.folder / first, self.folder / second, "-o", self.folder / "bodies.obj", "--report",
+                                 self.folder / "r.json")
+                overlap = json.loads((self.folder / "r.json").read_text(encoding="utf-8"))["bodies"]["overlap_volume"]
+                sizes.add(round(overlap, 4))
+                self.assertIn("# offset ", (self.folder / "bodies.obj").read_text(encoding="utf-8"))
         self.assertEqual(len(sizes), 1, sizes)
         self.run_program("meshdist", self.folder / "near_a.obj", self.folder / "a.obj", "--report", self.folder / "r.json")
         self.assertLess(json.loads((self.folder / "r.json").read_text(encoding="utf-8"))["distance"]["a_to_b"]["hausdorff"], 20)

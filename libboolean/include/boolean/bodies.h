@@ -23,7 +23,9 @@
 
 #include <base/progress.h>
 #include <base/stage_meter.h>
+#include <boolean/boolean.h>
 #include <mesh/precision.h>
+#include <mesh/region_mesh.h>
 #include <mesh/soup.h>
 #include <repair/join_gaps.h>
 
@@ -53,12 +55,6 @@ struct BodyRegion {
   std::size_t parts = 0;              // that it falls into, which have no face in common
 };
 
-// A place inside a part of a region, or inside a void, which is a part of the outside: 0.
-struct BodySeed {
-  std::uint32_t region = 0;
-  Vec3d place = Vec3d::Zero();
-};
-
 // Two regions, a < b, that have faces in common; a is 0 for what is outside.
 struct BodyContact {
   std::uint32_t a = 0, b = 0;
@@ -81,12 +77,13 @@ struct ConformingBodies {
   std::vector<BodyRegion> regions;    // of all bodies, in their order, then overlaps
   std::vector<BodyContact> contacts;  // ascending
   // One for each part and each void, but for those too thin for a point that is surely inside.
-  std::vector<BodySeed> seeds;
+  std::vector<RegionSeed> seeds;
 };
 
 struct BodiesReport {
   JoinGapsReport join_gaps;
-  std::size_t cut_triangles = 0;   // of the bodies, that met others
+  std::vector<OperandReport> operands;  // of all bodies, on their common grid
+  std::size_t cut_triangles = 0;        // of the bodies, that met others
   std::size_t overlaps = 0;        // different sets of bodies that had points inside all of them
   double overlap_volume = 0;       // of those points
   std::size_t pairs_at_first = 0;  // of triangles that met once points were rounded

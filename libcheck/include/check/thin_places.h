@@ -29,7 +29,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include <base/progress.h>
@@ -39,9 +38,6 @@ namespace meshrepair {
 
 enum class ThinKind { wall, pin, gap, edge };
 inline constexpr std::size_t kThinKinds = 4;
-
-// "walls", "pins", "gaps", "edges": keys of reports.
-[[nodiscard]] std::string_view thin_name(ThinKind kind);
 
 // Connected, of one kind. Units are those of the soup.
 struct ThinPlace {

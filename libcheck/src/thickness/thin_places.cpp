@@ -304,20 +304,6 @@ void mark(const ThinSamples& samples, std::span<const MeasuredTriangle> triangle
 
 }  // namespace
 
-std::string_view thin_name(ThinKind kind) {
-  switch (kind) {
-    case ThinKind::wall:
-      return "walls";
-    case ThinKind::pin:
-      return "pins";
-    case ThinKind::gap:
-      return "gaps";
-    case ThinKind::edge:
-      return "edges";
-  }
-  return {};
-}
-
 ThinReport find_thin_places(const TriangleSoup& soup, const ThinOptions& options) {
   if (options.progress != nullptr) options.progress->stage("thickness");
   ThinReport report;
