@@ -106,10 +106,11 @@ Json bodies_section(const Bodies& bodies, const ConformingBodies& result,
           {"overlap_volume", report.overlap_volume},
           {"cut_triangles", report.cut_triangles},
           {"pairs_at_first", report.pairs_at_first},
-          {"rounds", report.rounds},
-          {"snapped_points", report.snapped_points},
-          {"snapped_by", report.snapped_by},
+          {"moves", report.moves},
+          {"moved_by", report.moved_by},
           {"pairs", report.pairs},
+          {"turned_edges", report.turned_edges},
+          {"turned_parts", report.turned_parts},
           {"certified", report.passed()}};
 }
 
@@ -248,9 +249,10 @@ std::string bodies_summary(const Bodies& bodies, const ConformingBodies& result,
     lines += fmt::format("overlaps  {} of bodies, volume {:.6g}\n",
                          number_of(report.overlaps, "set"), report.overlap_volume);
   }
-  if (report.snapped_points > 0) {
-    lines += fmt::format("rounding  {} moved by up to {:.3g}, as faces met once rounded\n",
-                         number_of(report.snapped_points, "point"), report.snapped_by);
+  if (report.moves > 0) {
+    lines +=
+        fmt::format("rounding  {} of points and edges by up to {:.3g}, as faces met once rounded\n",
+                    number_of(report.moves, "move"), report.moved_by);
   }
   return lines;
 }
@@ -272,8 +274,16 @@ std::pair<TriangleSoup, Scene> as_scene(const ConformingBodies& result,
 
 std::string missing_guarantees(const BodiesReport& report) {
   if (report.passed()) return {};
-  return "not certified: " + number_of(report.pairs + report.open_edges, "pair") +
-         " of triangles intersect; where faces of bodies nearly coincide, --join-gaps joins them";
+  std::string faults;
+  const auto add = [&](std::size_t count, std::string_view what, std::string_view how) {
+    if (count == 0) return;
+    faults += fmt::format("{}{} {}", faults.empty() ? "" : ", ", number_of(count, what), how);
+  };
+  add(report.pairs, "pair", "of triangles that intersect");
+  add(report.turned_edges, "edge", "whose regions are not in order");
+  add(report.turned_parts, "part", "turned inside out");
+  return "not certified: " + faults +
+         "; where faces of bodies nearly coincide, --join-gaps joins them";
 }
 
 }  // namespace meshrepair

@@ -17,9 +17,10 @@
 #include <base/stage_meter.h>
 #include <boolean/bodies.h>
 #include <bsp/common_grid.h>
-#include <check/self_intersections.h>
+#include <check/near_faces.h>
 #include <exact/double_predicates.h>
 #include <extract/arrange.h>
+#include <mesh/append_soup.h>
 #include <mesh/edge_table.h>
 #include <mesh/topology.h>
 
@@ -27,40 +28,18 @@
 #include "joined_solids.h"
 #include "operands.h"
 #include "point_inside.h"
+#include "regions/mend_regions.h"
 
 namespace meshrepair {
 namespace {
 
 using internal::JoinedSolids;
+using internal::MendRegionsOptions;
+using internal::MendRegionsReport;
+using Complex = internal::RegionComplex;
+using internal::TriangleSides;
 
 constexpr std::uint32_t kOutside = 0;
-
-// Of moving points; each goes twice as far as the one before.
-constexpr std::size_t kMostRounds = 10;
-// How many times as many triangles as at first are too many.
-constexpr std::size_t kMostGrowth = 4;
-// That are looked at in a round.
-constexpr std::size_t kMostPairs = 200'000;
-
-// What is in front of triangles and behind them.
-using TriangleSides = std::vector<std::array<std::uint32_t, 2>>;
-
-// Triangles between regions, as in ConformingBodies.
-struct Complex {
-  TriangleSoup mesh;
-  TriangleSides parts_of;
-  std::vector<std::uint32_t> region_of_part;
-  std::vector<std::uint32_t> source;
-
-  [[nodiscard]] TriangleSides regions_of() const {
-    TriangleSides regions;
-    regions.reserve(parts_of.size());
-    for (const auto& [front, behind] : parts_of) {
-      regions.push_back({region_of_part[front], region_of_part[behind]});
-    }
-    return regions;
-  }
-};
 
 // Chambers of one region that are next to each other are one part.
 struct Parts {
@@ -239,118 +218,28 @@ std::vector<std::vector<std::uint32_t>> triangles_around(const TriangleSides& si
   return triangles;
 }
 
-// What is wrong with a complex once its points are rounded.
-struct Faults {
-  std::size_t count = 0;                 // of pairs that meet, and of triangles without area
-  std::vector<std::uint32_t> triangles;  // some of those of pairs, and those without area
-};
-
-Faults find_faults(const TriangleSoup& mesh, ProgressObserver* progress) {
-  SelfIntersectionOptions options;
-  options.weld = false;
-  options.most_pairs = kMostPairs;
-  options.progress = progress;
-  const SelfIntersections found = self_intersections(mesh, options);
-  Faults faults;
-  faults.count = found.count + found.degenerate + found.not_finite;
-  for (const auto& pair : found.pairs) {
-    faults.triangles.insert(faults.triangles.end(), pair.begin(), pair.end());
-  }
-  if (found.degenerate == 0) return faults;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    if (projection_axis(mesh.points[a], mesh.points[b], mesh.points[c]) < 0) {
-      faults.triangles.push_back(t);
-    }
-  }
-  return faults;
-}
-
 // As it can be written.
 void round_points(Precision precision, TriangleSoup& mesh) {
   for (Vec3d& p : mesh.points) p = internal::rounded_to(p, precision);
 }
 
-// Brings the corners of some triangles to multiples of a unit.
-void snap(std::span<const std::uint32_t> triangles, double unit, TriangleSoup& mesh,
-          BodiesReport& report) {
-  std::vector<char> is_snapped(mesh.points.size(), 0);
-  for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t p : mesh.triangles[t]) {
-      if (std::exchange(is_snapped[p], 1) != 0) continue;
-      const Vec3d from = mesh.points[p];
-      for (int k = 0; k < 3; ++k) mesh.points[p][k] = std::nearbyint(from[k] / unit) * unit;
-      const double by = (mesh.points[p] - from).cwiseAbs().maxCoeff();
-      if (by > 0) ++report.snapped_points;
-      report.snapped_by = std::max(report.snapped_by, by);
-    }
-  }
-}
-
-// The complex as it comes out of the division of its own regions.
-Complex divided_again(const Complex& complex, std::size_t regions, const Grid& grid,
-                      ProgressObserver* progress) {
-  std::vector<CleanSoup> soups;
-  std::vector<std::size_t> given;
-  std::vector<std::uint32_t> source;
-  const TriangleSides regions_of = complex.regions_of();
-  BoundaryTaker taker(complex.mesh, regions_of);
-  for (const auto& triangles : triangles_around(regions_of, regions)) {
-    const auto region = static_cast<std::uint32_t>(soups.size() + 1);
-    CleanReport cleaned;
-    soups.push_back(clean_soup(taker.take(triangles, region), grid, cleaned, progress));
-    given.push_back(triangles.size());
-    for (const std::uint32_t t : triangles) source.push_back(complex.source[t]);
-  }
-  Divider divider(regions, OverlapRule(Overlap::first, {}), progress);
-  ArrangeReport arranged;
-  Complex again = divider.divide(std::move(soups), given, arranged);
-  for (std::uint32_t& t : again.source) t = source[t];
-  return again;
-}
-
-// Until nothing meets any more; if that takes too long, the best is left.
-void make_sound(std::size_t regions, const Grid& grid, Precision precision, Complex& complex,
-                BodiesReport& report, ProgressObserver* progress) {
+// Until nothing meets any more, as far as that can be.
+void make_sound(const Grid& grid, Precision precision, Complex& complex, BodiesReport& report,
+                ProgressObserver* progress) {
   CancelOnly quiet(progress);
   round_points(precision, complex.mesh);
-  Faults faults = find_faults(complex.mesh, &quiet);
-  report.pairs_at_first = report.pairs = faults.count;
-  const std::size_t most_triangles = kMostGrowth * complex.mesh.triangles.size();
-  double unit = std::max(grid.unit, internal::number_spacing(complex.mesh, precision));
-  Complex best = faults.count > 0 ? complex : Complex();
-  BodiesReport moved;
-  while (faults.count > 0 && report.rounds < kMostRounds) {
-    ++report.rounds;
-    snap(faults.triangles, unit, complex.mesh, moved);
-    complex = divided_again(complex, regions, grid, &quiet);
-    round_points(precision, complex.mesh);
-    faults = find_faults(complex.mesh, &quiet);
-    if (faults.count < report.pairs) {
-      report.pairs = faults.count;
-      report.snapped_points = moved.snapped_points;
-      report.snapped_by = moved.snapped_by;
-      best = complex;
-    }
-    if (complex.mesh.triangles.size() > most_triangles) break;
-    unit *= 2;
-  }
-  if (report.rounds > 0) complex = std::move(best);
-}
-
-// Sides of a region's boundary that are not passed as often one way as the other.
-std::size_t open_edges(const TriangleSoup& surface) {
-  std::size_t open = 0;
-  EdgeTable(surface.triangles).for_each_edge([&](std::span<const std::uint32_t> sides) {
-    std::ptrdiff_t balance = 0;
-    for (const std::uint32_t s : sides) {
-      const bool up =
-          side_start(surface.triangles, s) < side_start(surface.triangles, next_side(s));
-      balance += up ? 1 : -1;
-    }
-    if (balance != 0) ++open;
-  });
-  return open;
+  MendRegionsOptions options;
+  options.precision = precision;
+  options.unit = std::max(grid.unit, internal::number_spacing(complex.mesh, precision));
+  options.progress = &quiet;
+  MendRegionsReport mended;
+  internal::mend_regions(complex, options, mended);
+  report.pairs_at_first = mended.pairs_at_first;
+  report.pairs = mended.pairs;
+  report.turned_edges = mended.turned_edges;
+  report.turned_parts = mended.turned_parts;
+  report.moves = mended.edits;
+  report.moved_by = mended.distance;
 }
 
 // Places inside all parts but the outside.
@@ -366,7 +255,7 @@ void find_seeds(const Complex& complex, ConformingBodies& bodies) {
   }
 }
 
-void measure(ConformingBodies& bodies, BodiesReport& report) {
+void measure(ConformingBodies& bodies) {
   const auto all = triangles_around(bodies.regions_of, bodies.regions.size());
   BoundaryTaker taker(bodies.mesh, bodies.regions_of);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -374,7 +263,6 @@ void measure(ConformingBodies& bodies, BodiesReport& report) {
     BodyRegion& region = bodies.regions[i];
     region.triangles = surface.triangles.size();
     region.volume = signed_volume(surface);
-    report.open_edges += open_edges(surface);
   }
   std::map<std::array<std::uint32_t, 2>, BodyContact> contacts;
   for (std::size_t t = 0; t < bodies.regions_of.size(); ++t) {
@@ -400,6 +288,82 @@ std::vector<CleanSoup> clean_bodies(std::span<const TriangleSoup> solids, const 
     soups.push_back(internal::clean_operand(solids[i], i, grid, cleaning, operands));
   }
   return soups;
+}
+
+// How far rounding takes faces apart that lie on each other: in steps of the grid, or of numbers in
+// single precision where the solids have no others.
+constexpr double kRoundingSteps = 4;
+
+// All solids, and what rounding may have done to them.
+class TouchingBodies {
+ public:
+  explicit TouchingBodies(std::span<const TriangleSoup> solids) {
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      append_soup(all_, solids[i]);
+      solid_of_.resize(all_.triangles.size(), i);
+    }
+    BooleanReport unused;
+    grid_ = internal::grid_of(solids, unused);
+    const bool is_single = std::all_of(all_.points.begin(), all_.points.end(), [](const Vec3d& p) {
+      return p == internal::rounded_to(p, Precision::float32);
+    });
+    double step = grid_.unit;
+    if (is_single) step = std::max(step, internal::number_spacing(all_, Precision::float32));
+    reach_ = kRoundingSteps * step;
+  }
+
+  [[nodiscard]] double reach() const { return reach_; }
+
+  // Whether faces of two bodies are as near as that, but not in one plane on the grid.
+  [[nodiscard]] bool are_taken_apart(ProgressObserver* progress) const {
+    NearFacesOptions looking;
+    looking.largest_distance = reach_;
+    looking.progress = progress;
+    const NearFacesFound near = find_near_faces(all_, looking);
+    return std::any_of(near.gaps.begin(), near.gaps.end(), [&](const NearFaces& gap) {
+      return solid_of_[gap.a] != solid_of_[gap.b] && !are_in_one_plane(gap.a, gap.b);
+    });
+  }
+
+ private:
+  [[nodiscard]] Vec3d on_grid(std::uint32_t point) const {
+    return as_vector(grid_.to_grid(all_.points[point]));
+  }
+  [[nodiscard]] bool are_in_one_plane(std::uint32_t t, std::uint32_t u) const {
+    const auto& [a, b, c] = all_.triangles[t];
+    return std::all_of(all_.triangles[u].begin(), all_.triangles[u].end(), [&](std::uint32_t p) {
+      return orientation(on_grid(a), on_grid(b), on_grid(c), on_grid(p)) == 0;
+    });
+  }
+
+  TriangleSoup all_;
+  std::vector<std::size_t> solid_of_;  // of each triangle
+  Grid grid_;
+  double reach_ = 0;
+};
+
+// Those that were asked for. Faces that touch are joined in any case: cut into the same triangles,
+// they stay on each other wherever their corners come to lie on the grid.
+std::optional<internal::JoinedOperands> join(std::span<const TriangleSoup> solids,
+                                             const BodiesOptions& options, RepairReport& report) {
+  BooleanOptions joining;
+  joining.repair.join_gaps = options.join_gaps;
+  joining.repair.join_gaps.joins_touching = true;
+  joining.repair.progress = options.progress;
+  if (options.join_gaps.mode != JoinGapsMode::none) {
+    return internal::join_operands(solids, joining, report);
+  }
+  if (solids.size() < 2) return std::nullopt;
+  const TouchingBodies touching(solids);
+  CancelOnly quiet(options.progress);
+  if (!touching.are_taken_apart(&quiet)) return std::nullopt;
+  joining.repair.join_gaps.mode = JoinGapsMode::distance;
+  joining.repair.join_gaps.distance = touching.reach();
+  try {
+    return internal::join_operands(solids, joining, report);
+  } catch (const ValueError&) {
+    return std::nullopt;  // something else is as thin
+  }
 }
 
 // Once gaps are joined.
@@ -430,14 +394,14 @@ ConformingBodies divide(std::span<const TriangleSoup> solids, const BodiesOption
   for (std::uint32_t i = 0; i < solids.size(); ++i) bodies.regions.push_back({{i}});
   for (const auto& set : divider.overlaps()) bodies.regions.push_back({set});
   meter.begin("certify");
-  make_sound(bodies.regions.size(), grid, options.precision, complex, report, options.progress);
+  make_sound(grid, options.precision, complex, report, options.progress);
   if (!complex.region_of_part.empty()) find_seeds(complex, bodies);
   bodies.regions_of = complex.regions_of();
   bodies.mesh = std::move(complex.mesh);
   bodies.parts_of = std::move(complex.parts_of);
   bodies.region_of_part = std::move(complex.region_of_part);
   bodies.source = std::move(complex.source);
-  measure(bodies, report);
+  measure(bodies);
   return bodies;
 }
 
@@ -451,11 +415,8 @@ std::string_view overlap_name(Overlap overlap) {
 ConformingBodies conforming_bodies(std::span<const TriangleSoup> solids,
                                    const BodiesOptions& options, BodiesReport& report) {
   report = {};
-  BooleanOptions joining;
-  joining.repair.join_gaps = options.join_gaps;
-  joining.repair.progress = options.progress;
   RepairReport before;
-  const auto joined = internal::join_operands(solids, joining, before);
+  const auto joined = join(solids, options, before);
   report.join_gaps = before.join_gaps;
   report.stages = std::move(before.stages);
   if (!joined) return divide(solids, options, report);

@@ -87,14 +87,14 @@ struct BodiesReport {
   std::size_t overlaps = 0;        // different sets of bodies that had points inside all of them
   double overlap_volume = 0;       // of those points
   std::size_t pairs_at_first = 0;  // of triangles that met once points were rounded
-  std::size_t rounds = 0;          // of moving points onto a grid and dividing anew
-  std::size_t snapped_points = 0;  // that were moved, in all rounds
-  double snapped_by = 0;           // at most, along each axis
+  std::size_t moves = 0;           // of points and edges, so that fewer meet
+  double moved_by = 0;             // at most
   std::size_t pairs = 0;           // that are left, and triangles without area
-  std::size_t open_edges = 0;      // of regions, that are not balanced
+  std::size_t turned_edges = 0;    // around which a region does not end where the next one begins
+  std::size_t turned_parts = 0;    // of regions, and voids, whose volume is not above 0
   std::vector<StageReport> stages;
 
-  [[nodiscard]] bool passed() const { return pairs == 0 && open_edges == 0; }
+  [[nodiscard]] bool passed() const { return pairs + turned_edges + turned_parts == 0; }
 };
 
 // first, last, smaller, own.

@@ -59,12 +59,13 @@ bool EditableMesh::find_link(std::uint32_t point, std::vector<std::uint32_t>& li
     sides.push_back({triangles_[t][(k + 1) % 3], triangles_[t][(k + 2) % 3]});
   }
   std::uint32_t next = sides[0][0];
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const auto side =
-        std::find_if(sides.begin(), sides.end(), [&](const auto& s) { return s[0] == next; });
+  // Each side once: where several fans meet, none of them is the link.
+  for (auto from = sides.begin(); from != sides.end(); ++from) {
+    const auto side = std::find_if(from, sides.end(), [&](const auto& s) { return s[0] == next; });
     if (side == sides.end()) return false;
     link.push_back(next);
     next = (*side)[1];
+    std::iter_swap(from, side);
   }
   return next == link[0];
 }
@@ -115,6 +116,9 @@ bool EditableMesh::find_flip(std::uint32_t triangle, std::size_t k, MeshEdit& ed
 }
 
 void EditableMesh::apply(const MeshEdit& edit) {
+  for (const std::uint32_t t : edit.triangles) {
+    if (t >= triangles_.size()) triangles_.resize(t + std::size_t{1}, kGone);
+  }
   for (const std::uint32_t t : edit.triangles) {
     if (triangles_[t] == kGone) continue;
     for (const std::uint32_t p : triangles_[t]) std::erase(changed_list(p), t);

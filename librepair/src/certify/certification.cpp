@@ -25,10 +25,10 @@
 #include <mesh/precision.h>
 #include <mesh/topology.h>
 #include <repair/certify.h>
+#include <repair/internal/mend_faults.h>
 
 #include "common/drop_thin_parts.h"
 #include "faulty_groups.h"
-#include "mend/mend_faults.h"
 #include "separate_copies.h"
 #include "settle_points.h"
 

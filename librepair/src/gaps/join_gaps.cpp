@@ -156,10 +156,12 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
     report.widest_gap = std::max(report.widest_gap, gap.apart);
   }
   report.distance = distance;
-  if (report.pairs == 0) return std::nullopt;
+  const bool is_for_touching = options.joins_touching && !near.gaps.empty();
+  if (report.pairs == 0 && !is_for_touching) return std::nullopt;
   // Where gaps are narrower than was asked for, so is what is taken for near beside them.
-  const double within = std::min(distance, kGapMargin * report.widest_gap);
-  internal::NearParts parts(soup, near.gaps, report.widest_gap, within, check);
+  const double widest = is_for_touching ? distance / kGapMargin : report.widest_gap;
+  const double within = std::min(distance, kGapMargin * widest);
+  internal::NearParts parts(soup, near.gaps, widest, within, check);
   JoinedSoup joined = internal::cut_near_mesh(soup, parts.bring_together(), report, check);
   looking.largest_distance = distance;
   for (const NearFaces& gap : find_near_faces(joined.soup, looking).gaps) {

@@ -6,12 +6,10 @@
 // way as tie-breaks, and only if it leaves fewer than before. So the number of faults falls with
 // each edit, and the search ends.
 //
-// Faults are counted exactly, among the triangles near the place alone (fault_counter.h). All edits
+// Faults are counted exactly, among the triangles near the place alone (check/internal/fault_counter.h). All edits
 // keep the surface a closed manifold of the same genus: a collapse has to satisfy the link
 // condition (T. Dey, H. Edelsbrunner, S. Guha and D. Nekhayev, Topology preserving edge
 // contraction, 1999).
-#include "mend_faults.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,12 +23,12 @@
 
 #include <base/roots.h>
 #include <check/box_tree.h>
+#include <check/internal/fault_counter.h>
 #include <check/internal/star_distance.h>
 #include <exact/double_predicates.h>
 #include <mesh/internal/collapsible_mesh.h>
 #include <mesh/internal/editable_mesh.h>
-
-#include "fault_counter.h"
+#include <repair/internal/mend_faults.h>
 
 namespace meshrepair::internal {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <check/check_surface.h>
+#include <repair/internal/mend_faults.h>
 
-#include "mend/mend_faults.h"
 #include "shapes.h"
 #include "surfaces.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mend/mend_faults.h"
+#include <repair/internal/mend_faults.h>
 
 #include <algorithm>
 #include <array>

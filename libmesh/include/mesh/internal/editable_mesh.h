@@ -16,7 +16,7 @@ using TriangleCorners = std::array<std::uint32_t, 3>;
 
 inline constexpr TriangleCorners kGone{kNone, kNone, kNone};
 
-// What some triangles become; kGone: they go.
+// What some triangles become; kGone: they go. Numbers beyond those that are there are new ones.
 struct MeshEdit {
   std::vector<std::uint32_t> triangles;
   std::vector<TriangleCorners> now;
@@ -37,7 +37,7 @@ class EditableMesh {
   }
 
   // The point's neighbours in the order in which the triangles around it pass them. False for a
-  // point that has none any more, or very many.
+  // point that has none any more, or very many, or is not inside one fan of triangles.
   [[nodiscard]] bool find_link(std::uint32_t point, std::vector<std::uint32_t>& link) const;
 
   // Moves the point onto a neighbour. False where the mesh would not stay manifold, of the same

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mend/fault_counter.h"
+#include <check/internal/fault_counter.h>
 
 #include <array>
 #include <cstdint>

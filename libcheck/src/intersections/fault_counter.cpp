@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "fault_counter.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <check/internal/fault_counter.h>
 #include <check/internal/nearby_intersections.h>
 #include <check/internal/triangle_list.h>
 #include <exact/double_predicates.h>
@@ -60,7 +59,7 @@ void BoxesAround::take_all() {
 namespace {
 
 // Of a sum of three products, as a share of the largest coordinate.
-constexpr double kRounding = 1e-14;
+constexpr double kHeightRounding = 1e-14;
 
 // Whether more than this lies between the two, along the normal of one of them. Any direction would
 // do for that, so it may be rounded.
@@ -82,7 +81,7 @@ bool lie_apart(const CornerTriangle& a, const CornerTriangle& b, const CornerTri
     high_b = std::max(high_b, height);
     farthest = std::max(farthest, (p - a.at[0]).cwiseAbs().maxCoeff());
   }
-  const double margin = distance + kRounding * farthest;
+  const double margin = distance + kHeightRounding * farthest;
   return low_b - high_a > margin || low_a - high_b > margin;
 }
 
