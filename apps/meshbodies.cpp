@@ -92,11 +92,14 @@ std::vector<std::string> files_of(const BodiesCommand& command, const Conforming
   std::set<std::string> taken;
   for (std::uint32_t r = 1; r <= files.size(); ++r) {
     if (result.regions[r - 1].triangles == 0) continue;
-    const std::string name = in_file_name(bodies.name_of(result, r));
+    const std::string name = in_file_name(bodies.name_of(r));
     std::string unique = name;
     for (int n = 2; !taken.insert(unique).second; ++n) unique = name + "-" + std::to_string(n);
     files[r - 1] = command.output;
-    files[r - 1].replace(command.output.find(kPlaceOfName), kPlaceOfName.size(), unique);
+    for (std::size_t at = 0; (at = files[r - 1].find(kPlaceOfName, at)) != std::string::npos;) {
+      files[r - 1].replace(at, kPlaceOfName.size(), unique);
+      at += unique.size();
+    }
     check_side_file({"--output", files[r - 1], "output"}, command.inputs, run);
   }
   return files;
@@ -134,7 +137,7 @@ void write_bodies(const BodiesCommand& command, const Bodies& bodies,
     facts.files = files_of(command, result, bodies, run);
     return write_each(format, result, facts.files);
   }
-  const std::vector<std::string> names = bodies.names_of(result);
+  const std::vector<std::string>& names = bodies.region_names();
   if (regions) {
     const RegionMesh mesh = {result.mesh, result.parts_of, result.region_of_part, names,
                              result.seeds};
@@ -151,6 +154,9 @@ void check_output(BodiesCommand& command) {
   if (output.empty()) throw UsageError("the name of the output is empty");
   if (region_format_of(output) && !has_place_of_name(output)) return;
   const auto format = format_of_extension(output);
+  if (!format && region_format_of(output)) {
+    throw UsageError(output + ": such a file has all regions, and no {} in its name");
+  }
   if (!format) {
     throw UsageError(output +
                      ": unknown format; known are .ply, .obj, .vtp, .poly, .msh, .3mf, "

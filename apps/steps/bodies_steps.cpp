@@ -56,6 +56,21 @@ const TriangleLabels& chosen_labels(const Attributes& attributes, BodiesBy by) {
   throw InputError("one body alone: it has no two objects, groups or materials");
 }
 
+// Gmsh reads no name of more than 255 bytes, and files have none.
+constexpr std::size_t kLongestName = 120;
+
+// As it is, or shorter, or with a number that makes it another one than those taken.
+std::string new_name(std::string name, std::set<std::string>& taken) {
+  if (name.size() > kLongestName) {
+    std::size_t end = kLongestName;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;  // UTF-8
+    name = name.substr(0, end) + "...";
+  }
+  std::string unique = name;
+  for (int n = 2; !taken.insert(unique).second; ++n) unique = name + "-" + std::to_string(n);
+  return unique;
+}
+
 // Of one region what it has faces in common with.
 struct Neighbour {
   std::uint32_t region = 0;
@@ -79,7 +94,7 @@ Json region_facts(const Bodies& bodies, const ConformingBodies& result, std::uin
   for (const auto& [other, contact] : neighbours) {
     list.push_back({{"region", other}, {"triangles", contact->triangles}, {"area", contact->area}});
   }
-  return {{"region", number},        {"name", bodies.name_of(result, number)},
+  return {{"region", number},        {"name", bodies.name_of(number)},
           {"bodies", region.bodies}, {"volume", region.volume},
           {"parts", region.parts},   {"triangles", region.triangles},
           {"neighbours", list}};
@@ -117,17 +132,16 @@ Json bodies_section(const Bodies& bodies, const ConformingBodies& result,
 std::string region_line(const Bodies& bodies, const ConformingBodies& result, std::uint32_t number,
                         const std::vector<Neighbour>& neighbours) {
   const BodyRegion& region = result.regions[number - 1];
-  std::string line = fmt::format("{:<9} {}: volume {:.6g}", "region",
-                                 bodies.name_of(result, number), region.volume);
+  std::string line =
+      fmt::format("{:<9} {}: volume {:.6g}", "region", bodies.name_of(number), region.volume);
   if (region.triangles == 0) {
     const bool is_empty = bodies.is_empty(result, number);
-    return line + (is_empty ? ", as the input is empty\n" : ", all of it is another's\n");
+    return line + (is_empty ? ", as the input is empty\n" : ", as others have all of it\n");
   }
   if (region.parts > 1) line += fmt::format(" in {}", number_of(region.parts, "part"));
   for (const auto& [other, contact] : neighbours) {
     if (other == 0) continue;
-    line +=
-        fmt::format(", {:.6g} of its faces with {}", contact->area, bodies.name_of(result, other));
+    line += fmt::format(", area {:.6g} in common with {}", contact->area, bodies.name_of(other));
   }
   return line + "\n";
 }
@@ -172,8 +186,7 @@ std::vector<NamedSoup> named_bodies(TriangleSoup soup, const Attributes& attribu
 
 void Bodies::add(NamedSoup body, const BodiesCommand& command, Run& run, const Findings& findings,
                  Json& facts) {
-  std::string name = body.name;
-  for (int n = 2; !taken_.insert(name).second; ++n) name = body.name + "-" + std::to_string(n);
+  std::string name = new_name(std::move(body.name), taken_);
   const bool is_of_several = command.inputs.size() == 1;  // in the only file
   Findings own(is_of_several ? findings.input + ", " + name : findings.input, "");
   own.mesh_read = findings.mesh_read;
@@ -191,32 +204,33 @@ void Bodies::add(NamedSoup body, const BodiesCommand& command, Run& run, const F
   names_.push_back(std::move(name));
 }
 
-std::string Bodies::name_of(const ConformingBodies& result, std::uint32_t region) const {
-  std::string name;
-  for (const std::uint32_t body : result.regions[region - 1].bodies) {
-    name += (name.empty() ? "" : "+") + names_[body];
+void Bodies::name_regions(const ConformingBodies& result) {
+  for (const BodyRegion& region : result.regions) {
+    if (region.bodies.size() == 1) {
+      region_names_.push_back(names_[region.bodies[0]]);
+      continue;
+    }
+    std::string name;
+    for (const std::uint32_t body : region.bodies) {
+      name += (name.empty() ? "" : "+") + names_[body];
+    }
+    region_names_.push_back(new_name(std::move(name), taken_));
   }
-  return name;
 }
 
 bool Bodies::is_empty(const ConformingBodies& result, std::uint32_t region) const {
   return solids_[result.regions[region - 1].bodies[0]].triangles.empty();
 }
 
-std::vector<std::string> Bodies::names_of(const ConformingBodies& result) const {
-  std::vector<std::string> names;
-  for (std::uint32_t r = 1; r <= result.regions.size(); ++r) names.push_back(name_of(result, r));
-  return names;
-}
-
-ConformingBodies divide_bodies(const Bodies& bodies, const BodiesCommand& command,
-                               BodiesReport& report, Run& run, Findings& findings) {
+ConformingBodies divide_bodies(Bodies& bodies, const BodiesCommand& command, BodiesReport& report,
+                               Run& run, Findings& findings) {
   BodiesOptions options;
   options.overlap = command.overlap;
   options.join_gaps = command.repair.join_gaps;
   options.precision = command.repair.certify.precision;
   options.progress = &run.progress;
   ConformingBodies result = conforming_bodies(bodies.solids(), options, report);
+  bodies.name_regions(result);
   findings.repair.join_gaps = report.join_gaps;
   findings.repair.stages = report.stages;
   if (result.mesh.triangles.empty()) throw NoSolidError("no body encloses anything");
@@ -228,9 +242,9 @@ void tell_of_bodies(const Bodies& bodies, const ConformingBodies& result,
   warn_of_common_grid(bodies.names(), facts.report.operands);
   run.report.set_section("bodies", bodies_section(bodies, result, command, facts));
   for (std::uint32_t r = 1; r <= result.regions.size(); ++r) {
-    if (result.regions[r - 1].triangles > 0 || bodies.is_empty(result, r)) continue;
-    warn(bodies.name_of(result, r),
-         {WarningCode::body_gone, "lies in other bodies, which have all of it"});
+    const BodyRegion& region = result.regions[r - 1];
+    if (region.triangles > 0 || region.bodies.size() > 1 || bodies.is_empty(result, r)) continue;
+    warn(bodies.name_of(r), {WarningCode::body_gone, "lies in other bodies, which have all of it"});
   }
 }
 

@@ -53,20 +53,24 @@ class Bodies {
 
   [[nodiscard]] const std::vector<TriangleSoup>& solids() const { return solids_; }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  // "A", or "A+B" of an overlap. All names differ.
-  [[nodiscard]] std::string name_of(const ConformingBodies& result, std::uint32_t region) const;
+  // "A", or "A+B" of an overlap. All names differ, and none is longer than formats have room for.
+  void name_regions(const ConformingBodies& result);
+  [[nodiscard]] const std::vector<std::string>& region_names() const { return region_names_; }
+  [[nodiscard]] const std::string& name_of(std::uint32_t region) const {
+    return region_names_[region - 1];
+  }
   // Whether its first body was empty to begin with.
   [[nodiscard]] bool is_empty(const ConformingBodies& result, std::uint32_t region) const;
-  [[nodiscard]] std::vector<std::string> names_of(const ConformingBodies& result) const;
 
  private:
   std::vector<TriangleSoup> solids_;
   std::vector<std::string> names_;
+  std::vector<std::string> region_names_;
   std::set<std::string> taken_;  // names
 };
 
 // conforming_bodies(); the findings get what was joined. Throws NoSolidError where nothing is left.
-[[nodiscard]] ConformingBodies divide_bodies(const Bodies& bodies, const BodiesCommand& command,
+[[nodiscard]] ConformingBodies divide_bodies(Bodies& bodies, const BodiesCommand& command,
                                              BodiesReport& report, Run& run, Findings& findings);
 
 struct BodiesFacts {
