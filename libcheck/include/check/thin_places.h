@@ -10,7 +10,9 @@
 //
 // So the faces of a wedge face each other if its angle is at most 66 degrees. It is thin near its
 // tip; the edges of a cube are not. Triangles that face elsewhere do not limit the ball: neither
-// the neighbours in a smooth surface, nor the rim of a plate. For a gap the ball is in front of the
+// the neighbours in a smooth surface, nor the rim of a plate. But where a triangle within 45
+// degrees of the direction of the tip is in the ball of an edge, the tip is cut off, and there is
+// no edge: so the faces of a bar with six sides are none. For a gap the ball is in front of the
 // triangles, its centre is p + r n, and the condition is that of a wall.
 //
 // If another triangle crosses the segment between p and the point where the ball touches the second
@@ -89,9 +91,9 @@ struct ThinReport {
 // without an area, or not finite, are left out. Faces that are nearer than the rounding of their
 // coordinates count as one, and not as thin.
 //
-// Numbers are rounded, but the same for any number of threads, any order of triangles, and if the
-// soup is moved without rounding or scaled by a power of two. n log n but for pairs of triangles
-// that are nearer than the limit. Throws Cancelled.
+// A thickness may be a thousandth too large. Numbers are the same for any number of threads, any
+// order of triangles, and if the soup is moved without rounding or scaled by a power of two. n log
+// n but for pairs of triangles that are nearer than the limit. Throws Cancelled.
 [[nodiscard]] ThinReport find_thin_places(const TriangleSoup& soup, const ThinOptions& options);
 
 }  // namespace meshrepair

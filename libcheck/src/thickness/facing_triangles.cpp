@@ -31,6 +31,12 @@ constexpr double kPlaneRounding = 0x1p-49;
 // vain, and whether a ball is found does not depend on the order in which they are.
 constexpr double kSlack = 0x1p-40;
 
+// A ball that is larger by a thousandth is as good as the smallest one.
+constexpr double kNearEnough = 1 - 0x1p-10;
+
+// Within 45 degrees.
+constexpr double kAlong = 0.7;
+
 // Of the size of a triangle: a line that meets an edge of two triangles passes neither by, though
 // it is rounded.
 constexpr double kRim = 0x1p-20;
@@ -61,16 +67,6 @@ double least_product(const Vec3d& v, const Box& box) {
 }
 
 double most_product(const Vec3d& v, const Box& box) { return -least_product(-v, box); }
-
-// Whether the corners of a come first, so that in any order of the triangles the same one counts of
-// those that are equally near.
-bool comes_first(const MeasuredTriangle& a, const MeasuredTriangle& b) {
-  const auto is_less = [](const Vec3d& p, const Vec3d& q) {
-    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-  };
-  return std::lexicographical_compare(a.corners.begin(), a.corners.end(), b.corners.begin(),
-                                      b.corners.end(), is_less);
-}
 
 // A ball that grows from a point, and the triangle that stops it.
 struct Ball {
@@ -168,8 +164,19 @@ struct Beam {
 
 }  // namespace
 
+bool comes_first(const MeasuredTriangle& a, const MeasuredTriangle& b) {
+  const auto is_less = [](const Vec3d& p, const Vec3d& q) {
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  };
+  return std::lexicographical_compare(a.corners.begin(), a.corners.end(), b.corners.begin(),
+                                      b.corners.end(), is_less);
+}
+
 FacingTriangles::FacingTriangles(std::span<const MeasuredTriangle> triangles)
-    : triangles_(triangles.size()), tree_(boxes_of(triangles)), normals_(tree_.nodes().size()) {
+    : triangles_(triangles.size()),
+      tree_(boxes_of(triangles)),
+      normals_(tree_.nodes().size()),
+      slabs_(tree_.nodes().size()) {
   parallel_tasks(triangles.size(), kPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       triangles_[t] = triangles[tree_.order()[t]];
@@ -187,16 +194,51 @@ FacingTriangles::FacingTriangles(std::span<const MeasuredTriangle> triangles)
       normals_[n].add(normals_[nodes[n].right]);
     }
   }
+  // Of each node the first triangle below it, and the one behind the last.
+  std::vector<std::array<std::uint32_t, 2>> range(nodes.size());
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    range[n] = nodes[n].is_leaf() ? std::array{nodes[n].first, nodes[n].first + nodes[n].count}
+                                  : std::array{range[n + 1][0], range[nodes[n].right][1]};
+  }
+  parallel_tasks(nodes.size(), kPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      slabs_[n] = slab_of(range[n][0], range[n][1], normals_[n]);
+    }
+  });
+}
+
+// Along the middle of the normals.
+FacingTriangles::Slab FacingTriangles::slab_of(std::uint32_t first, std::uint32_t last,
+                                               const Box& normals) const {
+  Slab slab{Vec3d::Zero(), std::numeric_limits<double>::infinity(),
+            -std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < 3; ++k) {
+    slab.normal[static_cast<Eigen::Index>(k)] = normals.low[k] + normals.high[k];
+  }
+  const double length = slab.normal.norm();
+  if (!(length > 0)) return {Vec3d::Zero(), 0, 0};
+  slab.normal /= length;
+  for (std::uint32_t t = first; t < last; ++t) {
+    for (const Vec3d& p : triangles_[t].corners) {
+      const double level = slab.normal.dot(p);
+      slab.low = std::min(slab.low, level);
+      slab.high = std::max(slab.high, level);
+    }
+  }
+  slab.low -= kPlaneRounding;
+  slab.high += kPlaneRounding;
+  return slab;
 }
 
 std::optional<Contact> FacingTriangles::contact(const TangentBalls& balls, double limit) const {
   const Vec3d towards = balls.in_front ? balls.normal : Vec3d(-balls.normal);
   Ball ball{triangles_, balls.point, towards, {limit, kNone, {}}};
-  Vec3d centre = balls.point + 0.5 * limit * towards;
-  double square = 0.25 * limit * limit;
+  double radius = 0.5 * limit * kNearEnough;
+  Vec3d centre = balls.point + radius * towards;
   const auto reaches = [&](std::uint32_t n) {
-    return tree_.nodes()[n].box.squared_distance(centre) < square * (1 + kSlack) &&
-           least_product(balls.normal, normals_[n]) <= balls.most_cosine + kSlack;
+    return tree_.nodes()[n].box.squared_distance(centre) < radius * radius &&
+           least_product(balls.normal, normals_[n]) <= balls.most_cosine + kSlack &&
+           slabs_[n].is_reached(centre, radius);
   };
   const auto order = [&](std::uint32_t n) {
     return tree_.nodes()[n].box.squared_distance(balls.point);
@@ -207,9 +249,8 @@ std::optional<Contact> FacingTriangles::contact(const TangentBalls& balls, doubl
     const double before = ball.contact.diameter;
     ball.stop_at(t, balls.in_front ? Vec3d(-triangle.normal) : triangle.normal);
     if (ball.contact.diameter == before) return;
-    const double radius = 0.5 * ball.contact.diameter;
+    radius = 0.5 * ball.contact.diameter * kNearEnough;
     centre = balls.point + radius * towards;
-    square = radius * radius;
   });
   if (ball.contact.diameter >= limit) return std::nullopt;
   return ball.contact;
@@ -247,12 +288,31 @@ Hit FacingTriangles::first_hit(const Vec3d& from, const Vec3d& along, double low
   return beam.first;
 }
 
+bool FacingTriangles::has_in_ball(const Vec3d& centre, double radius,
+                                  const Vec3d& direction) const {
+  const double reach = radius * kNearEnough;
+  bool found = false;
+  walk(
+      [&](std::uint32_t n) {
+        return !found && tree_.nodes()[n].box.squared_distance(centre) < reach * reach &&
+               most_product(direction, normals_[n]) >= kAlong - kSlack &&
+               slabs_[n].is_reached(centre, reach);
+      },
+      kAnyOrder,
+      [&](std::uint32_t t) {
+        found = found || (direction.dot(triangles_[t].normal) >= kAlong &&
+                          squared_distance(centre, triangles_[t].corners) < reach * reach);
+      });
+  return found;
+}
+
 std::uint32_t FacingTriangles::nearest_sideways(const Vec3d& point, const Vec3d& normal,
                                                 double most_cosine, double limit) const {
   double square = limit * limit;
   std::uint32_t nearest = kNone;
   const auto reaches = [&](std::uint32_t n) {
-    return tree_.nodes()[n].box.squared_distance(point) < square * (1 + kSlack) &&
+    return tree_.nodes()[n].box.squared_distance(point) < square * kNearEnough * kNearEnough &&
+           slabs_[n].is_reached(point, std::sqrt(square) * kNearEnough) &&
            least_product(normal, normals_[n]) <= most_cosine + kSlack &&
            most_product(normal, normals_[n]) >= -most_cosine - kSlack;
   };

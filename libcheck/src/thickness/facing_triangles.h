@@ -21,6 +21,9 @@ struct MeasuredTriangle {
   std::uint32_t id = 0;  // in the soup
 };
 
+// By their corners, the first one first.
+[[nodiscard]] bool comes_first(const MeasuredTriangle& a, const MeasuredTriangle& b);
+
 // A triangle faces another one if the cosine between their normals is at most this.
 inline constexpr double kOpposite = -0.9;
 inline constexpr double kWedge = -0.4;
@@ -53,7 +56,9 @@ class FacingTriangles {
   // In the order of the tree.
   [[nodiscard]] std::span<const MeasuredTriangle> triangles() const { return triangles_; }
 
-  // What stops the ball before its diameter is `limit`; nothing where none does.
+  // What stops the ball before its diameter is `limit`, but for a thousandth of that diameter;
+  // nothing where none does. In a round body all triangles stop nearly the same ball, and to
+  // compare them all would take the square of their number.
   [[nodiscard]] std::optional<Contact> contact(const TangentBalls& balls, double limit) const;
 
   // Whether a ball that touches the triangle in this radius around the point may be stopped before
@@ -64,8 +69,13 @@ class FacingTriangles {
   // none.
   [[nodiscard]] Hit first_hit(const Vec3d& from, const Vec3d& along, double low, double high) const;
 
+  // Whether a triangle within 45 degrees of this direction is in the ball, by more than a
+  // thousandth.
+  [[nodiscard]] bool has_in_ball(const Vec3d& centre, double radius, const Vec3d& direction) const;
+
   // The triangle that is nearest to the point of those whose cosine with `normal` is between
-  // -most_cosine and most_cosine; kNone where none is nearer than `limit`.
+  // -most_cosine and most_cosine, but for a thousandth of the distance; kNone where none is nearer
+  // than `limit`.
   [[nodiscard]] std::uint32_t nearest_sideways(const Vec3d& point, const Vec3d& normal,
                                                double most_cosine, double limit) const;
 
@@ -93,7 +103,20 @@ class FacingTriangles {
 
   RawVector<MeasuredTriangle> triangles_;
   BoxTree tree_;
+  // A ball that does not reach the slab reaches none of the triangles.
+  struct Slab {
+    Vec3d normal;
+    double low, high;  // of products with it
+
+    [[nodiscard]] bool is_reached(const Vec3d& centre, double radius) const {
+      const double level = normal.dot(centre);
+      return level + radius >= low && level - radius <= high;
+    }
+  };
+  [[nodiscard]] Slab slab_of(std::uint32_t first, std::uint32_t last, const Box& normals) const;
+
   RawVector<Box> normals_;  // of each node
+  RawVector<Slab> slabs_;   // likewise
 };
 
 }  // namespace meshrepair::internal

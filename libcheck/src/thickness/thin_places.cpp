@@ -75,6 +75,7 @@ UnitScale scale_of(const TriangleSoup& soup) {
   return UnitScale(std::array{largest});
 }
 
+// Sorted by their corners, so that what is found does not depend on the order in the soup.
 std::vector<MeasuredTriangle> measured(const TriangleSoup& soup, const UnitScale& scale) {
   std::vector<MeasuredTriangle> triangles;
   triangles.reserve(soup.triangles.size());
@@ -95,6 +96,7 @@ std::vector<MeasuredTriangle> measured(const TriangleSoup& soup, const UnitScale
     one.id = t;
     triangles.push_back(one);
   }
+  parallel_sort(triangles.begin(), triangles.end(), internal::comes_first);
   return triangles;
 }
 
@@ -201,10 +203,20 @@ class ThinPlacesFinder {
     if (!found) {
       kind = ThinKind::edge;
       found = contact(balls(triangle, at, false, kWedge));
+      if (found && is_tip_cut_off(triangle, at, *found)) return;
     }
     if (!found) return;
     if (is_pin(at, triangle.normal, found->diameter)) kind = ThinKind::pin;
     add(t, piece, kind, *found, samples);
+  }
+
+  // Whether the two faces of a wedge do not reach its tip, but end at others before the ball.
+  [[nodiscard]] bool is_tip_cut_off(const MeasuredTriangle& triangle, const Vec3d& at,
+                                    const Contact& contact) const {
+    const Vec3d& other = facing_.triangles()[contact.triangle].normal;
+    const Vec3d outward = (triangle.normal + other).normalized();
+    const double radius = 0.5 * contact.diameter;
+    return facing_.has_in_ball(at - radius * triangle.normal, radius, outward);
   }
 
   void add_in_front(std::uint32_t t, const TrianglePiece& piece, ThinSamples& samples) const {

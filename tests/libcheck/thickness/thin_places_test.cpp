@@ -162,6 +162,15 @@ TEST(ThinPlaces, WedgeOfAMiddleAngleIsASharpEdge) {
   EXPECT_EQ(counts(thin(placed(prism(circle(5, 10), 10), 3), 0.5)), kNothing);
 }
 
+// Two of its faces would make a wedge, were there none between them.
+TEST(ThinPlaces, FacesOfABarAreNoEdges) {
+  for (const std::size_t sides : {5, 6, 7, 8, 12, 16, 24, 32}) {
+    const double across = 2 * std::cos(EIGEN_PI / static_cast<double>(sides));
+    SCOPED_TRACE(sides);
+    EXPECT_EQ(counts(thin(placed(prism(circle(sides, 1), 6), sides), 0.93 * across)), kNothing);
+  }
+}
+
 TEST(ThinPlaces, GapBetweenTwoBoxesIsOne) {
   const TriangleSoup soup = together(box({0, 0, 0}, {3, 3, 1}), box({1, 1, 1.25}, {2, 2, 3}));
   const ThinReport report = thin(soup, 0.5);
