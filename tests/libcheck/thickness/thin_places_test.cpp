@@ -164,8 +164,8 @@ TEST(ThinPlaces, WedgeOfAMiddleAngleIsASharpEdge) {
 
 // Two of its faces would make a wedge, were there none between them.
 TEST(ThinPlaces, FacesOfABarAreNoEdges) {
-  for (const std::size_t sides : {5, 6, 7, 8, 12, 16, 24, 32}) {
-    const double across = 2 * std::cos(EIGEN_PI / static_cast<double>(sides));
+  for (const std::uint32_t sides : {5U, 6, 7, 8, 12, 16, 24, 32}) {
+    const double across = 2 * std::cos(std::acos(-1.0) / sides);
     SCOPED_TRACE(sides);
     EXPECT_EQ(counts(thin(placed(prism(circle(sides, 1), 6), sides), 0.93 * across)), kNothing);
   }
