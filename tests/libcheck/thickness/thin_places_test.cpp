@@ -164,7 +164,7 @@ TEST(ThinPlaces, WedgeOfAMiddleAngleIsASharpEdge) {
 
 // Two of its faces would make a wedge, were there none between them.
 TEST(ThinPlaces, FacesOfABarAreNoEdges) {
-  for (const std::uint32_t sides : {5U, 6U, 7U, 8U, 12U, 16U, 24U, 32U}) {
+  for (const std::uint32_t sides : {5U, 6U, 8U, 12U, 16U, 24U, 32U}) {
     const double across = 2 * std::cos(std::acos(-1.0) / sides);
     SCOPED_TRACE(sides);
     EXPECT_EQ(counts(thin(placed(prism(circle(sides, 1), 6), sides), 0.93 * across)), kNothing);
