@@ -20,6 +20,7 @@
 
 #include "common/depth.h"
 #include "common/prove_depth.h"
+#include "common/wall_judge.h"
 #include "drains/place_drains.h"
 #include "walls/find_cavities.h"
 
@@ -36,10 +37,11 @@ using internal::Piece;
 using internal::Place;
 using internal::Proof;
 
-// Shares of the error: of taking triangles away, and of the rounding of coordinates.
-constexpr double kForFewer = 0.25;
-constexpr double kForRounding = 0.1;
-constexpr int kMostRounds = 3;               // of taking triangles away
+// Coordinates of the result may be off those of the walls by so much of the size of the body: two
+// steps of the working grid, which are more than single precision has.
+constexpr double kRounded = 2 * 1.5e-8;
+constexpr double kMade = 0.96;  // of the error: walls are made so good that proofs have some room
+constexpr int kMostRounds = 3;  // of taking triangles away
 constexpr double kLeastBall = 0.25;          // of the wall, that a cavity without drains holds
 constexpr std::size_t kMostPieces = 200000;  // of a triangle: large ones need many
 constexpr std::size_t kTrianglesPerTask = 64;
@@ -47,6 +49,21 @@ constexpr std::size_t kTrianglesPerTask = 64;
 constexpr std::array<double, 5> kLower = {0.95, 0.9, 0.75, 0.5, 0.25};
 constexpr std::array<double, 5> kHigher = {1.05, 1.1, 1.25, 1.5, 2};
 constexpr double kThinnest = 1e-5;  // of the size of the body: the working grid has steps of 1.5e-8
+
+double longest_side(const TriangleSoup& soup) {
+  Vec3d low = soup.points[0], high = low;
+  for (const Vec3d& point : soup.points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return (high - low).maxCoeff();
+}
+
+// Of the thickness, that walls may be off before their coordinates are rounded.
+double error_of(const TriangleSoup& solid, const HollowOptions& options) {
+  const double rounded = kRounded * longest_side(solid) / options.wall;
+  return std::max(kHollowError - rounded, 0.5 * kHollowError);
+}
 
 class Hollower {
  public:
@@ -57,6 +74,7 @@ class Hollower {
         repair_(repair),
         hollowed_(hollowed),
         report_(report),
+        error_(error_of(solid.mesh, options)),
         depth_(solid.mesh),
         meter_(report.stages, repair.progress) {}
 
@@ -87,7 +105,7 @@ class Hollower {
   void find() {
     internal::CavityOptions options;
     options.thickness = options_.wall;
-    options.error = (1 - kForFewer - kForRounding) * kHollowError * options_.wall;
+    options.error = kMade * error_ * options_.wall;
     options.progress = repair_.progress;
     found_ = internal::find_cavities(solid_.mesh, depth_, options);
     hollowed_.cells = found_.cells;
@@ -115,8 +133,9 @@ class Hollower {
     }
   }
 
-  // Where tetrahedra are small, most triangles lie in one plane. Collapses are bounded at points;
-  // where a triangle is farther off than that, the points that it came from stay next time.
+  // Where tetrahedra are small, most triangles lie in one plane. Where a triangle turns out to be
+  // less deep than that between the points that were looked at, those that it came from stay next
+  // time.
   void take_away_triangles() {
     if (found_.cavity.empty()) return;
     HalvedStage progress(repair_.progress);
@@ -124,7 +143,9 @@ class Hollower {
                                                DecimationOptions::Stay::no);
     for (int round = 0; round < kMostRounds; ++round) {
       DecimationOptions options;
-      options.distance = kForFewer * kHollowError * options_.wall;
+      options.distance = kMade * error_ * options_.wall;
+      internal::WallJudge judge(depth_, found_.walls.points, options_.wall, options.distance);
+      options.judge = &judge;
       options.precision = repair_.certify.precision;
       options.stays = stays;
       options.progress = &progress;
@@ -156,15 +177,14 @@ class Hollower {
     std::vector<char> beside(walls.triangles.size(), 0);
     CancelOnly quiet(repair_.progress);
     SharedProgress polled(&quiet, tasks_of(beside.size(), kTrianglesPerTask));
-    parallel_tasks(beside.size(), kTrianglesPerTask,
-                   [&](std::size_t, std::size_t first, std::size_t last) {
-                     for (std::size_t t = first; t < last; ++t) {
-                       const auto& [a, b, c] = walls.triangles[t];
-                       beside[t] = !holds({walls.points[a], walls.points[b], walls.points[c]},
-                                          (1 - kForRounding) * kHollowError);
-                     }
-                     polled.done();
-                   });
+    parallel_tasks(
+        beside.size(), kTrianglesPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
+          for (std::size_t t = first; t < last; ++t) {
+            const auto& [a, b, c] = walls.triangles[t];
+            beside[t] = !holds({walls.points[a], walls.points[b], walls.points[c]}, error_);
+          }
+          polled.done();
+        });
     std::vector<std::uint32_t> found;
     for (std::uint32_t t = 0; t < beside.size(); ++t) {
       if (beside[t] != 0) found.push_back(t);
@@ -416,6 +436,7 @@ class Hollower {
   const RepairOptions& repair_;
   HollowReport& hollowed_;
   RepairReport& report_;
+  const double error_;
   Depth depth_;
   StageMeter meter_;
   Cavities found_;
@@ -424,15 +445,6 @@ class Hollower {
   std::vector<CavityPlaces> all_places_, places_;  // also of those that stay full
   std::vector<TriangleSoup> drills_;
 };
-
-double longest_side(const TriangleSoup& soup) {
-  Vec3d low = soup.points[0], high = low;
-  for (const Vec3d& point : soup.points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return (high - low).maxCoeff();
-}
 
 void check(const Surface& solid, const HollowOptions& options) {
   if (!(options.wall > 0) || !std::isfinite(options.wall)) {

@@ -74,6 +74,7 @@ class Decimator {
       : options_(options),
         report_(report),
         check_(options.progress),
+        has_limit_(std::isfinite(options.distance)),
         scale_(mesh.points),
         given_(mesh.points),
         points_(scaled(mesh.points, scale_)),
@@ -86,19 +87,19 @@ class Decimator {
         became_(mesh.points.size(), kNone),
         first_(mesh.triangles.size()),
         left_(first_) {
-    const bool has_limit = std::isfinite(options.distance);
-    if (options.find_corners || has_limit) places_.emplace(mesh.triangles, points_, options.seams);
-    if (has_limit) distance_.emplace(points_, mesh.triangles, scale_(options.distance));
+    const bool has_guard = has_limit_ && options.judge == nullptr;
+    if (options.find_corners || has_guard) places_.emplace(mesh.triangles, points_, options.seams);
+    if (has_guard) distance_.emplace(points_, mesh.triangles, scale_(options.distance));
     fix_points();
     add_quadrics();
     if (options.values_of_corner > 0) add_values();
-    if (!distance_) planes_now_ = quadrics_;
+    if (!has_limit_) planes_now_ = quadrics_;
     has_changed_.assign(points_.size(), 0);
   }
 
   void run() {
     std::size_t gone = left_;  // in the last round
-    const std::size_t few = distance_ ? kFewWithin : kFewOfLeft;
+    const std::size_t few = has_limit_ ? kFewWithin : kFewOfLeft;
     while (left_ > options_.triangles && gone > left_ / few) {
       const std::size_t before = left_;
       report_.would_change_topology = report_.would_break_seam = report_.would_fold = 0;
@@ -253,7 +254,8 @@ class Decimator {
   // With what their values cost. What is to stay near the first surface is held to its planes: a
   // seam, and all where there is a limit.
   [[nodiscard]] Quadric cost_of(std::uint32_t a, std::uint32_t b) {
-    const bool is_free = !distance_ && freedom_[a] == Freedom::free && freedom_[b] == Freedom::free;
+    const bool is_free =
+        !has_limit_ && freedom_[a] == Freedom::free && freedom_[b] == Freedom::free;
     Quadric both = is_free ? planes_now(a) : quadrics_[a];
     both.add(is_free ? planes_now(b) : quadrics_[b]);
     if (values_) values_->add_to(both, a, b);
@@ -364,10 +366,11 @@ class Decimator {
 
   // Values may be off by as much as places may: in the mean square, by their quadrics alone.
   [[nodiscard]] bool stays_near(const Edge& edge, double squared_error) {
-    if (!distance_) return true;
     const double most = scale_(options_.distance);
     const double hopeless = values_ ? most : kHopeless * most;
     if (squared_error > hopeless * hopeless) return false;
+    if (options_.judge != nullptr) return is_allowed(edge);
+    if (!distance_) return true;
     if (!distance_->allows(collapse_, points_)) return false;
     list_corners([&](const auto& t) { return t.was_of_to ? edge.to : edge.from; });
     if (!places_->is_within(corners_, collapse_.place, most * most)) return false;
@@ -379,6 +382,19 @@ class Decimator {
       return places_->is_within(nearby, middle, most * most) &&
              places_->is_within(nearby, centre, most * most);
     });
+  }
+
+  [[nodiscard]] bool is_allowed(const Edge& edge) {
+    question_.point = edge.to;
+    question_.place = scale_.back(collapse_.place);
+    question_.before.clear();
+    question_.after.clear();
+    for (const std::uint32_t t : collapse_.gone) question_.before.push_back(mesh_.triangles()[t]);
+    for (const auto& t : collapse_.fan) {
+      question_.before.push_back({t.was_of_to ? edge.to : edge.from, t.next, t.last});
+      question_.after.push_back({edge.to, t.next, t.last});
+    }
+    return options_.judge->allows(question_);
   }
 
   [[nodiscard]] std::uint32_t corner_of(std::uint32_t triangle, std::uint32_t point) const {
@@ -439,6 +455,7 @@ class Decimator {
     points_[edge.to] = collapse_.place;
     guard_.note_made(collapse_);
     if (distance_) distance_->note_made(collapse_);
+    if (options_.judge != nullptr) options_.judge->note_made(question_);
     if (places_) move_corners(edge.to);
     quadrics_[edge.to].add(quadrics_[edge.from]);
     has_changed_[edge.to] = 1;
@@ -485,6 +502,7 @@ class Decimator {
   const DecimationOptions& options_;
   DecimationReport& report_;
   CancelCheck check_;
+  const bool has_limit_;  // of the distance
   const UnitScale scale_;
   const std::vector<Vec3d>& given_;
   std::vector<Vec3d> points_;  // scaled
@@ -506,6 +524,7 @@ class Decimator {
   PointStar star_, star_of_to_;
   std::size_t at_ = 0;  // in the link of star_, the other end of the edge
   Collapse collapse_;
+  CollapseJudge::Question question_;  // about it
   std::vector<std::uint32_t> corners_;
 };
 

@@ -333,6 +333,46 @@ TEST(Decimate, PointsStayWithinTheDistance) {
   }
 }
 
+// Lets nothing happen above a height.
+class BelowAPlane : public CollapseJudge {
+ public:
+  BelowAPlane(const TriangleSoup& mesh, double height) : points_(mesh.points), height_(height) {}
+  bool allows(const Question& question) override {
+    EXPECT_EQ(question.before.size(), question.after.size() + 2);
+    for (const auto& triangle : question.after) EXPECT_EQ(triangle[0], question.point);
+    return std::none_of(question.before.begin(), question.before.end(), [&](const auto& triangle) {
+      return std::any_of(triangle.begin(), triangle.end(),
+                         [&](std::uint32_t p) { return points_[p].z() > height_; });
+    });
+  }
+  void note_made(const Question& question) override {
+    points_[question.point] = question.place;
+    ++made_;
+  }
+  [[nodiscard]] std::size_t made() const { return made_; }
+
+ private:
+  std::vector<Vec3d> points_;
+  double height_;
+  std::size_t made_ = 0;
+};
+
+TEST(Decimate, AJudgeIsAskedAndObeyed) {
+  const TriangleSoup mesh = sphere(2000);
+  BelowAPlane judge(mesh, 0);
+  DecimationOptions options;
+  options.judge = &judge;
+  DecimationReport report;
+  const DecimatedMesh few = decimate(mesh, options, report);
+  expect_same_kind(mesh, few.mesh);
+  EXPECT_EQ(judge.made(), report.collapses);
+  EXPECT_LT(few.mesh.triangles.size(), mesh.triangles.size() * 6 / 10);
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    if (mesh.points[p].z() <= 0) continue;
+    EXPECT_EQ(few.mesh.points[few.point[p]], mesh.points[p]);
+  }
+}
+
 TEST(Decimate, PointsThatAreToStayDo) {
   const TriangleSoup mesh = sphere(2000);
   std::vector<DecimationOptions::Stay> stays(mesh.points.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -12,6 +13,8 @@ namespace meshrepair::internal {
 namespace {
 
 constexpr std::size_t kBoxedPerTask = 8192;
+// So much larger are balls around triangles that rounding leaves nothing out of them.
+constexpr double kBallMargin = 1 + 0x1p-40;
 
 Vec3d nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
@@ -69,12 +72,26 @@ double squared_distance(const Vec3d& p, const Corners& triangle) {
   return std::min({(q - p).squaredNorm(), (r - p).squaredNorm(), (s - p).squaredNorm()});
 }
 
+NearestTriangle::Ball::Ball(const Corners& triangle) : centre(0.5 * (triangle[0] + triangle[1])) {
+  // Of the triangle, around the middle of its box.
+  Box box;
+  for (const Vec3d& p : triangle) box.add(p);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    centre[k] = 0.5 * (box.low[i] + box.high[i]);
+  }
+  double squared = 0;
+  for (const Vec3d& p : triangle) squared = std::max(squared, (p - centre).squaredNorm());
+  radius = kBallMargin * std::sqrt(squared);
+}
+
 NearestTriangle::NearestTriangle(std::span<const Corners> triangles)
-    : tree_(boxes_of(triangles)), triangles_(triangles.size()) {
+    : tree_(boxes_of(triangles)), triangles_(triangles.size()), balls_(triangles.size()) {
   parallel_tasks(triangles.size(), kBoxedPerTask,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t t = first; t < last; ++t) {
                      triangles_[t] = triangles[tree_.order()[t]];
+                     balls_[t] = Ball(triangles_[t]);
                    }
                  });
 }
@@ -88,6 +105,7 @@ Nearest NearestTriangle::find(const Vec3d& p, std::uint32_t hint) const {
   std::array<Candidate, 40> stack;
   std::size_t size = 0;
   Nearest best = {squared_distance(p, triangles_[hint]), hint};
+  double reach = std::sqrt(best.squared_distance);
   stack[size++] = {0, 0};
   while (size > 0) {
     const Candidate candidate = stack[--size];
@@ -95,8 +113,11 @@ Nearest NearestTriangle::find(const Vec3d& p, std::uint32_t hint) const {
     const BoxNode& node = tree_.nodes()[candidate.node];
     if (node.is_leaf()) {
       for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+        if (balls_[t].is_beyond(p, reach)) continue;
         const double distance = squared_distance(p, triangles_[t]);
-        if (distance < best.squared_distance) best = {distance, t};
+        if (distance >= best.squared_distance) continue;
+        best = {distance, t};
+        reach = std::sqrt(distance);
       }
       continue;
     }

@@ -146,7 +146,7 @@ Proof DepthProver::judge_beyond(const Piece& piece, double distance) {
   if (squared > 0) bound = std::max(bound, std::sqrt(squared));
   if (bound < distance) {
     const double room = kWorthShadows * distance;
-    const bool is_large = longest_edge(piece).squared > room * room;
+    const bool is_large = !is_crowded_ && longest_edge(piece).squared > room * room;
     if (!is_large || !is_apart(piece, distance, bound)) return Proof::open;
   }
   least_ = std::min(least_, bound);
@@ -154,7 +154,7 @@ Proof DepthProver::judge_beyond(const Piece& piece, double distance) {
 }
 
 // From all triangles that may be nearer than that, if they are few.
-bool DepthProver::is_apart(const Piece& piece, double distance, double& least) const {
+bool DepthProver::is_apart(const Piece& piece, double distance, double& least) {
   const double room = kRoom * distance;
   Box box = box_of(piece);
   box.widen(room);
@@ -165,6 +165,7 @@ bool DepthProver::is_apart(const Piece& piece, double distance, double& least) c
                  if (found < distance) return;
                  found = ++seen > kMostApart ? 0 : std::min(found, gap(piece, triangle));
                });
+  if (seen > kMostApart && longest_edge(piece).squared < distance * distance) is_crowded_ = true;
   if (found < distance) return false;
   least = found;
   return true;

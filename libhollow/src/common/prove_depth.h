@@ -42,12 +42,13 @@ class DepthProver {
   Proof prove(const Piece& piece, const Judge& judge);
   [[nodiscard]] Proof judge_beyond(const Piece& piece, double distance);
   [[nodiscard]] Proof judge_within(const Piece& piece, double distance);
-  [[nodiscard]] bool is_apart(const Piece& piece, double distance, double& least) const;
+  [[nodiscard]] bool is_apart(const Piece& piece, double distance, double& least);
 
   const Depth& depth_;
   std::size_t left_;
   double least_ = std::numeric_limits<double>::infinity();
   double most_ = 0;
+  bool is_crowded_ = false;  // too many triangles are near, and will be for smaller pieces
 };
 
 }  // namespace meshrepair::internal

@@ -15,7 +15,7 @@ constexpr double kMargin = 0x1p-10;
 constexpr double kMarginWithin = 0x1p-7;
 constexpr int kMostSteps = 40;
 constexpr double kFlat = 0.25;    // a ridge that is lower than this share of the error is left out
-constexpr double kAlmost = 1e-3;  // of the error: near enough
+constexpr double kAlmost = 1e-2;  // of the error: near enough
 
 // The shares of the corners, which add up to 1.
 std::array<double, 3> shares_in(const std::array<Vec3d, 3>& face, const Vec3d& p) {

@@ -3,9 +3,12 @@
 // than the thickness is in a cavity, and a wall passes between those that are and those that are
 // not. A tetrahedron is done once it is proven that
 //
-// - no point of the wall, or on the side of the cavity, is less deep than the thickness less the
-//   error;
+// - no point of the wall is less deep than the thickness less the error;
+// - no surface is on the side of the cavity;
 // - no point on the other side is deeper than the thickness and the error.
+//
+// So no point of a cavity is less deep than the walls are: on the way to the surface, which passes
+// a wall, the depth only falls.
 //
 // Else it is cut, with those around it. So they become small where the solid is curved or has
 // edges, and nowhere else; and what is proven holds for all space, not only for the walls.
@@ -42,6 +45,9 @@ constexpr double kCellsOfSquare = 4;
 constexpr std::size_t kCellsPerTask = 64;
 // Pieces that are looked at before a tetrahedron is cut: cutting takes longer, and stays.
 constexpr std::size_t kMostPieces = 600;
+// Of the thickness: in a cavity, surfaces are at least so far away. Any share would do; large ones
+// take more pieces to prove, and small ones lead to the same.
+constexpr double kFree = 0.25;
 constexpr int kClimbs = 60;
 
 struct KeyHash {
@@ -257,10 +263,12 @@ class CavityFinder : public WallPoints {
     return false;
   }
 
-  // No surface is in it, as one corner at least is farther from that. Where the wall is beyond it,
-  // all of the cavity is: the way from there to the surface passes the wall.
-  [[nodiscard]] bool is_small(std::uint32_t cell) const {
-    return longest_edge(cell) < options_.thickness;
+  // No surface is in it, as a corner is farther from that than from all of it.
+  [[nodiscard]] static bool is_clear(const CutCell& cell) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (cell.in[i] && reach_of(cell.places, i) < cell.places[i].distance) return true;
+    }
+    return false;
   }
 
   static std::vector<Piece> pieces_of(const WallInCell& wall) {
@@ -276,18 +284,25 @@ class CavityFinder : public WallPoints {
     const double least = options_.thickness - options_.error;
     const double most = options_.thickness + options_.error;
     DepthProver prover(depth_, kMostPieces);
+    const auto is_free = [&](const Piece& piece) {
+      return prover.is_beyond(piece, kFree * options_.thickness) == Proof::holds;
+    };
     if (!is_cut(cell.corners)) {
-      if (cell.in[0]) return prover.is_beyond(cell.places, least) == Proof::holds;
+      if (cell.in[0]) return is_clear(cell) || is_free(cell.places);
       return is_outside(cell) || prover.is_within(cell.places, most) == Proof::holds;
     }
     const WallInCell wall = wall_in(cell, *this, finder_);
     const auto all_of = [](const std::vector<Piece>& pieces, const auto& proof) {
-      return std::all_of(pieces.begin(), pieces.end(),
-                         [&](const Piece& piece) { return proof(piece) == Proof::holds; });
+      return std::all_of(pieces.begin(), pieces.end(), proof);
     };
-    return all_of(is_small(number) ? pieces_of(wall) : wall.in,
-                  [&](const Piece& piece) { return prover.is_beyond(piece, least); }) &&
-           all_of(wall.out, [&](const Piece& piece) { return prover.is_within(piece, most); });
+    const auto is_within = [&](const Piece& piece) {
+      return prover.is_within(piece, most) == Proof::holds;
+    };
+    const auto is_beyond = [&](const Piece& piece) {
+      return prover.is_beyond(piece, least) == Proof::holds;
+    };
+    return all_of(wall.out, is_within) && all_of(pieces_of(wall), is_beyond) &&
+           (is_clear(cell) || all_of(wall.in, is_free));
   }
 
   void cut(const std::vector<std::uint32_t>& cells, const std::vector<Verdict>& verdicts) {

@@ -7,6 +7,7 @@
 //   const DecimatedMesh fewer = decimate(mesh, options, report);
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -19,12 +20,29 @@
 
 namespace meshrepair {
 
+// Knows where the surface may be, and is asked before each collapse.
+class CollapseJudge {
+ public:
+  struct Question {
+    std::uint32_t point = 0;                                  // that stays, and moves
+    Vec3d place = Vec3d::Zero();                              // to here, in the mesh's units
+    std::vector<std::array<std::uint32_t, 3>> before, after;  // triangles, by points of the input
+  };
+  virtual ~CollapseJudge() = default;
+  [[nodiscard]] virtual bool allows(const Question& question) = 0;
+  // The collapse that was asked about last is made.
+  virtual void note_made(const Question& question) = 0;
+};
+
 struct DecimationOptions {
   // No more than so many are wanted; there may be one fewer.
   std::size_t triangles = 0;
   // Points of the input are to stay so near the mesh, and points of the mesh so near the input; in
   // the mesh's units. What lies between them may be a little farther: see mesh_distance().
   double distance = std::numeric_limits<double>::infinity();
+  // Tests whether the surface stays where it is to be, instead of the distance, which then only
+  // spares it questions about what is twice as far away in the mean. Not owned.
+  CollapseJudge* judge = nullptr;
   // Of each point whether it may go. Not owned. Empty: all may.
   enum class Stay : std::uint8_t {
     no,

@@ -41,8 +41,21 @@ class NearestTriangle {
   [[nodiscard]] const BoxTree& tree() const { return tree_; }
 
  private:
+  struct Ball {
+    Ball() = default;
+    explicit Ball(const Corners& triangle);
+    // None of it is nearer to the point than that.
+    [[nodiscard]] bool is_beyond(const Vec3d& p, double distance) const {
+      const double both = distance + radius;
+      return (p - centre).squaredNorm() >= both * both;
+    }
+    Vec3d centre;
+    double radius;
+  };
+
   BoxTree tree_;
   RawVector<Corners> triangles_;
+  RawVector<Ball> balls_;  // around each: a look at that spares most looks at the triangle
 };
 
 }  // namespace meshrepair::internal

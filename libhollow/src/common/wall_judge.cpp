@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "common/wall_judge.h"
+
+#include <algorithm>
+
+#include <base/parallel.h>
+
+namespace meshrepair::internal {
+namespace {
+
+constexpr std::size_t kPlacesPerTask = 256;
+constexpr std::size_t kMostSwept = 256;  // pieces of a tetrahedron
+constexpr double kLong = 0.25;           // of the depth: sides that are looked at in three points
+// Of the error, at the points that are looked at: between them it may be less deep.
+constexpr double kSeen = 0.65;
+
+}  // namespace
+
+WallJudge::WallJudge(const Depth& depth, const std::vector<Vec3d>& points, double thickness,
+                     double error)
+    : depth_(depth),
+      least_(thickness - kSeen * error),
+      most_(thickness + error),
+      places_(points.size()) {
+  parallel_tasks(points.size(), kPlacesPerTask,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   std::uint32_t near = 0;
+                   for (std::size_t i = first; i < last; ++i) {
+                     places_[i] = depth.place(points[i], near);
+                     near = places_[i].nearest;
+                   }
+                 });
+}
+
+bool WallJudge::allows(const Question& question) {
+  place_ = depth_.place(question.place, places_[question.point].nearest);
+  if (place_.distance < least_ || place_.distance > most_) return false;
+  for (const auto& [a, b, c] : question.before) {
+    DepthProver prover(depth_, kMostSwept);
+    const Piece swept = {place_, places_[a], places_[b], places_[c]};
+    if (prover.is_within(swept, most_) != Proof::holds) return false;
+  }
+  return std::all_of(question.after.begin(), question.after.end(), [&](const auto& triangle) {
+    const auto at = [&](std::uint32_t p) { return p == question.point ? place_ : places_[p]; };
+    const auto& [a, b, c] = triangle;
+    return is_deep({at(a), at(b), at(c), at(c)});
+  });
+}
+
+// The first side is new for each triangle of a fan; the second one was there before.
+bool WallJudge::is_deep(const Piece& triangle) const {
+  DepthProver prover(depth_, 1);
+  const Proof proof = prover.is_beyond(triangle, least_);
+  if (proof != Proof::open) return proof == Proof::holds;
+  const Vec3d &a = triangle[0].at, &b = triangle[1].at, &c = triangle[2].at;
+  const auto is_deep_at = [&](const Vec3d& at) {
+    return depth_.place(at, triangle[1].nearest).distance >= least_;
+  };
+  if (!is_deep_at(0.5 * a + 0.5 * b) || !is_deep_at((a + b + c) / 3)) return false;
+  const double room = kLong * least_;
+  return (a - b).squaredNorm() < room * room ||
+         (is_deep_at(0.25 * a + 0.75 * b) && is_deep_at(0.75 * a + 0.25 * b));
+}
+
+}  // namespace meshrepair::internal
