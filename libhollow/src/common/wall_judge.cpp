@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "common/wall_judge.h"
 
-#include <algorithm>
+#include <array>
+
+#include <Eigen/Geometry>
 
 #include <base/parallel.h>
 
@@ -40,11 +42,32 @@ bool WallJudge::allows(const Question& question) {
     const Piece swept = {place_, places_[a], places_[b], places_[c]};
     if (prover.is_within(swept, most_) != Proof::holds) return false;
   }
-  return std::all_of(question.after.begin(), question.after.end(), [&](const auto& triangle) {
+  const auto now = [&](const std::array<std::uint32_t, 3>& triangle) {
     const auto at = [&](std::uint32_t p) { return p == question.point ? place_ : places_[p]; };
     const auto& [a, b, c] = triangle;
-    return is_deep({at(a), at(b), at(c), at(c)});
-  });
+    return Piece{at(a), at(b), at(c), at(c)};
+  };
+  double turned = 0;
+  for (const auto& triangle : question.after) {
+    const Piece piece = now(triangle);
+    if (!is_deep(piece)) return false;
+    turned += turned_area(piece);
+  }
+  if (turned == 0) return true;
+  for (const auto& [a, b, c] : question.before) {
+    turned -= turned_area({places_[a], places_[b], places_[c], places_[c]});
+  }
+  return turned <= 0;
+}
+
+// Twice the area of a triangle that is seen from the cavity, from all of its corners; else nothing.
+double WallJudge::turned_area(const Piece& triangle) const {
+  const auto& [a, b, c, d] = triangle;
+  const Vec3d normal = (b.at - a.at).cross(c.at - a.at);
+  for (const Place* corner : {&a, &b, &c}) {
+    if (!(normal.dot(depth_.inward(*corner)) > 0)) return 0;
+  }
+  return normal.norm();
 }
 
 // The first side is new for each triangle of a fan; the second one was there before.

@@ -17,7 +17,8 @@ namespace meshrepair::internal {
 //   proven for all of it: what lies between the triangles before and those after is covered by the
 //   tetrahedra between the new place and the triangles before;
 // - some points of the triangles after are not less deep than the thickness less the error. For
-//   the other points, that has to be proven at the end: it takes long, and seldom fails.
+//   the other points, that has to be proven at the end: it takes long, and seldom fails;
+// - no fold gets larger: triangles whose outer side is where the distance grows.
 class WallJudge : public CollapseJudge {
  public:
   // `points` of walls that are no farther off than that.
@@ -28,6 +29,7 @@ class WallJudge : public CollapseJudge {
 
  private:
   [[nodiscard]] bool is_deep(const Piece& triangle) const;
+  [[nodiscard]] double turned_area(const Piece& triangle) const;
 
   const Depth& depth_;
   double least_, most_;

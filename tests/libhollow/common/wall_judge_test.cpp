@@ -29,7 +29,7 @@ CollapseJudge::Question moved_to(const Vec3d& place) {
   CollapseJudge::Question question;
   question.place = place;
   for (std::uint32_t i = 0; i < kRing; ++i) {
-    question.before.push_back({0, 1 + i, 1 + (i + 1) % kRing});
+    question.before.push_back({0, 1 + (i + 1) % kRing, 1 + i});
     question.after.push_back(question.before.back());
   }
   return question;
@@ -51,6 +51,14 @@ TEST(WallJudge, NothingDeepLeavesACavity) {
   const Depth depth(solid);
   WallJudge judge(depth, ring_of_points(), 1, 0.02);
   EXPECT_FALSE(judge.allows(moved_to({10, 4, 19})));
+}
+
+// Beyond the ring, triangles would lie over one another.
+TEST(WallJudge, NoFoldsComeToBe) {
+  const TriangleSoup solid = box({0, 0, 0}, {20, 20, 20});
+  const Depth depth(solid);
+  WallJudge judge(depth, ring_of_points(), 1, 0.02);
+  EXPECT_FALSE(judge.allows(moved_to({11.2, 4, 1})));
 }
 
 // Below the triangles there is a small void, far from their corners.
