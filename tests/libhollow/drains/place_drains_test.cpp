@@ -36,7 +36,7 @@ struct BoxWithCavity {
 TEST(PlaceDrains, OneIsAtTheLowestPlaceAndOneFarFromIt) {
   const BoxWithCavity box;
   const DrainPlacer placer(box.solid, box.depth, box.options);
-  const std::vector<Drill> drills = placer.for_cavity(box.cavity);
+  const std::vector<Drill> drills = placer.for_cavity(box.cavity, {});
   ASSERT_EQ(drills.size(), 2u);
   EXPECT_EQ(drills[0].drain.at.z(), 0);
   EXPECT_EQ(drills[0].drain.direction, Vec3d(0, 0, 1));
@@ -49,13 +49,13 @@ TEST(PlaceDrains, UpIsAnotherAxis) {
   BoxWithCavity box;
   box.options.up = Vec3d(0, 0, -1);
   const DrainPlacer placer(box.solid, box.depth, box.options);
-  EXPECT_EQ(placer.for_cavity(box.cavity).at(0).drain.at.z(), 10);
+  EXPECT_EQ(placer.for_cavity(box.cavity, {}).at(0).drain.at.z(), 10);
 }
 
 TEST(PlaceDrains, OneIsWhereItIsAskedFor) {
   const BoxWithCavity box;
   const DrainPlacer placer(box.solid, box.depth, box.options);
-  const auto drill = placer.from_point(Vec3d(5, 6, -40), box.cavity);
+  const auto drill = placer.from_point(Vec3d(5, 6, -40), box.cavity, {});
   ASSERT_TRUE(drill);
   EXPECT_EQ(drill->drain.at, Vec3d(5, 6, 0));
 }
@@ -63,7 +63,7 @@ TEST(PlaceDrains, OneIsWhereItIsAskedFor) {
 TEST(PlaceDrains, APrismHoldsItsCylinder) {
   const BoxWithCavity box;
   const DrainPlacer placer(box.solid, box.depth, box.options);
-  const TriangleSoup prism = placer.prism(placer.for_cavity(box.cavity).at(0));
+  const TriangleSoup prism = prism_of(placer.for_cavity(box.cavity, {}).at(0), box.options.drain);
   const Topology topology = examine_topology(prism.triangles, prism.points.size());
   EXPECT_TRUE(topology.closed() && topology.manifold() && topology.oriented());
   double length = 0;
@@ -81,7 +81,7 @@ TEST(PlaceDrains, NoneLeadsIntoAVoid) {
   for (double x = 9; x <= 11; x += 0.1) cavity.corners.push_back(depth.place(Vec3d(x, 15, 3), 0));
   cavity.deepest = depth.place(Vec3d(10, 15, 2.5), 0);
   const DrainPlacer placer(box.solid, depth, box.options);
-  for (const Drill& drill : placer.for_cavity(cavity)) EXPECT_EQ(drill.drain.at.z(), 0);
+  for (const Drill& drill : placer.for_cavity(cavity, {})) EXPECT_EQ(drill.drain.at.z(), 0);
 }
 
 }  // namespace
