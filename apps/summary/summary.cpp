@@ -473,8 +473,8 @@ std::vector<std::string> simplified(const SimplifyReport& report) {
 std::vector<std::string> reduced(const RepairReport& repair) {
   if (!repair.fewer.done) return {};
   const FewerTrianglesReport& fewer = repair.fewer;
-  std::string text = fmt::format("{} to {}", number_of(fewer.before, "triangle"),
-                                 grouped(repair.output.triangles));
+  std::string text =
+      fmt::format("{} to {}", number_of(fewer.before, "triangle"), grouped(fewer.after));
   if (fewer.asked > 0) text += fmt::format(" of {} asked for", grouped(fewer.asked));
   if (fewer.most_distance > 0) {
     text +=

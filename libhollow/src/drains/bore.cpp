@@ -269,7 +269,7 @@ Segment shortest_between(const Segment& a, const Segment& b) {
   const double area = aa * bb - ab * ab;
   double s = area > 0 ? std::clamp((ab * bc - ac * bb) / area, 0.0, 1.0) : 0;
   double t = bb > 0 ? (ab * s + bc) / bb : 0;
-  if (t < 0 || t > 1) {
+  if (t < 0 || t > 1 || bb == 0) {
     t = std::clamp(t, 0.0, 1.0);
     s = aa > 0 ? std::clamp((ab * t - ac) / aa, 0.0, 1.0) : 0;
   }
