@@ -53,7 +53,7 @@ constexpr std::array<Painted, kTriangleFates> kFates = {{
 constexpr std::array<Painted, kTriangleOrigins> kOrigins = {{
     {"grey", "whole triangles of IN", {200, 200, 200}},
     {"yellow", "pieces of triangles of IN", {245, 225, 40}},
-    {"green", "walls of thickened sheets", {40, 170, 70}},
+    {"green", "walls of thickened sheets, cavities and drains", {40, 170, 70}},
     {"orange", "patches of holes and gaps", {245, 140, 20}},
     {"sky", "patches of sealed openings", {110, 190, 255}},
 }};

@@ -206,13 +206,17 @@ Json section_of(const ThickenReport& thicken) {
 
 Json vector_of(const Vec3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-// A bound that was not found is null.
+// A bound that was not found is null, and what drains leave where there are none.
 Json section_of(const HollowReport& hollow) {
   Json cavities = Json::array();
+  bool has_drains = false;
   for (const Cavity& cavity : hollow.cavities) {
+    has_drains = has_drains || !cavity.drains.empty();
     Json drains = Json::array();
     for (const Drain& drain : cavity.drains) {
-      drains.push_back({{"at", vector_of(drain.at)}, {"direction", vector_of(drain.direction)}});
+      drains.push_back({{"at", vector_of(drain.at)},
+                        {"direction", vector_of(drain.direction)},
+                        {"beside", drain.beside}});
     }
     cavities.push_back({{"volume", cavity.volume},
                         {"diameter", cavity.diameter},
@@ -224,6 +228,7 @@ Json section_of(const HollowReport& hollow) {
           {"most", std::isfinite(hollow.most) ? Json(hollow.most) : Json()},
           {"unproven", hollow.unproven},
           {"drain", hollow.drain},
+          {"beside_drains", has_drains ? Json(hollow.beside_drains) : Json()},
           {"cavities", std::move(cavities)},
           {"least_diameter", hollow.least_diameter},
           {"left_full", hollow.left_full},
@@ -330,6 +335,8 @@ Json section_of(const FewerTrianglesReport& fewer) {
           {"asked", fewer.asked},
           {"before", fewer.before},
           {"volume_before", fewer.volume_before},
+          {"after", fewer.after},
+          {"volume_after", fewer.volume_after},
           {"max_error", fewer.most_distance},
           {"unproven", fewer.is_unproven},
           {"collapses", fewer.collapses.collapses},

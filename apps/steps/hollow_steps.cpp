@@ -2,6 +2,7 @@
 #include "steps/hollow_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,7 @@
 #include <check/mesh_distance.h>
 #include <hollow/hollow.h>
 #include <mesh/append_soup.h>
+#include <repair/explain_repair.h>
 #include <repair/transfer_attributes.h>
 
 #include "options/numbers.h"
@@ -29,7 +31,10 @@ HollowOptions options_for(const HollowRequest& request, const TriangleSoup& soli
   const double diagonal = bounding_diagonal(solid);
   if (request.is_share) options.wall *= diagonal;
   if (request.is_drain_share) options.drain *= diagonal;
-  for (const std::string& word : request.places) options.drains_at.push_back(*vector_in(word));
+  for (const std::string& word : request.places) {
+    options.drains_at.push_back(*vector_in(word));
+    options.drain_names.push_back(word);
+  }
   options.up = up_of(findings) == View::Up::y ? Vec3d::UnitY() : Vec3d::UnitZ();
   return options;
 }
@@ -50,17 +55,19 @@ Attributes with_walls(const TriangleSoup& solid, Attributes attributes, const Su
   return transfer_attributes(joined, attributes, sources);
 }
 
+std::string why_nothing(const HollowReport& hollow) {
+  return fmt::format(
+      "walls of {:.6g} leave no cavity that holds a ball of diameter {:.6g}, {}", hollow.wall,
+      hollow.least_diameter,
+      hollow.least_diameter == hollow.drain ? "as a drain needs" : "a quarter of the wall");
+}
+
 void warn_of_hollows(const Findings& findings) {
   const HollowReport& hollow = findings.hollow;
   const auto tell = [&](const std::string& text) {
     warn(findings.input_name(), {WarningCode::not_hollowed, text, {}});
   };
-  if (hollow.cavities.empty()) {
-    tell("nothing is hollowed: " +
-         (hollow.left_full > 0
-              ? fmt::format("no cavity holds a ball of diameter {:.6g}", hollow.least_diameter)
-              : fmt::format("no part is deeper than {:.6g} below the surface", hollow.wall)));
-  }
+  if (hollow.cavities.empty()) tell("nothing is hollowed: " + why_nothing(hollow));
   if (hollow.unproven > 0) {
     tell(fmt::format("the thickness of the walls is not proven in {}",
                      number_of(hollow.unproven, "place")));
@@ -69,9 +76,54 @@ void warn_of_hollows(const Findings& findings) {
       static_cast<std::size_t>(std::count_if(hollow.cavities.begin(), hollow.cavities.end(),
                                              [](const Cavity& cavity) { return !cavity.opens; }));
   if (hollow.drain > 0 && closed > 0) {
-    tell(fmt::format("{} without a drain: none of that diameter fits",
-                     number_of(closed, "cavity is", "cavities are")));
+    tell(
+        fmt::format("{} without a drain: nowhere does one of that diameter lead in without "
+                    "breaking out beside its mouth",
+                    number_of(closed, "cavity is", "cavities are")));
   }
+  const double enough = (1 - kHollowError) * hollow.wall;
+  std::size_t thin = 0;
+  for (const Cavity& cavity : hollow.cavities) {
+    thin += static_cast<std::size_t>(
+        std::count_if(cavity.drains.begin(), cavity.drains.end(),
+                      [&](const Drain& drain) { return drain.beside < enough; }));
+  }
+  if (thin > 0) {
+    tell(fmt::format("the wall beside {} is thinner, {:.3g} at the least", number_of(thin, "drain"),
+                     hollow.beside_drains));
+  }
+}
+
+// Of a triangle, wherever its corners begin.
+std::array<std::array<double, 3>, 3> corners_of(const TriangleSoup& soup, std::size_t triangle) {
+  std::array<std::array<double, 3>, 3> corners{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d& p = soup.points[soup.triangles[triangle][i]];
+    corners[i] = {p.x(), p.y(), p.z()};
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+// Sources are still those of the solid. A triangle that a drain goes through is in pieces; the
+// walls of cavities and drains are walls.
+void explain_walls(const TriangleSoup& solid, const Surface& hollowed,
+                   RepairExplanation& explanation) {
+  if (explanation.origins.empty()) return;
+  std::vector<TriangleOrigin> origins;
+  origins.reserve(hollowed.source.size());
+  for (std::size_t t = 0; t < hollowed.source.size(); ++t) {
+    const std::uint32_t source = hollowed.source[t];
+    if (source == Surface::kNoSource) {
+      origins.push_back(TriangleOrigin::wall);
+      continue;
+    }
+    const bool is_whole = corners_of(hollowed.mesh, t) == corners_of(solid, source);
+    const TriangleOrigin before = explanation.origins[source];
+    origins.push_back(before == TriangleOrigin::whole && !is_whole ? TriangleOrigin::piece
+                                                                   : before);
+  }
+  explanation.origins = std::move(origins);
 }
 
 }  // namespace
@@ -83,6 +135,7 @@ void HollowRequest::scale_and_move(double factor, const Findings& findings) {
     Vec3d place = factor * *vector_in(word);
     if (findings.origin) place -= *findings.origin;
     options.drains_at.push_back(place);
+    options.drain_names.push_back(word);
   }
 }
 
@@ -140,6 +193,7 @@ void hollow_stage(const HollowRequest& request, const RepairOptions& options, Su
     if (!attributes.is_bare()) {
       attributes = with_walls(surface.mesh, std::move(attributes), hollowed);
     }
+    explain_walls(surface.mesh, hollowed, findings.repair.explanation);
     for (std::uint32_t& source : hollowed.source) {
       if (source != Surface::kNoSource) source = surface.source[source];
     }

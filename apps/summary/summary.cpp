@@ -326,7 +326,7 @@ std::string words_of_walls(const HollowReport& hollow) {
                      hollow.most);
 }
 
-// Of one diameter; what cannot be drained is told, too.
+// Of one diameter, with what they leave; what cannot be drained is told, too.
 std::string words_of_drains(const HollowReport& hollow) {
   std::size_t drains = 0, closed = 0;
   for (const Cavity& cavity : hollow.cavities) {
@@ -334,8 +334,11 @@ std::string words_of_drains(const HollowReport& hollow) {
     closed += cavity.opens ? 0 : 1;
   }
   std::vector<std::string> texts;
-  if (drains > 0)
-    texts.push_back(fmt::format("{} of diameter {:.6g}", number_of(drains, "drain"), hollow.drain));
+  if (drains > 0) {
+    texts.push_back(fmt::format("{} of diameter {:.6g}, walls of at least {:.4g} beside {}",
+                                number_of(drains, "drain"), hollow.drain, hollow.beside_drains,
+                                drains == 1 ? "it" : "them"));
+  }
   if (closed > 0) {
     texts.push_back(fmt::format("{} closed, so that nothing can flow out",
                                 number_of(closed, "cavity is", "cavities are")));
@@ -470,14 +473,14 @@ std::vector<std::string> simplified(const SimplifyReport& report) {
 std::vector<std::string> reduced(const RepairReport& repair) {
   if (!repair.fewer.done) return {};
   const FewerTrianglesReport& fewer = repair.fewer;
-  std::string text = fmt::format("{} to {}", number_of(fewer.before, "triangle"),
-                                 grouped(repair.output.triangles));
+  std::string text =
+      fmt::format("{} to {}", number_of(fewer.before, "triangle"), grouped(fewer.after));
   if (fewer.asked > 0) text += fmt::format(" of {} asked for", grouped(fewer.asked));
   if (fewer.most_distance > 0) {
     text +=
         fmt::format(", proven to be at most {:.3g} from the repaired mesh", fewer.most_distance);
   }
-  const double change = repair.output_volume / fewer.volume_before - 1;
+  const double change = fewer.volume_after / fewer.volume_before - 1;
   if (std::isfinite(change)) text += fmt::format("; volume {:+.1f} %", 100 * change);
   return {text};
 }

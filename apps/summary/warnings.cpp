@@ -130,7 +130,7 @@ std::string reasons_of(const DecimationReport& why) {
 void warn_of_triangles_left(const Findings& findings) {
   const RepairReport& repair = findings.repair;
   const FewerTrianglesReport& fewer = repair.fewer;
-  const std::size_t left = repair.output.triangles;
+  const std::size_t left = fewer.after;
   const bool too_many = fewer.asked > 0 && left > fewer.asked;
   if (fewer.before == 0 || (fewer.done && !fewer.is_unproven && !too_many)) return;
   const std::string why =

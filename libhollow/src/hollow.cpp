@@ -42,7 +42,7 @@ using internal::Proof;
 constexpr double kRounded = 2 * 1.5e-8;
 constexpr double kMade = 0.96;  // of the error: walls are made so good that proofs have some room
 constexpr int kMostRounds = 3;  // of taking triangles away
-constexpr double kLeastBall = 0.25;          // of the wall, that a cavity without drains holds
+constexpr double kLeastBall = 0.25;          // of the wall, that a cavity holds
 constexpr std::size_t kMostPieces = 200000;  // of a triangle: large ones need many
 constexpr std::size_t kTrianglesPerTask = 64;
 // Where the bounds that were asked for do not hold: shares of the thickness that are tried.
@@ -199,7 +199,7 @@ class Hollower {
     for (std::size_t t = 0; t < found_.cavity.size(); ++t) {
       walls[found_.cavity[t]].triangles.push_back(found_.walls.triangles[t]);
     }
-    const double least = options_.drain > 0 ? options_.drain : kLeastBall * options_.wall;
+    const double least = std::max(options_.drain, kLeastBall * options_.wall);
     hollowed_.least_diameter = least;
     for (std::size_t c = 0; c < count; ++c) {
       walls[c] = without_others(walls[c].triangles);
@@ -243,14 +243,16 @@ class Hollower {
 
   void place_drains() {
     const DrainPlacer placer(solid_.mesh, depth_, options_);
-    for (const Vec3d& point : options_.drains_at) add_drain_at(point, placer);
+    for (std::size_t i = 0; i < options_.drains_at.size(); ++i) add_drain_at(i, placer);
     for (std::size_t c = 0; c < places_.size(); ++c) {
       if (!hollowed_.cavities[c].drains.empty()) continue;
-      for (const Drill& drill : placer.for_cavity(places_[c])) add(drill, c, placer);
+      for (const Drill& drill : placer.for_cavity(places_[c], drills_)) add(drill, c);
     }
   }
 
-  void add_drain_at(const Vec3d& point, const DrainPlacer& placer) {
+  // The drills before are those of the points before.
+  void add_drain_at(std::size_t number, const DrainPlacer& placer) {
+    const Vec3d& point = options_.drains_at[number];
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < places_.size(); ++c) {
@@ -259,23 +261,35 @@ class Hollower {
       least = distance;
       nearest = c;
     }
-    const auto drill = placer.from_point(point, places_[nearest]);
-    if (!drill) {
-      throw ValueError(
-          "--drain-at: no drain of this diameter leads from the surface near there "
-          "into a cavity; another place or a smaller diameter may do");
+    const auto drill = placer.from_point(point, places_[nearest], drills_);
+    for (std::size_t other = 0; drill && other < drills_.size(); ++other) {
+      if (placer.between(*drill, drills_[other]) > 0) continue;
+      throw ValueError("--drain-at: the drains at " + name_of(other) + " and " + name_of(number) +
+                       " overlap; places farther from each other or a smaller diameter may do");
     }
-    add(*drill, nearest, placer);
+    if (!drill || drill->drain.beside <= 0) {
+      throw ValueError("--drain-at: at " + name_of(number) +
+                       ", no drain of this diameter leads from the surface into a cavity without "
+                       "breaking out beside its mouth; another place or a smaller diameter may do");
+    }
+    add(*drill, nearest);
   }
 
-  void add(const Drill& drill, std::size_t cavity, const DrainPlacer& placer) {
+  [[nodiscard]] std::string name_of(std::size_t point) const {
+    if (point < options_.drain_names.size()) return options_.drain_names[point];
+    return "point " + std::to_string(point + 1);
+  }
+
+  void add(const Drill& drill, std::size_t cavity) {
+    double& least = hollowed_.beside_drains;
+    least = drills_.empty() ? drill.drain.beside : std::min(least, drill.drain.beside);
     hollowed_.cavities[cavity].drains.push_back(drill.drain);
-    drills_.push_back(placer.prism(drill));
+    drills_.push_back(drill);
   }
 
   Surface subtract() {
     std::vector<TriangleSoup> solids = {solid_.mesh, walls_};
-    solids.insert(solids.end(), drills_.begin(), drills_.end());
+    for (const Drill& drill : drills_) solids.push_back(internal::prism_of(drill, options_.drain));
     CancelOnly quiet(repair_.progress);
     BooleanOptions options;
     options.repair = repair_;
@@ -443,7 +457,7 @@ class Hollower {
   TriangleSoup walls_;  // of all cavities that are made
   std::vector<std::uint32_t> cavity_of_wall_;
   std::vector<CavityPlaces> all_places_, places_;  // also of those that stay full
-  std::vector<TriangleSoup> drills_;
+  std::vector<Drill> drills_;
 };
 
 void check(const Surface& solid, const HollowOptions& options) {
@@ -456,7 +470,12 @@ void check(const Surface& solid, const HollowOptions& options) {
   if (!options.drains_at.empty() && options.drain == 0) {
     throw UsageError("--drain-at: drains need a diameter, by --drain");
   }
-  if (options.wall < kThinnest * longest_side(solid.mesh)) {
+  const double thinnest = kThinnest * longest_side(solid.mesh);
+  if (options.drain > 0 && options.drain < thinnest) {
+    throw ValueError(
+        "--drain: a diameter of less than a hundred-thousandth of the body is too small");
+  }
+  if (options.wall < thinnest) {
     throw ValueError("--hollow: a wall of less than a hundred-thousandth of the body is too thin");
   }
 }

@@ -109,6 +109,28 @@ TEST(Hollow, DrainsAreWhereTheyAreAskedFor) {
   EXPECT_TRUE(result.hollow.cavities[0].opens);
 }
 
+// Those of such a flat box are on its bottom and its top.
+TEST(Hollow, DrainsLeaveWallsBesideThem) {
+  const Hollowed result = hollowed(box({0, 0, 0}, {10, 10, 4}), wall_of(0.5, 2));
+  EXPECT_TRUE(result.report.certify.passed());
+  ASSERT_EQ(result.hollow.cavities.size(), 1u);
+  EXPECT_EQ(result.hollow.cavities[0].drains.size(), 2u);
+  EXPECT_GE(result.hollow.beside_drains, 0.5 * (1 - kHollowError));
+  EXPECT_LE(result.hollow.beside_drains, 0.5);
+  for (const Vec3d& p : result.surface.mesh.points) {
+    const bool is_corner = (p.x() == 0 || p.x() == 10) && (p.y() == 0 || p.y() == 10);
+    EXPECT_TRUE(is_corner || (p.x() > 0.48 && p.x() < 9.52 && p.y() > 0.48 && p.y() < 9.52)) << p;
+  }
+}
+
+TEST(Hollow, DrainsThatOverlapAreRefused) {
+  HollowOptions options = wall_of(0.5, 1);
+  options.drains_at = {Vec3d(5, 5, 0), Vec3d(5.5, 5, 0)};
+  EXPECT_THROW((void)hollowed(box({0, 0, 0}, {10, 10, 4}), options), ValueError);
+  options.drains_at = {Vec3d(5, 5, 0), Vec3d(5, 5, 4)};
+  EXPECT_EQ(hollowed(box({0, 0, 0}, {10, 10, 4}), options).hollow.cavities[0].drains.size(), 2u);
+}
+
 TEST(Hollow, OptionsOutOfRangeAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double wall : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
@@ -117,6 +139,7 @@ TEST(Hollow, OptionsOutOfRangeAreRefused) {
   EXPECT_THROW((void)hollowed(sphere(100), wall_of(0.1, -1)), UsageError);
   EXPECT_THROW((void)hollowed(sphere(100), wall_of(0.1, nan)), UsageError);
   EXPECT_THROW((void)hollowed(sphere(100), wall_of(1e-9)), ValueError);
+  EXPECT_THROW((void)hollowed(sphere(100), wall_of(0.1, 1e-9)), ValueError);
   HollowOptions options = wall_of(0.1);
   options.drains_at = {Vec3d::Zero()};
   EXPECT_THROW((void)hollowed(sphere(100), options), UsageError);

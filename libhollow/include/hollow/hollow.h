@@ -7,8 +7,14 @@
 //
 //  1. no point of a wall's inner side is nearer to the surface than T (1 - kHollowError), and none
 //     is farther from it than T (1 + kHollowError): HollowReport::least and most bound them, on
-//     the coordinates that come back, drains excepted;
+//     the coordinates that come back. Where a drain is drilled, there is no inner side: see below;
 //  2. all that is deeper than T (1 + kHollowError) is in a cavity, or counted as left full.
+//
+// A drain is a prism around a cylinder. HollowReport::beside_drains bounds from below how far
+// drains are from each other, and from all of the surface but that around their mouths: what the
+// drill comes through, which faces it, with relief of less than a quarter of the wall. It is at
+// least T (1 - kHollowError) wherever drains could be placed so. A drain ends where its whole
+// section has just got through the wall.
 //
 // The surface of the solid stays bit for bit, but for the mouths of drains.
 #pragma once

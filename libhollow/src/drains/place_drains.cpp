@@ -4,31 +4,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <unordered_set>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include <check/soup_rays.h>
 #include <mesh/mesh_parts.h>
+#include <mesh/weld_points.h>
+
+#include "drains/bore.h"
 
 namespace meshrepair::internal {
 namespace {
 
 constexpr std::size_t kSides = 32;  // a power of two, from 4 on
 constexpr std::size_t kMostTried = 20000;
+constexpr std::size_t kMostLookedAt = 5'000'000;  // triangles: some seconds
 constexpr double kApart = 2;  // diameters, at least, between two drains of a cavity
-
-// The ball at the inner end of a drain may be so much smaller, where others fit nowhere.
-constexpr std::array<double, 3> kBalls = {0.999, 0.75, 0.5};
-// How far it reaches out, in diameters: what is free.
-constexpr std::array<double, 4> kReaches = {1, 0.75, 0.6, 0.55};
+constexpr int kMostSlides = 8;
+constexpr double kAsLow = 0.25;  // of a radius: no lower place is looked for
+// Places nearer to one that was tried than this share of a radius are as bad.
+constexpr double kSamePlace = 0.125;
+// Where less than this share of the wall would be left beside it, nothing is drilled.
+constexpr double kLeastBeside = 0.1;
 
 // The directions of a regular polygon's corners, by halving angles: sines differ between systems.
 std::vector<Vec3d> around(const Vec3d& axis) {
-  Eigen::Index least = 0;
-  axis.cwiseAbs().minCoeff(&least);
-  const Vec3d u = axis.cross(Vec3d::Unit(least)).normalized();
-  const Vec3d v = axis.cross(u);
+  const auto [u, v] = across(axis);
   std::vector<Vec3d> directions = {u, v, -u, -v};
   while (directions.size() < kSides) {
     std::vector<Vec3d> finer;
@@ -57,42 +62,14 @@ std::vector<char> triangles_of_outsides(const TriangleSoup& solid) {
   return outside;
 }
 
-}  // namespace
-
-DrainPlacer::DrainPlacer(const TriangleSoup& solid, const Depth& depth,
-                         const HollowOptions& options)
-    : depth_(depth), options_(options), outside_(triangles_of_outsides(solid)) {}
-
-bool DrainPlacer::is_on_outside(std::uint32_t nearest) const {
-  return outside_[depth_.number(nearest)] != 0;
-}
-
-// The end within is far from all walls, and the end outside is free: both discs are in balls.
-std::optional<Drill> DrainPlacer::drill(const Vec3d& mouth, const Vec3d& inward, const Vec3d& end,
-                                        std::uint32_t nearest) const {
-  if (!is_on_outside(nearest)) return std::nullopt;
-  for (const double reach : kReaches) {
-    const Place from = depth_.place(mouth - reach * options_.drain * inward, nearest);
-    // A prism of so many sides is less than 1 % wider than its cylinder.
-    if (from.distance < 0.505 * options_.drain || depth_.is_inside(from.at)) continue;
-    return Drill{{mouth, inward}, from.at, end};
+TriangleSoup soup_of(const std::vector<Corners>& triangles) {
+  TriangleSoup soup;
+  PointWelder welder(soup.points);
+  for (const Corners& t : triangles) {
+    soup.triangles.push_back({welder.index_of(t[0]), welder.index_of(t[1]), welder.index_of(t[2])});
   }
-  return std::nullopt;
+  return soup;
 }
-
-// At right angles to the surface, through the place of the inner side.
-std::optional<Drill> DrainPlacer::through(const Place& wall) const {
-  const Vec3d inward = depth_.inward(wall);
-  const double radius = 0.5 * options_.drain;
-  for (const double share : kBalls) {
-    const Place end = depth_.place(wall.at + share * radius * inward, wall.nearest);
-    if (end.distance < options_.wall + 0.999 * share * radius) continue;
-    return drill(depth_.foot(wall), inward, end.at, wall.nearest);
-  }
-  return std::nullopt;
-}
-
-namespace {
 
 Vec3d nearest_of(const Vec3d& point, const std::vector<Corners>& triangles) {
   Vec3d nearest = triangles[0][0];
@@ -103,59 +80,198 @@ Vec3d nearest_of(const Vec3d& point, const std::vector<Corners>& triangles) {
   return nearest;
 }
 
+Segment within(const Drill& drill) { return {drill.drain.at, drill.to}; }
+
 }  // namespace
+
+DrainPlacer::DrainPlacer(const TriangleSoup& solid, const Depth& depth,
+                         const HollowOptions& options)
+    : depth_(depth), options_(options), outside_(triangles_of_outsides(solid)) {}
+
+bool DrainPlacer::is_on_outside(std::uint32_t nearest) const {
+  return outside_[depth_.number(nearest)] != 0;
+}
+
+double DrainPlacer::between(const Drill& a, const Drill& b) const {
+  const Segment shortest = shortest_between(within(a), within(b));
+  return (shortest.to - shortest.from).norm() - kWidestPrism * options_.drain;
+}
 
 double DrainPlacer::distance(const Vec3d& point, const CavityPlaces& cavity) const {
   const Vec3d mouth = depth_.foot(depth_.place(point, 0));
   return (nearest_of(mouth, cavity.triangles) - mouth).norm();
 }
 
-std::optional<Drill> DrainPlacer::from_point(const Vec3d& point, const CavityPlaces& cavity) const {
-  const Place given = depth_.place(point, 0);
-  const Vec3d mouth = depth_.foot(given);
-  const Vec3d wall = nearest_of(mouth, cavity.triangles);
-  const Vec3d inward = (wall - mouth).normalized();
-  for (double share = 1; share > 0.1; share *= 0.5) {
-    const Place end = depth_.place(wall + share * 0.5 * options_.drain * inward, given.nearest);
-    // Walls are less deep by their error at most.
-    if (end.distance > (1 + kHollowError) * options_.wall) {
-      return drill(mouth, inward, end.at, given.nearest);
-    }
-  }
-  return std::nullopt;
-}
+// Among places of one cavity.
+class DrainPlacer::Search {
+ public:
+  Search(const DrainPlacer& placer, const CavityPlaces& cavity, std::span<const Drill> others)
+      : placer_(placer),
+        depth_(placer.depth_),
+        wall_(placer.options_.wall),
+        drain_(placer.options_.drain),
+        enough_((1 - kHollowError) * wall_),
+        others_(others.begin(), others.end()),
+        walls_(soup_of(cavity.triangles)),
+        winding_(walls_.triangles.size(), 1),
+        rays_(walls_, winding_) {}
 
-std::vector<Drill> DrainPlacer::for_cavity(const CavityPlaces& cavity) const {
-  std::vector<std::uint32_t> order(cavity.corners.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto first_by = [&](const auto& key) -> std::optional<Drill> {
+  [[nodiscard]] bool leaves_enough(const Drill& drill) const {
+    return drill.drain.beside >= enough_;
+  }
+  void avoid(const Drill& drill) { others_.push_back(drill); }
+
+  // Nothing where it does not get into the cavity, or where its end outside is not free.
+  [[nodiscard]] std::optional<Drill> drill(const Vec3d& mouth, const Vec3d& inward,
+                                           std::uint32_t nearest) {
+    away_ = Vec3d::Zero();
+    if (!placer_.is_on_outside(nearest)) return std::nullopt;
+    const auto bore = bore_at(depth_, mouth, inward, nearest, {wall_, drain_});
+    looked_at_ += kOfOne;
+    if (!bore) return std::nullopt;
+    looked_at_ += bore->looked_at;
+    beside_ = bore->beside;
+    away_ = bore->away;
+    if (bore->reach == 0) return std::nullopt;
+    Drill drill{{mouth, inward, bore->beside},
+                mouth - bore->reach * drain_ * inward,
+                mouth + bore->length * inward};
+    if (rays_.winding_at(drill.to) <= 0) return std::nullopt;
+    for (const Drill& other : others_) {
+      drill.drain.beside = std::min(drill.drain.beside, placer_.between(drill, other));
+    }
+    drill.drain.beside = std::min(drill.drain.beside, wall_);
+    return drill;
+  }
+
+  // At right angles to the surface, through this place; where other parts of the surface are too
+  // near, moved away from them step by step. Of these, the one that leaves most.
+  [[nodiscard]] std::optional<Drill> near(Place wall) {
+    std::optional<Drill> best;
+    for (int slide = 0; slide <= kMostSlides; ++slide) {
+      if (!tried_.insert(cell_of(wall.at)).second) break;
+      const Vec3d mouth = depth_.foot(wall), inward = depth_.inward(wall);
+      const auto found = drill(mouth, inward, wall.nearest);
+      if (found && (!best || found->drain.beside > best->drain.beside)) best = found;
+      if ((best && leaves_enough(*best)) || away_ == Vec3d::Zero() || beside_ >= enough_) break;
+      const double by = (1 + kHollowError) * wall_ - beside_;
+      wall = depth_.place(mouth + wall_ * inward + by * away_, wall.nearest);
+      if (wall.distance < kLeastBeside * wall_ || !depth_.is_inside(wall.at)) break;
+    }
+    return best;
+  }
+
+  // Of those that leave enough, the one with the least cost, but for a slack. A place near a corner
+  // costs no less than the corner's key, or little less. Where none leaves enough, the one that
+  // leaves most.
+  template <class Key, class Cost, class Fits>
+  [[nodiscard]] std::optional<Drill> best_by(const std::vector<Place>& corners, const Key& key,
+                                             const Cost& cost, const Fits& fits) {
     std::vector<double> keys;
-    for (const Place& wall : cavity.corners) keys.push_back(key(wall.at));
+    for (const Place& wall : corners) keys.push_back(key(wall.at));
+    std::vector<std::uint32_t> order(corners.size());
+    std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
     });
-    for (std::size_t i = 0; i < std::min(order.size(), kMostTried); ++i) {
-      if (auto found = through(cavity.corners[order[i]])) return found;
+    std::optional<Drill> best;
+    double least = std::numeric_limits<double>::infinity();
+    tried_.clear();
+    looked_at_ = 0;
+    for (const std::uint32_t i : order) {
+      if (tried_.size() >= kMostTried || looked_at_ >= kMostLookedAt || keys[i] >= least) break;
+      const auto found = near(corners[i]);
+      if (!found || !fits(*found)) continue;
+      const bool is_enough = leaves_enough(*found);
+      if (is_enough ? cost(*found) >= least : best && found->drain.beside <= best->drain.beside) {
+        continue;
+      }
+      best = found;
+      if (is_enough) least = cost(*found);
     }
-    return std::nullopt;
-  };
-  std::vector<Drill> drills;
-  auto low = first_by([&](const Vec3d& p) { return p.dot(options_.up); });
-  if (!low) {  // but where the largest ball is, one fits
-    const Place& deep = cavity.deepest;
-    low = drill(depth_.foot(deep), depth_.inward(deep), deep.at, deep.nearest);
+    return best;
   }
-  if (!low) return drills;
-  drills.push_back(*low);
-  const Vec3d& at = drills[0].drain.at;
-  const auto far = first_by([&](const Vec3d& p) { return -(p - at).squaredNorm(); });
-  if (far && (far->drain.at - at).norm() >= kApart * options_.drain) drills.push_back(*far);
-  return drills;
+
+ private:
+  // Two cells may have the same number: then some place is not tried.
+  [[nodiscard]] std::uint64_t cell_of(const Vec3d& at) const {
+    std::uint64_t cell = 0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto step = static_cast<std::int64_t>(std::floor(at[k] / (kSamePlace * 0.5 * drain_)));
+      cell = 0x9E3779B97F4A7C15U * (cell ^ static_cast<std::uint64_t>(step));
+      cell ^= cell >> 29U;
+    }
+    return cell;
+  }
+
+  static constexpr std::size_t kOfOne = 100;  // work besides that for triangles
+
+  const DrainPlacer& placer_;
+  const Depth& depth_;
+  double wall_, drain_, enough_;
+  std::vector<Drill> others_;
+  TriangleSoup walls_;
+  std::vector<std::int32_t> winding_;
+  SoupRays rays_;
+  Vec3d away_ = Vec3d::Zero();  // of what was looked at last
+  double beside_ = 0;
+  std::size_t looked_at_ = 0;
+  std::unordered_set<std::uint64_t> tried_;
+};
+
+// At right angles to the surface; where that leaves less, or does not get into the cavity, on the
+// shortest way.
+std::optional<Drill> DrainPlacer::from_point(const Vec3d& point, const CavityPlaces& cavity,
+                                             std::span<const Drill> others) const {
+  Search search(*this, cavity, others);
+  const Place given = depth_.place(point, 0);
+  const Vec3d mouth = depth_.foot(given);
+  const Corners& t = depth_.triangles()[given.nearest];
+  const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  std::optional<Drill> best;
+  for (const Vec3d& inward : {Vec3d(-normal.normalized()),
+                              Vec3d((nearest_of(mouth, cavity.triangles) - mouth).normalized())}) {
+    const auto found = search.drill(mouth, inward, given.nearest);
+    if (found && (!best || found->drain.beside > best->drain.beside)) best = found;
+    if (best && search.leaves_enough(*best)) break;
+  }
+  return best;
 }
 
-TriangleSoup DrainPlacer::prism(const Drill& drill) const {
+std::vector<Drill> DrainPlacer::for_cavity(const CavityPlaces& cavity,
+                                           std::span<const Drill> others) const {
+  Search search(*this, cavity, others);
+  const double least = kLeastBeside * options_.wall;
+  const auto is_left = [&](const Drill& drill) { return drill.drain.beside >= least; };
+  const auto height = [&](const Vec3d& p) { return p.dot(options_.up); };
+  // Of the middle of the hole, within the cavity.
+  const auto level = [&](const Drill& drill) {
+    return height(drill.drain.at + options_.wall * drill.drain.direction) -
+           kAsLow * 0.5 * options_.drain;
+  };
+  auto low = search.best_by(cavity.corners, height, level, is_left);
+  if (!low || !search.leaves_enough(*low)) {  // where the largest ball is, one may fit
+    const auto deep = search.near(cavity.deepest);
+    if (deep && is_left(*deep) && (!low || deep->drain.beside > low->drain.beside)) low = deep;
+  }
+  if (!low) return {};
+  const Vec3d& at = low->drain.at;
+  search.avoid(*low);
+  const double as_good = std::min((1 - kHollowError) * options_.wall, low->drain.beside);
+  const auto far = search.best_by(
+      cavity.corners, [&](const Vec3d& p) { return -(p - at).squaredNorm(); },
+      [](const Drill&) { return -std::numeric_limits<double>::infinity(); },
+      [&](const Drill& drill) {
+        return drill.drain.beside >= as_good &&
+               (drill.drain.at - at).norm() >= kApart * options_.drain;
+      });
+  if (far) return {*low, *far};
+  return {*low};
+}
+
+TriangleSoup prism_of(const Drill& drill, double diameter) {
   const std::vector<Vec3d> directions = around(drill.drain.direction);
-  const double radius = 0.5 * options_.drain * radius_of_prism(directions);
+  const double radius = 0.5 * diameter * radius_of_prism(directions);
   TriangleSoup soup;
   soup.points = {drill.from, drill.to};
   for (const Vec3d& direction : directions) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <hollow/hollow_options.h>
@@ -20,35 +21,40 @@ struct Drill {
   Vec3d from = Vec3d::Zero(), to = Vec3d::Zero();  // the middles of its ends, outside and within
 };
 
+// Closed, turned outward.
+[[nodiscard]] TriangleSoup prism_of(const Drill& drill, double diameter);
+
 // The walls of one cavity, and its deepest place.
 struct CavityPlaces {
   std::vector<Place> corners;      // of the walls: among them drains are looked for
-  std::vector<Corners> triangles;  // the walls
+  std::vector<Corners> triangles;  // the walls, closed, turned out of the cavity
   Place deepest;
 };
 
+// Drains keep the wall from all of the surface but that around their mouths, and from each other,
+// where such places exist; else they leave as much as can be. Where that is almost nothing, there
+// is no drain.
 class DrainPlacer {
  public:
   // `solid` is what Depth was made of. All have to stay.
   DrainPlacer(const TriangleSoup& solid, const Depth& depth, const HollowOptions& options);
 
   // One from the place of the surface that is nearest to the point, into this cavity; nothing where
-  // none fits.
-  [[nodiscard]] std::optional<Drill> from_point(const Vec3d& point,
-                                                const CavityPlaces& cavity) const;
+  // none fits. `others` are drilled, too; where it overlaps one, Drain::beside is not above 0.
+  [[nodiscard]] std::optional<Drill> from_point(const Vec3d& point, const CavityPlaces& cavity,
+                                                std::span<const Drill> others) const;
   // The distance of a cavity from the place of the surface that is nearest to the point.
   [[nodiscard]] double distance(const Vec3d& point, const CavityPlaces& cavity) const;
 
   // The lowest one that fits, and the one farthest from it.
-  [[nodiscard]] std::vector<Drill> for_cavity(const CavityPlaces& cavity) const;
+  [[nodiscard]] std::vector<Drill> for_cavity(const CavityPlaces& cavity,
+                                              std::span<const Drill> others) const;
 
-  // Closed, turned outward.
-  [[nodiscard]] TriangleSoup prism(const Drill& drill) const;
+  // The least distance between two; not above 0 where they overlap.
+  [[nodiscard]] double between(const Drill& a, const Drill& b) const;
 
  private:
-  [[nodiscard]] std::optional<Drill> through(const Place& wall) const;
-  [[nodiscard]] std::optional<Drill> drill(const Vec3d& mouth, const Vec3d& inward,
-                                           const Vec3d& end, std::uint32_t nearest) const;
+  class Search;
   [[nodiscard]] bool is_on_outside(std::uint32_t nearest) const;
 
   const Depth& depth_;

@@ -34,7 +34,7 @@ inline constexpr std::size_t kTriangleFates = 10;
 enum class TriangleOrigin : std::uint8_t {
   whole,  // one of the input
   piece,  // lies in one of the input, or in several of one plane
-  wall,   // of a sheet that was thickened
+  wall,   // of a sheet that was thickened; or, after hollow(), of a cavity or a drain
   patch,  // of no triangle of the input: it closes a hole or a gap
   seal,   // the same, over an opening that was sealed
 };

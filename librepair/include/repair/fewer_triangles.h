@@ -30,12 +30,13 @@ struct FewerTrianglesOptions {
 };
 
 struct FewerTrianglesReport {
-  bool done = false;         // the surface was certified, and still is
-  std::size_t asked = 0;     // triangles; 0: as few as the distance allows
-  double most_distance = 0;  // asked for; 0: none was
-  bool is_unproven = false;  // so all triangles stay
-  std::size_t before = 0;    // triangles that there were
-  double volume_before = 0;  // in the input's units, cubed
+  bool done = false;                           // the surface was certified, and still is
+  std::size_t asked = 0;                       // triangles; 0: as few as the distance allows
+  double most_distance = 0;                    // asked for; 0: none was
+  bool is_unproven = false;                    // so all triangles stay
+  std::size_t before = 0;                      // triangles that there were
+  std::size_t after = 0;                       // that are left
+  double volume_before = 0, volume_after = 0;  // in the input's units, cubed
   DecimationReport collapses;
   // Of corner k of triangle t of the result at 3 t + k; empty where no values were given.
   std::vector<CornerOrigin> corners;

@@ -22,10 +22,10 @@ struct JoinGapsOptions {
   JoinGapsMode mode = JoinGapsMode::none;
   double distance = 0;    // of JoinGapsMode::distance, in the soup's unit
   bool is_share = false;  // it is a share of the diagonal of the soup's bounding box instead
+  ProgressObserver* progress = nullptr;
   // Where there is no gap but rounding between faces, they are joined all the same: they get the
   // same triangles, which no rounding takes apart.
   bool joins_touching = false;
-  ProgressObserver* progress = nullptr;
 };
 
 struct JoinGapsReport {

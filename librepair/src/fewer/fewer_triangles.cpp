@@ -133,9 +133,9 @@ DecimatedMesh decimate_within(double most, const TriangleSoup& mesh, DecimationO
 void take_triangles_away(const TriangleSoup& input, Surface& surface, const RepairOptions& options,
                          RepairReport& report) {
   FewerTrianglesReport& told = report.fewer;
-  told.before = surface.mesh.triangles.size();
+  told.before = told.after = surface.mesh.triangles.size();
   told.asked = asked_of(options.fewer, told.before);
-  told.volume_before = report.output_volume;
+  told.volume_before = told.volume_after = report.output_volume;
   if (!report.certify.passed()) return;
   StageMeter meter(report.stages, options.progress);
   meter.begin("fewer");
@@ -174,6 +174,8 @@ void take_triangles_away(const TriangleSoup& input, Surface& surface, const Repa
   surface = collapsed(surface, std::move(fewer));
   report.spared_cells |= std::exchange(report.kept_valid, false);
   describe_output(surface, report);
+  told.after = surface.mesh.triangles.size();
+  told.volume_after = report.output_volume;
   TriangleFates& fates = report.triangles;
   fates = {};
   for (const auto& t : surface.mesh.triangles) {
