@@ -12,9 +12,9 @@
 //
 // A drain is a prism around a cylinder. HollowReport::beside_drains bounds from below how far
 // drains are from each other, and from all of the surface but that around their mouths: what the
-// drill comes through, which faces it, with relief of less than a quarter of the wall. It is at
-// least T (1 - kHollowError) wherever drains could be placed so. A drain ends where its whole
-// section has just got through the wall.
+// drill comes through, which faces it, with relief of less than a quarter of the wall, and what is
+// before it. It is at least T (1 - kHollowError) wherever drains could be placed so. A drain ends
+// where its whole section has just got through the wall.
 //
 // The surface of the solid stays bit for bit, but for the mouths of drains.
 #pragma once
