@@ -6,10 +6,10 @@
 // way as tie-breaks, and only if it leaves fewer than before. So the number of faults falls with
 // each edit, and the search ends.
 //
-// Faults are counted exactly, among the triangles near the place alone (check/internal/fault_counter.h). All edits
-// keep the surface a closed manifold of the same genus: a collapse has to satisfy the link
-// condition (T. Dey, H. Edelsbrunner, S. Guha and D. Nekhayev, Topology preserving edge
-// contraction, 1999).
+// Faults are counted exactly, among the triangles near the place alone
+// (check/internal/fault_counter.h). All edits keep the surface a closed manifold of the same genus:
+// a collapse has to satisfy the link condition (T. Dey, H. Edelsbrunner, S. Guha and D. Nekhayev,
+// Topology preserving edge contraction, 1999).
 #include <algorithm>
 #include <array>
 #include <cmath>
