@@ -37,9 +37,9 @@ using internal::Piece;
 using internal::Place;
 using internal::Proof;
 
-// Coordinates of the result may be off those of the walls by so much of the size of the body: two
-// steps of the working grid, which are more than single precision has.
-constexpr double kRounded = 2 * 1.5e-8;
+// Coordinates of the result are off by so much of the largest one at most: twice what all three
+// lose in single precision, where the working grid has steps of a fourth of that.
+constexpr double kRounded = 2 * 1.75 * 0x1p-24;
 constexpr double kMade = 0.96;  // of the error: walls are made so good that proofs have some room
 constexpr int kMostRounds = 3;  // of taking triangles away
 constexpr double kLeastBall = 0.25;          // of the wall, that a cavity holds
@@ -61,8 +61,11 @@ double longest_side(const TriangleSoup& soup) {
 
 // Of the thickness, that walls may be off before their coordinates are rounded.
 double error_of(const TriangleSoup& solid, const HollowOptions& options) {
-  const double rounded = kRounded * longest_side(solid) / options.wall;
-  return std::max(kHollowError - rounded, 0.5 * kHollowError);
+  double largest = 0;
+  for (const Vec3d& point : solid.points) {
+    largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  }
+  return std::max(kHollowError - kRounded * largest / options.wall, 0.5 * kHollowError);
 }
 
 class Hollower {

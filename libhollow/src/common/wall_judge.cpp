@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/wall_judge.h"
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Geometry>
@@ -60,14 +61,16 @@ bool WallJudge::allows(const Question& question) {
   return turned <= 0;
 }
 
-// Twice the area of a triangle that is seen from the cavity, from all of its corners; else nothing.
+// Twice the area of a triangle that is seen from the cavity, as its middle tells; else nothing.
 double WallJudge::turned_area(const Piece& triangle) const {
   const auto& [a, b, c, d] = triangle;
   const Vec3d normal = (b.at - a.at).cross(c.at - a.at);
-  for (const Place* corner : {&a, &b, &c}) {
-    if (!(normal.dot(depth_.inward(*corner)) > 0)) return 0;
-  }
-  return normal.norm();
+  const bool is_clear = std::none_of(triangle.begin(), triangle.end(), [&](const Place& corner) {
+    return normal.dot(depth_.inward(corner)) > 0;
+  });
+  if (is_clear) return 0;
+  const Place middle = depth_.place((a.at + b.at + c.at) / 3, a.nearest);
+  return normal.dot(depth_.inward(middle)) > 0 ? normal.norm() : 0;
 }
 
 // The first side is new for each triangle of a fan; the second one was there before.
