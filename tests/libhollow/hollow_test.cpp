@@ -109,7 +109,7 @@ TEST(Hollow, DrainsAreWhereTheyAreAskedFor) {
   EXPECT_TRUE(result.hollow.cavities[0].opens);
 }
 
-// Those of such a flat box are on its bottom and its top.
+// Without walls beside drains, points would be near an edge, which is near two faces.
 TEST(Hollow, DrainsLeaveWallsBesideThem) {
   const Hollowed result = hollowed(box({0, 0, 0}, {10, 10, 4}), wall_of(0.5, 2));
   EXPECT_TRUE(result.report.certify.passed());
@@ -118,8 +118,12 @@ TEST(Hollow, DrainsLeaveWallsBesideThem) {
   EXPECT_GE(result.hollow.beside_drains, 0.5 * (1 - kHollowError));
   EXPECT_LE(result.hollow.beside_drains, 0.5);
   for (const Vec3d& p : result.surface.mesh.points) {
-    const bool is_corner = (p.x() == 0 || p.x() == 10) && (p.y() == 0 || p.y() == 10);
-    EXPECT_TRUE(is_corner || (p.x() > 0.48 && p.x() < 9.52 && p.y() > 0.48 && p.y() < 9.52)) << p;
+    int near = 0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const double high = Vec3d(10, 10, 4)[k];
+      near += p[k] < 0.48 || p[k] > high - 0.48 ? 1 : 0;
+    }
+    EXPECT_TRUE(near <= 1 || near == 3) << p;
   }
 }
 
