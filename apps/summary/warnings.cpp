@@ -124,7 +124,8 @@ std::string reasons_of(const DecimationReport& why) {
   add(why.would_change_topology, "change the topology");
   add(why.would_part, "exceed --max-error");
   add(why.would_break_seam, "move ends of seams of textures or materials");
-  return fmt::format("{}", fmt::join(reasons, ", or "));
+  if (reasons.empty()) return "no more edges can be collapsed";
+  return fmt::format("collapsing more edges would {}", fmt::join(reasons, ", or "));
 }
 
 void warn_of_triangles_left(const Findings& findings) {
@@ -137,8 +138,8 @@ void warn_of_triangles_left(const Findings& findings) {
       !fewer.done ? "no triangles are taken away, as the result is not certified"
       : fewer.is_unproven
           ? "no triangles are taken away, as none could be within --max-error for sure"
-          : fmt::format("{} stay, not {}: collapsing more edges would {}",
-                        number_of(left, "triangle"), fewer.asked, reasons_of(fewer.collapses));
+          : fmt::format("{} stay, not {}: {}", number_of(left, "triangle"), fewer.asked,
+                        reasons_of(fewer.collapses));
   warn(findings.output_name(),
        {WarningCode::triangles_left, why, {{"asked", fewer.asked}, {"triangles", left}}});
 }

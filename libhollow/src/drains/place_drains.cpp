@@ -25,7 +25,8 @@ constexpr std::size_t kMostTried = 20000;
 constexpr std::size_t kMostLookedAt = 5'000'000;  // triangles: some seconds
 constexpr double kApart = 2;  // diameters, at least, between two drains of a cavity
 constexpr int kMostSlides = 8;
-constexpr double kAsLow = 0.25;  // of a radius: no lower place is looked for
+constexpr double kNearlyUpright = 0.9;  // the cosine of 26 degrees
+constexpr double kAsLow = 0.25;         // of a radius: no lower place is looked for
 // Places nearer to one that was tried than this share of a radius are as bad.
 constexpr double kSamePlace = 0.125;
 // Where less than this share of the wall would be left beside it, nothing is drilled.
@@ -220,7 +221,7 @@ class DrainPlacer::Search {
 };
 
 // At right angles to the surface; where that leaves less, or does not get into the cavity, on the
-// shortest way.
+// shortest way if that is nearly the same: beside an edge, it would lead through both faces.
 std::optional<Drill> DrainPlacer::from_point(const Vec3d& point, const CavityPlaces& cavity,
                                              std::span<const Drill> others) const {
   Search search(*this, cavity, others);
@@ -231,6 +232,7 @@ std::optional<Drill> DrainPlacer::from_point(const Vec3d& point, const CavityPla
   std::optional<Drill> best;
   for (const Vec3d& inward : {Vec3d(-normal.normalized()),
                               Vec3d((nearest_of(mouth, cavity.triangles) - mouth).normalized())}) {
+    if (-normal.dot(inward) < kNearlyUpright * normal.norm()) continue;
     const auto found = search.drill(mouth, inward, given.nearest);
     if (found && (!best || found->drain.beside > best->drain.beside)) best = found;
     if (best && search.leaves_enough(*best)) break;
