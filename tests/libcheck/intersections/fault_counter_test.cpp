@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <check/internal/fault_counter.h>
-
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <check/internal/fault_counter.h>
 
 #include "shapes.h"
 

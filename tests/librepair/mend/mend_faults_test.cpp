@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <repair/internal/mend_faults.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,6 +10,7 @@
 #include <check/self_intersections.h>
 #include <mesh/internal/editable_mesh.h>
 #include <mesh/topology.h>
+#include <repair/internal/mend_faults.h>
 
 #include "each_seed.h"
 #include "random_geometry.h"
