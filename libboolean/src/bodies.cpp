@@ -330,10 +330,10 @@ class TouchingBodies {
     return as_vector(grid_.to_grid(all_.points[point]));
   }
   [[nodiscard]] bool are_in_one_plane(std::uint32_t t, std::uint32_t u) const {
-    const auto& [a, b, c] = all_.triangles[t];
-    return std::all_of(all_.triangles[u].begin(), all_.triangles[u].end(), [&](std::uint32_t p) {
-      return orientation(on_grid(a), on_grid(b), on_grid(c), on_grid(p)) == 0;
-    });
+    const IndexTriangle& corners = all_.triangles[t];
+    const Vec3d a = on_grid(corners[0]), b = on_grid(corners[1]), c = on_grid(corners[2]);
+    return std::all_of(all_.triangles[u].begin(), all_.triangles[u].end(),
+                       [&](std::uint32_t p) { return orientation(a, b, c, on_grid(p)) == 0; });
   }
 
   TriangleSoup all_;
