@@ -72,14 +72,10 @@ double squared_distance(const Vec3d& p, const Corners& triangle) {
   return std::min({(q - p).squaredNorm(), (r - p).squaredNorm(), (s - p).squaredNorm()});
 }
 
-NearestTriangle::Ball::Ball(const Corners& triangle) : centre(0.5 * (triangle[0] + triangle[1])) {
-  // Of the triangle, around the middle of its box.
-  Box box;
-  for (const Vec3d& p : triangle) box.add(p);
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    centre[k] = 0.5 * (box.low[i] + box.high[i]);
-  }
+// Around the middle of the triangle's box.
+NearestTriangle::Ball::Ball(const Corners& triangle) {
+  const auto& [a, b, c] = triangle;
+  centre = 0.5 * a.cwiseMin(b).cwiseMin(c) + 0.5 * a.cwiseMax(b).cwiseMax(c);
   double squared = 0;
   for (const Vec3d& p : triangle) squared = std::max(squared, (p - centre).squaredNorm());
   radius = kBallMargin * std::sqrt(squared);

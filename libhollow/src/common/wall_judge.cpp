@@ -12,8 +12,10 @@ namespace meshrepair::internal {
 namespace {
 
 constexpr std::size_t kPlacesPerTask = 256;
-constexpr std::size_t kMostSwept = 256;  // pieces of a tetrahedron
-constexpr double kLong = 0.25;           // of the depth: sides that are looked at in three points
+// Pieces of a tetrahedron: with fewer, large ones over several triangles of a flat face are
+// refused, and more triangles are left, which takes as long.
+constexpr std::size_t kMostSwept = 256;
+constexpr double kLong = 0.25;  // of the depth: sides that are looked at in three points
 // Of the error, at the points that are looked at: between them it may be less deep.
 constexpr double kSeen = 0.65;
 
