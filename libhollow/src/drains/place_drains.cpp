@@ -169,6 +169,7 @@ class DrainPlacer::Search {
   [[nodiscard]] std::optional<Drill> best_by(const std::vector<Place>& corners, const Key& key,
                                              const Cost& cost, const Fits& fits) {
     std::vector<double> keys;
+    keys.reserve(corners.size());
     for (const Place& wall : corners) keys.push_back(key(wall.at));
     std::vector<std::uint32_t> order(corners.size());
     std::iota(order.begin(), order.end(), 0);
