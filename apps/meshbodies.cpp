@@ -195,7 +195,8 @@ ExitCode divide_files(const BodiesCommand& command, Run& run) {
     run.progress.finish();
     show_held_warnings();
     if (!run.options.quiet) {
-      print_summary(bodies_summary(intake.bodies, result, told.report) +
+      print_summary(gaps_summary(findings.repair) +
+                    bodies_summary(intake.bodies, result, told.report) +
                     fmt::format("written   {}: {}, in {:.2f} s\n", command.output,
                                 number_of(result.mesh.triangles.size(), "triangle"), seconds));
     }

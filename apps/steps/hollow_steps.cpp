@@ -126,21 +126,6 @@ void explain_walls(const TriangleSoup& solid, const Surface& hollowed,
   explanation.origins = std::move(origins);
 }
 
-}  // namespace
-
-void HollowRequest::scale_and_move(double factor, const Findings& findings) {
-  if (!is_share) options.wall *= factor;
-  if (!is_drain_share) options.drain *= factor;
-  for (const std::string& word : std::exchange(places, {})) {
-    Vec3d place = factor * *vector_in(word);
-    if (findings.origin) place -= *findings.origin;
-    options.drains_at.push_back(place);
-    options.drain_names.push_back(word);
-  }
-}
-
-namespace {
-
 CommandOption* add_length_option(CommandLine& app, const std::string& name, double& length,
                                  bool& is_share, const std::string& description) {
   return app
@@ -156,6 +141,17 @@ CommandOption* add_length_option(CommandLine& app, const std::string& name, doub
 }
 
 }  // namespace
+
+void HollowRequest::scale_and_move(double factor, const Findings& findings) {
+  if (!is_share) options.wall *= factor;
+  if (!is_drain_share) options.drain *= factor;
+  for (const std::string& word : std::exchange(places, {})) {
+    Vec3d place = factor * *vector_in(word);
+    if (findings.origin) place -= *findings.origin;
+    options.drains_at.push_back(place);
+    options.drain_names.push_back(word);
+  }
+}
 
 void add_hollow_options(CommandLine& app, HollowRequest& request) {
   const CommandOption* const hollow = add_length_option(

@@ -240,14 +240,18 @@ void describe_sewing(const SewReport& sew, Lines& lines) {
 
 void describe_gaps(const JoinGapsReport& gaps, Lines& lines) {
   if (gaps.distance == 0) return;
-  if (gaps.pairs == 0) {
-    lines.add("joined", fmt::format("nothing: no gaps up to {:.3g}", gaps.distance));
-    return;
+  std::string text = "nothing";
+  if (gaps.left == 0) text += fmt::format(": no gaps up to {:.3g}", gaps.distance);
+  if (gaps.pairs > 0) {
+    text = fmt::format("{} across gaps of at most {:.3g}",
+                       number_of(gaps.pairs, "pair of faces", "pairs of faces"), gaps.widest_gap);
+  } else if (gaps.farthest_move > 0) {
+    text = "faces that touch, but for rounding";
   }
-  std::string text =
-      fmt::format("{} across gaps of at most {:.3g}; {} joined, moved by at most {:.3g}",
-                  number_of(gaps.pairs, "pair of faces", "pairs of faces"), gaps.widest_gap,
-                  number_of(gaps.joined_points, "corner"), gaps.farthest_move);
+  if (gaps.joined_points > 0) text += "; " + number_of(gaps.joined_points, "corner") + " joined";
+  if (gaps.farthest_move > 0) {
+    text += fmt::format("; corners moved by at most {:.3g}", gaps.farthest_move);
+  }
   if (gaps.left > 0) {
     text += fmt::format("; {} still closer than {:.3g}", number_of(gaps.left, "pair", "pairs"),
                         gaps.distance);

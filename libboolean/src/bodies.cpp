@@ -39,7 +39,7 @@ using internal::MendRegionsReport;
 using Complex = internal::RegionComplex;
 using internal::TriangleSides;
 
-constexpr std::uint32_t kOutside = 0;
+using internal::kOutside;
 
 // Chambers of one region that are next to each other are one part.
 struct Parts {
@@ -92,26 +92,23 @@ class OverlapRule {
   std::vector<double> volume_;
 };
 
-// Makes complexes of solids, one after the other.
+// Makes a complex of solids.
 class Divider {
  public:
   Divider(std::size_t bodies, OverlapRule rule, ProgressObserver* progress)
-      : bodies_(bodies), rule_(std::move(rule)), quiet_(progress) {}
+      : bodies_(bodies), rule_(std::move(rule)), progress_(progress) {}
 
-  // `given`: of each solid, how many triangles it had.
-  [[nodiscard]] Complex divide(std::vector<CleanSoup> soups, std::span<const std::size_t> given,
-                               ArrangeReport& report) {
-    const JoinedSolids joined(std::move(soups), given);
+  [[nodiscard]] Complex divide(const JoinedSolids& joined, ArrangeReport& report) {
     if (joined.soup().triangles.empty()) return {};
-    const auto arrangement = Arrangement::make(joined.soup(), report, &quiet_);
+    const auto arrangement = Arrangement::make(joined.soup(), report, progress_);
     if (!arrangement) {
       throw InputError("too many triangles of the bodies meet to divide them");
     }
     auto solids = internal::solids_of_chambers(*arrangement, joined);
-    if (!solids) solids = internal::likely_solids_of_chambers(*arrangement, joined, &quiet_);
+    if (!solids) solids = internal::likely_solids_of_chambers(*arrangement, joined, progress_);
     const std::vector<std::uint32_t> region = regions_of(*solids, arrangement->volumes());
     Parts parts(region, arrangement->walls());
-    auto faces = arrangement->faces(parts.of_chamber, &quiet_);
+    auto faces = arrangement->faces(parts.of_chamber, progress_);
     if (!faces) throw InputError("the faces of the bodies cannot be triangulated");
     Complex complex;
     complex.region_of_part = std::move(parts.region);
@@ -119,12 +116,7 @@ class Divider {
     complex.source = std::move(faces->surface.source);
     complex.parts_of = std::move(faces->regions);
     // A void has a higher number than the outside, and may be behind.
-    for (std::size_t t = 0; t < complex.parts_of.size(); ++t) {
-      auto& [front, behind] = complex.parts_of[t];
-      if (complex.region_of_part[behind] != kOutside) continue;
-      std::swap(front, behind);
-      std::swap(complex.mesh.triangles[t][1], complex.mesh.triangles[t][2]);
-    }
+    internal::turn_outside_to_front(complex);
     return complex;
   }
 
@@ -164,7 +156,7 @@ class Divider {
 
   std::size_t bodies_;
   OverlapRule rule_;
-  CancelOnly quiet_;
+  ProgressObserver* progress_;  // not owned
   std::vector<std::vector<std::uint32_t>> overlaps_;
   std::size_t sets_ = 0;
   double overlap_volume_ = 0;
@@ -278,18 +270,6 @@ void measure(ConformingBodies& bodies) {
   for (const auto& [pair, contact] : contacts) bodies.contacts.push_back(contact);
 }
 
-// On the grid of all.
-std::vector<CleanSoup> clean_bodies(std::span<const TriangleSoup> solids, const Grid& grid,
-                                    BooleanReport& operands, ProgressObserver* progress) {
-  BooleanOptions cleaning;
-  cleaning.repair.progress = progress;
-  std::vector<CleanSoup> soups;
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    soups.push_back(internal::clean_operand(solids[i], i, grid, cleaning, operands));
-  }
-  return soups;
-}
-
 // How far rounding takes faces apart that lie on each other: in steps of the grid, or of numbers in
 // single precision where the solids have no others.
 constexpr double kRoundingSteps = 4;
@@ -302,8 +282,7 @@ class TouchingBodies {
       append_soup(all_, solids[i]);
       solid_of_.resize(all_.triangles.size(), i);
     }
-    BooleanReport unused;
-    grid_ = internal::grid_of(solids, unused);
+    grid_ = internal::grid_of(solids);
     const bool is_single = std::all_of(all_.points.begin(), all_.points.end(), [](const Vec3d& p) {
       return p == internal::rounded_to(p, Precision::float32);
     });
@@ -314,15 +293,16 @@ class TouchingBodies {
 
   [[nodiscard]] double reach() const { return reach_; }
 
-  // Whether faces of two bodies are as near as that, but not in one plane on the grid.
-  [[nodiscard]] bool are_taken_apart(ProgressObserver* progress) const {
+  // Of faces of two bodies that are as near as that, but not in one plane on the grid.
+  [[nodiscard]] std::size_t pairs_taken_apart(ProgressObserver* progress) const {
     NearFacesOptions looking;
     looking.largest_distance = reach_;
     looking.progress = progress;
     const NearFacesFound near = find_near_faces(all_, looking);
-    return std::any_of(near.gaps.begin(), near.gaps.end(), [&](const NearFaces& gap) {
+    const auto count = std::count_if(near.gaps.begin(), near.gaps.end(), [&](const NearFaces& gap) {
       return solid_of_[gap.a] != solid_of_[gap.b] && !are_in_one_plane(gap.a, gap.b);
     });
+    return static_cast<std::size_t>(count);
   }
 
  private:
@@ -342,27 +322,26 @@ class TouchingBodies {
   double reach_ = 0;
 };
 
-// Those that were asked for. Faces that touch are joined in any case: cut into the same triangles,
-// they stay on each other wherever their corners come to lie on the grid.
+// Gaps that were asked for, and faces that touch: cut into the same triangles, they stay on each
+// other wherever their corners come to lie on the grid.
 std::optional<internal::JoinedOperands> join(std::span<const TriangleSoup> solids,
                                              const BodiesOptions& options, RepairReport& report) {
-  BooleanOptions joining;
-  joining.repair.join_gaps = options.join_gaps;
-  joining.repair.join_gaps.joins_touching = true;
-  joining.repair.progress = options.progress;
-  if (options.join_gaps.mode != JoinGapsMode::none) {
-    return internal::join_operands(solids, joining, report);
-  }
-  if (solids.size() < 2) return std::nullopt;
   const TouchingBodies touching(solids);
   CancelOnly quiet(options.progress);
-  if (!touching.are_taken_apart(&quiet)) return std::nullopt;
-  joining.repair.join_gaps.mode = JoinGapsMode::distance;
-  joining.repair.join_gaps.distance = touching.reach();
+  const std::size_t apart = touching.pairs_taken_apart(&quiet);
+  BooleanOptions joining;
+  joining.repair.join_gaps = options.join_gaps;
+  if (apart > 0) joining.repair.join_gaps.touching = touching.reach();
+  joining.repair.progress = options.progress;
+  const bool is_asked_for = options.join_gaps.mode != JoinGapsMode::none;
+  if (!is_asked_for && apart == 0) return std::nullopt;
   try {
     return internal::join_operands(solids, joining, report);
   } catch (const ValueError&) {
-    return std::nullopt;  // something else is as thin
+    if (is_asked_for) throw;
+    report.join_gaps.distance = touching.reach();
+    report.join_gaps.left = apart;  // something else is as thin
+    return std::nullopt;
   }
 }
 
@@ -372,23 +351,20 @@ ConformingBodies divide(std::span<const TriangleSoup> solids, const BodiesOption
   StageMeter meter(report.stages, options.progress);
   meter.begin("operands");
   BooleanReport operands;
-  const Grid grid = internal::grid_of(solids, operands);
+  BooleanOptions cleaning;
   CancelOnly quiet(options.progress);
-  std::vector<CleanSoup> soups = clean_bodies(solids, grid, operands, &quiet);
+  cleaning.repair.progress = &quiet;
+  const JoinedSolids joined = internal::join_solids(solids, cleaning, operands);
   report.operands = std::move(operands.operands);
-  std::vector<std::size_t> given;
   std::vector<double> volumes;
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    given.push_back(solids[i].triangles.size());
-    volumes.push_back(report.operands[i].volume);
-  }
-  Divider divider(solids.size(), OverlapRule(options.overlap, std::move(volumes)),
-                  options.progress);
+  for (const OperandReport& operand : report.operands) volumes.push_back(operand.volume);
+  Divider divider(solids.size(), OverlapRule(options.overlap, std::move(volumes)), &quiet);
   ArrangeReport arranged;
   meter.begin("divide");
-  Complex complex = divider.divide(std::move(soups), given, arranged);
+  Complex complex = divider.divide(joined, arranged);
   report.cut_triangles = arranged.cut_triangles;
   report.overlaps = divider.sets_that_overlap();
+  const Grid& grid = joined.soup().grid;
   report.overlap_volume = divider.overlap_volume() * grid.unit * grid.unit * grid.unit;
   ConformingBodies bodies;
   for (std::uint32_t i = 0; i < solids.size(); ++i) bodies.regions.push_back({{i}});

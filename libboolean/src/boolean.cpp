@@ -72,7 +72,8 @@ BooleanOptions without_gaps(const BooleanOptions& options) {
 Tree merge_operands(std::span<const TriangleSoup> solids, SetOperation operation,
                     const BooleanOptions& options, BooleanReport& report) {
   report = {};
-  const Grid grid = internal::grid_of(solids, report);
+  const Grid grid = internal::grid_of(solids);
+  report.operands.resize(solids.size());
   StageMeter meter(report.result.stages, options.repair.progress);
   meter.begin("operands");
   Tree result = make_operand(solids[0], 0, grid, options, report);

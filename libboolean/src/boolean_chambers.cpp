@@ -47,18 +47,6 @@ std::vector<char> combine_regions(CellGraph& graph, std::span<const TriangleSoup
   return solid;
 }
 
-JoinedSolids join_solids(std::span<const TriangleSoup> solids, const BooleanOptions& options,
-                         BooleanReport& report) {
-  const Grid grid = grid_of(solids, report);
-  std::vector<CleanSoup> soups;
-  std::vector<std::size_t> given;
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    soups.push_back(clean_operand(solids[i], i, grid, options, report));
-    given.push_back(solids[i].triangles.size());
-  }
-  return {std::move(soups), given};
-}
-
 }  // namespace
 
 std::optional<Surface> boolean_by_chambers(std::span<const TriangleSoup> solids,

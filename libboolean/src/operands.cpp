@@ -40,9 +40,8 @@ void throw_too_small(std::size_t operand, const Grid& grid) {
   throw InputError(message.str());
 }
 
-Grid grid_of(std::span<const TriangleSoup> solids, BooleanReport& report) {
+Grid grid_of(std::span<const TriangleSoup> solids) {
   if (solids.empty()) throw InputError("there is no solid to begin with");
-  report.operands.resize(solids.size());
   std::vector<const TriangleSoup*> all;
   all.reserve(solids.size());
   for (const TriangleSoup& solid : solids) all.push_back(&solid);
@@ -64,6 +63,19 @@ CleanSoup clean_operand(const TriangleSoup& solid, std::size_t number, const Gri
     throw_too_small(number, grid);
   }
   return clean;
+}
+
+JoinedSolids join_solids(std::span<const TriangleSoup> solids, const BooleanOptions& options,
+                         BooleanReport& report) {
+  const Grid grid = grid_of(solids);
+  report.operands.resize(solids.size());
+  std::vector<CleanSoup> soups;
+  std::vector<std::size_t> given;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    soups.push_back(clean_operand(solids[i], i, grid, options, report));
+    given.push_back(solids[i].triangles.size());
+  }
+  return {std::move(soups), given};
 }
 
 namespace {
@@ -103,7 +115,7 @@ std::optional<JoinedOperands> join_operands(std::span<const TriangleSoup> solids
                                             const BooleanOptions& options, RepairReport& report) {
   JoinGapsOptions joining = options.repair.join_gaps;
   joining.progress = options.repair.progress;
-  if (joining.mode == JoinGapsMode::none) return std::nullopt;
+  if (joining.mode == JoinGapsMode::none && joining.touching == 0) return std::nullopt;
   StageMeter meter(report.stages, joining.progress);
   meter.begin("join_gaps");
   TriangleSoup all;

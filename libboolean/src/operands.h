@@ -11,16 +11,22 @@
 
 #include <boolean/boolean.h>
 
+#include "joined_solids.h"
+
 namespace meshrepair::internal {
 
-// The grid of all, of which there has to be one; the report gets room for each.
-[[nodiscard]] Grid grid_of(std::span<const TriangleSoup> solids, BooleanReport& report);
+// The grid of all. Throws InputError where there are none.
+[[nodiscard]] Grid grid_of(std::span<const TriangleSoup> solids);
 
-// On that grid; without triangles where the solid has none. Throws InputError where it is nothing
-// there.
+// On that grid; without triangles where the solid has none. The report has room for it. Throws
+// InputError where it is nothing there.
 [[nodiscard]] CleanSoup clean_operand(const TriangleSoup& solid, std::size_t number,
                                       const Grid& grid, const BooleanOptions& options,
                                       BooleanReport& report);
+
+// All on their grid, as one soup; the report gets an entry for each. Throws, as these two do.
+[[nodiscard]] JoinedSolids join_solids(std::span<const TriangleSoup> solids,
+                                       const BooleanOptions& options, BooleanReport& report);
 
 [[noreturn]] void throw_too_small(std::size_t operand, const Grid& grid);
 

@@ -9,9 +9,13 @@
 //   }
 //
 // Guarantees, once report.passed(): no two triangles meet but in corners and sides that both have;
-// the triangles of each region bound it, each side of theirs being passed as often one way as the
-// other; so the exact volumes of all regions add up to that of their union. Triangles that nothing
-// meets come out bit for bit.
+// the triangles of each region bound it: around each side, a region ends where the next one begins.
+// So the exact volumes of all regions add up to that of their union. Triangles that nothing meets
+// come out bit for bit.
+//
+// Faces of two bodies that lie on each other but for rounding are joined first: those no farther
+// apart than four steps of the common grid, or of single precision if no coordinate has more
+// digits. JoinGapsReport tells of it; its `left` is not 0 where that cannot be done.
 #pragma once
 
 #include <array>
@@ -91,7 +95,7 @@ struct BodiesReport {
   double moved_by = 0;             // at most
   std::size_t pairs = 0;           // that are left, and triangles without area
   std::size_t turned_edges = 0;    // around which a region does not end where the next one begins
-  std::size_t turned_parts = 0;    // of regions, and voids, whose volume is not above 0
+  std::size_t turned_parts = 0;    // of regions, and voids, whose volume, rounded, is not above 0
   std::vector<StageReport> stages;
 
   [[nodiscard]] bool passed() const { return pairs + turned_edges + turned_parts == 0; }

@@ -18,7 +18,7 @@
 #include <extract/surface.h>
 #include <repair/internal/mend_faults.h>
 
-#include "point_merger.h"
+#include "merge_points.h"
 #include "region_edges.h"
 
 namespace meshrepair::internal {
@@ -31,13 +31,11 @@ constexpr std::size_t kMostFaultyPairs = 10'000;
 // as far from one try to the next.
 constexpr double kLeastReach = 2, kMostReach = 1024, kReachFactor = 8;
 
-using Pairs = PointMerger::Pairs;
-
 // Triangles that meet, edges that are turned, and parts inside out. A triangle without area is a
 // pair with itself, and so is one at such an edge.
 struct Faults {
   std::size_t meeting = 0, turned_edges = 0, turned_parts = 0, count = 0;
-  Pairs pairs;
+  FaultyPairs pairs;
   SelfIntersections found;
 };
 
@@ -72,15 +70,16 @@ Faults find_faults(const RegionComplex& complex, ProgressObserver* progress) {
 using Step = std::size_t (*)(RegionComplex&, const Faults&, const MendRegionsOptions&,
                              double within, double& distance);
 
-// Parts at fault that are no thicker than this, and those inside out, go to a part beside them.
-std::size_t drop_thin_parts(RegionComplex& complex, const Faults& faults, const MendRegionsOptions&,
-                            double within, double& distance) {
+// Parts at fault that are no thicker than rounding, and those inside out, go to a part beside them.
+std::size_t drop_thin_parts(RegionComplex& complex, const Faults& faults,
+                            const MendRegionsOptions& options, double, double& distance) {
+  const double thin = kLeastReach * options.unit;
   const auto sizes = sizes_of_parts(complex);
   std::vector<char> goes(sizes.size(), 0);
   for (const auto& pair : faults.pairs) {
     for (const std::uint32_t t : pair) {
       for (const std::uint32_t part : complex.parts_of[t]) {
-        goes[part] = 2 * sizes[part].volume <= within * sizes[part].area ? 1 : 0;
+        goes[part] = 2 * sizes[part].volume <= thin * sizes[part].area ? 1 : 0;
       }
     }
   }
@@ -106,23 +105,17 @@ std::size_t drop_thin_parts(RegionComplex& complex, const Faults& faults, const 
     most[parts[0]] = area;
     becomes[parts[0]] = parts[1];
   }
-  distance = within;
+  distance = thin;
   std::size_t gone = 0;
   for (std::uint32_t part = 0; part < becomes.size(); ++part) gone += becomes[part] != part ? 1 : 0;
   if (gone > 0) complex = compacted(complex, becomes);
   return gone;
 }
 
-std::size_t merge_points(RegionComplex& complex, const Faults& faults,
-                         const MendRegionsOptions& options, double within, double& distance) {
-  PointMerger merger(complex, faults.pairs, {within, options.precision, options.progress});
-  std::size_t edits = 0;
-  for (const auto& [t, u] : faults.pairs) {
-    while (merger.improve(t, u)) ++edits;
-  }
-  distance = merger.distance();
-  if (edits > 0) merger.finish();
-  return edits;
+std::size_t merge_near_points(RegionComplex& complex, const Faults& faults,
+                              const MendRegionsOptions& options, double within, double& distance) {
+  return merge_points(complex, faults.pairs, {within, options.precision, options.progress},
+                      distance);
 }
 
 std::size_t move_points(RegionComplex& complex, const Faults& faults,
@@ -138,7 +131,7 @@ std::size_t move_points(RegionComplex& complex, const Faults& faults,
   mending.progress = options.progress;
   const std::size_t edits = mend_faults(surface, faults.found, mending);
   if (edits == 0) return 0;
-  distance = within;
+  distance = std::max(within, kMostMendShift * mending.step);
   RegionComplex result;
   result.mesh = std::move(surface.mesh);
   result.region_of_part = complex.region_of_part;
@@ -179,7 +172,7 @@ void mend_regions(RegionComplex& complex, const MendRegionsOptions& options,
     bool goes_on = true;
     while (goes_on && faults.count > 0 && faults.pairs.size() <= kMostFaultyPairs) {
       goes_on = false;
-      for (const Step step : {&drop_thin_parts, &merge_points, &move_points}) {
+      for (const Step step : {&drop_thin_parts, &merge_near_points, &move_points}) {
         if (faults.count == 0) break;
         if (is_of_use(step, within, options, complex, faults, report)) goes_on = true;
       }

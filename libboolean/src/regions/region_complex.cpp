@@ -12,6 +12,15 @@
 
 namespace meshrepair::internal {
 
+void turn_outside_to_front(RegionComplex& complex) {
+  for (std::size_t t = 0; t < complex.parts_of.size(); ++t) {
+    auto& [front, behind] = complex.parts_of[t];
+    if (complex.region_of_part[behind] != kOutside) continue;
+    std::swap(front, behind);
+    std::swap(complex.mesh.triangles[t][1], complex.mesh.triangles[t][2]);
+  }
+}
+
 RegionComplex compacted(const RegionComplex& complex, const std::vector<std::uint32_t>& becomes) {
   const auto region = [&](std::uint32_t part) { return complex.region_of_part[part]; };
   DisjointSets one(becomes.size());
@@ -32,7 +41,7 @@ RegionComplex compacted(const RegionComplex& complex, const std::vector<std::uin
   std::vector<std::uint32_t> place(complex.mesh.points.size(), kNone);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (triangles[t] == kGone) continue;
-    std::array sides = {now(complex.parts_of[t][0]), now(complex.parts_of[t][1])};
+    const std::array sides = {now(complex.parts_of[t][0]), now(complex.parts_of[t][1])};
     if (sides[0] == sides[1]) continue;
     IndexTriangle corners = triangles[t];
     for (std::uint32_t& p : corners) {
@@ -42,14 +51,11 @@ RegionComplex compacted(const RegionComplex& complex, const std::vector<std::uin
       }
       p = place[p];
     }
-    if (result.region_of_part[sides[1]] == 0) {  // what is outside is in front
-      std::swap(sides[0], sides[1]);
-      std::swap(corners[1], corners[2]);
-    }
     result.mesh.triangles.push_back(corners);
     result.parts_of.push_back(sides);
     result.source.push_back(complex.source[t]);
   }
+  turn_outside_to_front(result);
   return result;
 }
 

@@ -31,8 +31,14 @@ struct RegionComplex {
   }
 };
 
+// The region that is around all others.
+inline constexpr std::uint32_t kOutside = 0;
+
+// Turns triangles so that it is in front of those that it is beside.
+void turn_outside_to_front(RegionComplex& complex);
+
 // With other parts in place of some, and without triangles that are gone, which have no corners, or
-// have the same region on both sides, and without points that no triangle has. Region 0 is in
+// have the same region on both sides, and without points that no triangle has. The outside is in
 // front.
 [[nodiscard]] RegionComplex compacted(const RegionComplex& complex,
                                       const std::vector<std::uint32_t>& becomes);

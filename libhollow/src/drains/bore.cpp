@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <base/disjoint_sets.h>
+#include <check/internal/segments.h>
 #include <hollow/hollow_options.h>
 #include <mesh/weld_points.h>
 
@@ -259,21 +260,6 @@ Across across(const Vec3d& axis) {
   axis.cwiseAbs().minCoeff(&least);
   const Vec3d u = axis.cross(Vec3d::Unit(least)).normalized();
   return {u, axis.normalized().cross(u)};
-}
-
-// As in C. Ericson, "Real-time collision detection", 5.1.9.
-Segment shortest_between(const Segment& a, const Segment& b) {
-  const Vec3d along_a = a.to - a.from, along_b = b.to - b.from, between = a.from - b.from;
-  const double aa = along_a.squaredNorm(), bb = along_b.squaredNorm(), ab = along_a.dot(along_b);
-  const double ac = along_a.dot(between), bc = along_b.dot(between);
-  const double area = aa * bb - ab * ab;
-  double s = area > 0 ? std::clamp((ab * bc - ac * bb) / area, 0.0, 1.0) : 0;
-  double t = bb > 0 ? (ab * s + bc) / bb : 0;
-  if (t < 0 || t > 1 || bb == 0) {
-    t = std::clamp(t, 0.0, 1.0);
-    s = aa > 0 ? std::clamp((ab * t - ac) / aa, 0.0, 1.0) : 0;
-  }
-  return {a.from + s * along_a, b.from + t * along_b};
 }
 
 std::optional<Bore> bore_at(const Depth& depth, const Vec3d& mouth, const Vec3d& inward,

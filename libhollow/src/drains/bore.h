@@ -39,12 +39,6 @@ struct Bore {
                                           const Vec3d& inward, std::uint32_t position,
                                           const BoreSize& size);
 
-struct Segment {
-  Vec3d from = Vec3d::Zero(), to = Vec3d::Zero();
-};
-// Of the points of the two segments that are nearest to each other.
-[[nodiscard]] Segment shortest_between(const Segment& a, const Segment& b);
-
 // At right angles to the axis and to each other, of length 1.
 struct Across {
   Vec3d u = Vec3d::Zero(), v = Vec3d::Zero();

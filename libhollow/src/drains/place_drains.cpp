@@ -11,6 +11,8 @@
 
 #include <Eigen/Geometry>
 
+#include <base/internal/hash_index.h>
+#include <check/internal/segments.h>
 #include <check/soup_rays.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/weld_points.h>
@@ -200,8 +202,7 @@ class DrainPlacer::Search {
     std::uint64_t cell = 0;
     for (Eigen::Index k = 0; k < 3; ++k) {
       const auto step = static_cast<std::int64_t>(std::floor(at[k] / (kSamePlace * 0.5 * drain_)));
-      cell = 0x9E3779B97F4A7C15U * (cell ^ static_cast<std::uint64_t>(step));
-      cell ^= cell >> 29U;
+      cell = hash_mix(cell, static_cast<std::uint64_t>(step));
     }
     return cell;
   }

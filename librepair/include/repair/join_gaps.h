@@ -23,9 +23,10 @@ struct JoinGapsOptions {
   double distance = 0;    // of JoinGapsMode::distance, in the soup's unit
   bool is_share = false;  // it is a share of the diagonal of the soup's bounding box instead
   ProgressObserver* progress = nullptr;
-  // Where there is no gap but rounding between faces, they are joined all the same: they get the
-  // same triangles, which no rounding takes apart.
-  bool joins_touching = false;
+  // If above 0, faces no farther apart than this are joined also where there is no gap but rounding
+  // between any of them: they get the same triangles, which no rounding takes apart. In the soup's
+  // unit.
+  double touching = 0;
 };
 
 struct JoinGapsReport {

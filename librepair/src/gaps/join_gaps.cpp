@@ -143,7 +143,7 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
                                     JoinGapsReport& report) {
   report = {};
   CancelCheck check(options.progress);
-  const double distance = distance_for(soup, options);
+  const double distance = std::max(distance_for(soup, options), options.touching);
   if (!(distance > 0)) return std::nullopt;
   NearFacesOptions looking;
   looking.largest_distance = kThin * distance;
@@ -156,10 +156,9 @@ std::optional<JoinedSoup> join_gaps(const TriangleSoup& soup, const JoinGapsOpti
     report.widest_gap = std::max(report.widest_gap, gap.apart);
   }
   report.distance = distance;
-  const bool is_for_touching = options.joins_touching && !near.gaps.empty();
-  if (report.pairs == 0 && !is_for_touching) return std::nullopt;
+  if (near.gaps.empty() || (report.pairs == 0 && options.touching == 0)) return std::nullopt;
   // Where gaps are narrower than was asked for, so is what is taken for near beside them.
-  const double widest = is_for_touching ? distance / kGapMargin : report.widest_gap;
+  const double widest = std::max(report.widest_gap, options.touching / kGapMargin);
   const double within = std::min(distance, kGapMargin * widest);
   internal::NearParts parts(soup, near.gaps, widest, within, check);
   JoinedSoup joined = internal::cut_near_mesh(soup, parts.bring_together(), report, check);

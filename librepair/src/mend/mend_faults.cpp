@@ -24,6 +24,7 @@
 #include <base/roots.h>
 #include <check/box_tree.h>
 #include <check/internal/fault_counter.h>
+#include <check/internal/segments.h>
 #include <check/internal/star_distance.h>
 #include <exact/double_predicates.h>
 #include <mesh/internal/collapsible_mesh.h>
@@ -40,7 +41,7 @@ constexpr std::size_t kMostFaultyPairs = 1'000;
 constexpr std::size_t kMostAround = 48;
 
 // How far points are moved along a normal, in steps of the numbers.
-constexpr std::array<double, 8> kShifts{1, 2, 4, 8, 16, 32, 64, 128};
+constexpr std::array<double, 8> kShifts{1, 2, 4, 8, 16, 32, 64, kMostMendShift};
 
 // Around what edits of these pairs may change, and as far beyond it as it is large.
 std::vector<Box> places_of(const EditableMesh& mesh, const std::vector<Vec3d>& points,
@@ -71,7 +72,7 @@ class FaultMender {
         options_(options),
         cancel_(options.progress),
         mesh_(surface.mesh.triangles, points_.size()),
-        faults_(surface.mesh, 2 * kShifts.back() * options.step, places_of(mesh_, points_, pairs)) {
+        faults_(surface.mesh, 2 * kMostMendShift * options.step, places_of(mesh_, points_, pairs)) {
   }
 
   // Makes the edit around the two triangles that leaves the fewest faults, if it leaves fewer.
@@ -152,7 +153,7 @@ class FaultMender {
                     const std::array<std::optional<Vec3d>, 2>& normals) {
     Edit edit;
     if (!take_stars(points, edit)) return;
-    const double farthest = 2 * kShifts.back() * options_.step;
+    const double farthest = 2 * kMostMendShift * options_.step;
     const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles, farthest);
     if (before == 0) return;
     std::vector<Vec3d> from(points.size());
@@ -227,7 +228,8 @@ class FaultMender {
     if (!lie_beside_each_other(edit.mesh)) return;
     const TriangleCorners& one = edit.mesh.now[0];
     const TriangleCorners& old = mesh_.triangles()[triangle];
-    edit.distance = distance_of_lines(one[0], one[1], old[k], old[(k + 1) % 3]);
+    edit.distance = distance_of_lines({points_[one[0]], points_[one[1]]},
+                                      {points_[old[k]], points_[old[(k + 1) % 3]]});
     if (!(edit.distance <= options_.within)) return;
     const std::ptrdiff_t before = faults_.start(mesh_, edit.mesh.triangles);
     if (before == 0) return;
@@ -243,13 +245,6 @@ class FaultMender {
       const auto before = normal_of(mesh_.triangles()[t]);
       return !before || (before->dot(*one) > 0 && before->dot(*two) > 0);
     });
-  }
-
-  // Through a and b, and through c and d. Not a number where they are parallel.
-  [[nodiscard]] double distance_of_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                         std::uint32_t d) const {
-    const Vec3d across = (points_[b] - points_[a]).cross(points_[d] - points_[c]);
-    return std::abs(across.dot(points_[a] - points_[c])) / stable_length(across);
   }
 
   Surface& surface_;

@@ -61,25 +61,5 @@ TEST(Bore, IsAsLongAsItsWholeSectionNeeds) {
                bore_into(ball, Vec3d(0, 0.01, 0.9), {0.1, 1.9})->beside > 0);
 }
 
-TEST(Bore, ShortestWaysBetweenSegmentsAreShortest) {
-  Random random(5);
-  const auto point = [&] {
-    return Vec3d(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1));
-  };
-  for (int i = 0; i < 200; ++i) {
-    Segment a = {point(), point()}, b = {point(), point()};
-    if (i % 5 == 0) b.to = b.from;
-    if (i % 7 == 0) a.to = a.from;
-    if (i % 11 == 0) b = {a.from + Vec3d(0, 0, 1), a.to + Vec3d(0, 0, 1)};
-    const Segment shortest = shortest_between(a, b);
-    const double length = (shortest.to - shortest.from).norm();
-    for (int k = 0; k < 50; ++k) {
-      const double s = random.real(0, 1), t = random.real(0, 1);
-      const Vec3d p = a.from + s * (a.to - a.from), q = b.from + t * (b.to - b.from);
-      EXPECT_LE(length, (p - q).norm() + 1e-12);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace meshrepair::internal

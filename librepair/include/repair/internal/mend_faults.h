@@ -11,6 +11,9 @@
 
 namespace meshrepair::internal {
 
+// How far points are moved at most, in steps.
+inline constexpr double kMostMendShift = 128;
+
 struct MendOptions {
   double step = 0;    // of the numbers that can be written
   double within = 0;  // how far the surface may be where an edge was collapsed or turned
@@ -19,8 +22,8 @@ struct MendOptions {
 };
 
 // Where two triangles intersect, or one has no area: moves corners of theirs along the normal of
-// one, by up to 128 steps, or collapses or turns an edge, whichever leaves the fewest of the
-// triangles around it at fault, as long as these become fewer. The surface stays closed and
+// one, by up to kMostMendShift steps, or collapses or turns an edge, whichever leaves the fewest of
+// the triangles around it at fault, as long as these become fewer. The surface stays closed and
 // manifold, of the same genus. `found` lists its faults, with equal points as one; nothing is done
 // where they are very many. Points that move are no points of the input any more. Returns how many
 // edits were made. Throws Cancelled. Besides n log n it costs what is near the faults.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "point_merger.h"
+#include "merge_points.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -16,6 +15,7 @@
 #include <base/ids.h>
 #include <base/roots.h>
 #include <check/internal/fault_counter.h>
+#include <check/internal/segments.h>
 #include <mesh/internal/editable_mesh.h>
 
 #include "region_edges.h"
@@ -41,7 +41,7 @@ TriangleCorners sorted(TriangleCorners corners) {
 }
 
 // Boxes around the triangles of pairs, and as far beyond them as they are large.
-std::vector<Box> places_of(const TriangleSoup& mesh, const PointMerger::Pairs& pairs) {
+std::vector<Box> places_of(const TriangleSoup& mesh, const FaultyPairs& pairs) {
   std::vector<Box> places;
   for (const auto& pair : pairs) {
     Box& place = places.emplace_back();
@@ -53,29 +53,9 @@ std::vector<Box> places_of(const TriangleSoup& mesh, const PointMerger::Pairs& p
   return places;
 }
 
-// Of the line through a and b from that through c and d. Not a number where they are parallel.
-double distance_of_lines(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-  const Vec3d across = (b - a).cross(d - c);
-  return std::abs(across.dot(a - c)) / stable_length(across);
-}
-
-// Of two segments the points that are nearest to each other; nothing where these are ends, or where
-// the segments are parallel.
-std::optional<std::array<Vec3d, 2>> nearest_points(const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                                                   const Vec3d& d) {
-  const Vec3d u = b - a, v = d - c, w = a - c;
-  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double determinant = uu * vv - uv * uv;
-  const double s = (uv * vw - vv * uw) / determinant, t = (uu * vw - uv * uw) / determinant;
-  if (!(s > 0 && s < 1 && t > 0 && t < 1)) return std::nullopt;
-  return std::array<Vec3d, 2>{a + s * u, c + t * v};
-}
-
-}  // namespace
-
-class PointMerger::Search {
+class PointMerger {
  public:
-  Search(RegionComplex& complex, const Pairs& pairs, const MergeOptions& options)
+  PointMerger(RegionComplex& complex, const FaultyPairs& pairs, const MergeOptions& options)
       : complex_(complex),
         points_(complex.mesh.points),
         within_(options.within),
@@ -95,17 +75,16 @@ class PointMerger::Search {
     best_ = {};
     const TriangleCorners &a = mesh_.triangles()[t], &b = mesh_.triangles()[u];
     if (t != u && sorted(a) == sorted(b)) try_to_merge(a[0], a[0]);
-    const std::array either = {std::pair(a, b), std::pair(b, a)};
-    for (const auto& [one, other] : either) {
+    for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
       for (std::size_t k = 0; k < 3; ++k) {
         try_mergers(one[k], other);
         try_to_split(one[(k + 1) % 3], one[(k + 2) % 3], one[k]);
         try_to_flip(one[(k + 1) % 3], one[(k + 2) % 3]);
         for (const std::uint32_t p : other) try_to_split(one[(k + 1) % 3], one[(k + 2) % 3], p);
-        for (std::size_t l = 0; l < 3 && &one == &either[0].first; ++l) {
-          try_to_cross(one[k], one[(k + 1) % 3], other[l], other[(l + 1) % 3]);
-        }
       }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t l = 0; l < 3; ++l) try_to_cross(a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]);
     }
     if (best_.gain <= 0) return false;
     make_best();
@@ -178,13 +157,14 @@ class PointMerger::Search {
   // Leads two edges over a new point between them.
   void try_to_cross(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     if (a == c || a == d || b == c || b == d || new_point_ == points_.size()) return;
-    const auto between = nearest_points(points_[a], points_[b], points_[c], points_[d]);
-    if (!between) return;
+    const Segment one = {points_[a], points_[b]}, other = {points_[c], points_[d]};
+    const auto [from, to] = shortest_between(one, other);
+    if (from == one.from || from == one.to || to == other.from || to == other.to) return;
     Merger merger;
-    merger.distance = stable_length((*between)[1] - (*between)[0]);
+    merger.distance = stable_length(to - from);
     if (!(merger.distance <= within_)) return;
     if (!begin(merger, {mesh_.triangles_of(a), mesh_.triangles_of(c)})) return;
-    points_[new_point_] = rounded_to(0.5 * ((*between)[0] + (*between)[1]), precision_);
+    points_[new_point_] = rounded_to(0.5 * (from + to), precision_);
     merger.new_point = points_[new_point_];
     lead_over(merger, a, b, new_point_);
     lead_over(merger, c, d, new_point_);
@@ -228,7 +208,7 @@ class PointMerger::Search {
     TriangleCorners &one = now[beside[0]], &other = now[beside[1]];
     const std::uint32_t c = apex(one), d = apex(other);
     if (c == d) return;
-    merger.distance = distance_of_lines(points_[a], points_[b], points_[c], points_[d]);
+    merger.distance = distance_of_lines({points_[a], points_[b]}, {points_[c], points_[d]});
     if (!(merger.distance <= within_)) return;
     std::replace(one.begin(), one.end(), b, d);
     std::replace(other.begin(), other.end(), a, c);
@@ -403,15 +383,18 @@ class PointMerger::Search {
   std::vector<std::pair<TriangleCorners, std::uint32_t>> order_;  // scratch
 };
 
-PointMerger::PointMerger(RegionComplex& complex, const Pairs& pairs, const MergeOptions& options)
-    : search_(std::make_unique<Search>(complex, pairs, options)) {}
+}  // namespace
 
-PointMerger::~PointMerger() = default;
-
-bool PointMerger::improve(std::uint32_t t, std::uint32_t u) { return search_->improve(t, u); }
-
-double PointMerger::distance() const { return search_->distance(); }
-
-void PointMerger::finish() { search_->finish(); }
+std::size_t merge_points(RegionComplex& complex, const FaultyPairs& pairs,
+                         const MergeOptions& options, double& distance) {
+  PointMerger merger(complex, pairs, options);
+  std::size_t edits = 0;
+  for (const auto& [t, u] : pairs) {
+    while (merger.improve(t, u)) ++edits;
+  }
+  distance = merger.distance();
+  if (edits > 0) merger.finish();
+  return edits;
+}
 
 }  // namespace meshrepair::internal

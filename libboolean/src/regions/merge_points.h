@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include <base/progress.h>
@@ -25,28 +24,13 @@ struct MergeOptions {
   ProgressObserver* progress = nullptr;      // not owned
 };
 
-// Makes edits around pairs of triangles that are at fault: they meet, or one has no area, or is at
-// an edge that is turned (region_edges.h). These are a triangle twice.
-class PointMerger {
- public:
-  using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+// Two triangles that meet; or twice one that has no area, or is at an edge that is turned
+// (region_edges.h).
+using FaultyPairs = std::vector<std::array<std::uint32_t, 2>>;
 
-  // `complex` keeps its place, and is as it was until finish() is called.
-  PointMerger(RegionComplex& complex, const Pairs& pairs, const MergeOptions& options);
-  ~PointMerger();
-
-  // Makes the edit around the two triangles that leaves the fewest faults, if it leaves fewer.
-  bool improve(std::uint32_t t, std::uint32_t u);
-
-  // The most that an edge or a point moved.
-  [[nodiscard]] double distance() const;
-
-  // Puts the result into the complex.
-  void finish();
-
- private:
-  class Search;
-  std::unique_ptr<Search> search_;
-};
+// For each pair the edit around it that leaves the fewest faults, as long as one leaves fewer.
+// Returns how many were made, and the most that a point or an edge moved.
+[[nodiscard]] std::size_t merge_points(RegionComplex& complex, const FaultyPairs& pairs,
+                                       const MergeOptions& options, double& distance);
 
 }  // namespace meshrepair::internal
