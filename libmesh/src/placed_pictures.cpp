@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include <base/angles.h>
 #include <mesh/placed_pictures.h>
 
 namespace meshrepair {
@@ -26,7 +26,7 @@ Placing placing_of(const Material& look) {
 // As KHR_texture_transform says: v is turned downwards, and back.
 void move_values(const TextureTransform& transform, double* first, const double* last,
                  std::size_t components) {
-  const double cosine = std::cos(transform.rotation), sine = std::sin(transform.rotation);
+  const auto [cosine, sine] = cosine_and_sine(transform.rotation);
   for (; first != last; first += components) {
     const double u = transform.scale[0] * first[0];
     const double v = transform.scale[1] * (1 - first[1]);

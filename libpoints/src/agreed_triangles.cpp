@@ -2,7 +2,6 @@
 #include "agreed_triangles.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -10,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <base/angles.h>
 #include <base/ids.h>
 #include <base/parallel.h>
 
@@ -75,7 +75,7 @@ class Agreement {
     const Vec3d across = normal.cross(axis);
     const auto direction = [&](std::uint32_t other) {
       const Vec3d offset = points_[other] - points_[point];
-      return std::atan2(offset.dot(across), offset.dot(axis));
+      return arc_tangent(offset.dot(across), offset.dot(axis));
     };
     const double to_a = direction(a);
     const double to_b = direction(b);

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <base/angles.h>
 #include <base/internal/hash_index.h>
 #include <mesh/precision.h>
 #include <mesh/weld_points.h>
@@ -50,7 +50,7 @@ Vec3d weighted_normal(const TriangleSoup& mesh, const std::array<std::uint32_t, 
   const Vec3d normal = a.cross(b);
   const double sine = normal.norm();
   if (!(sine > 0)) return Vec3d::Zero();
-  return std::atan2(sine, a.dot(b)) / sine * normal;
+  return arc_tangent(sine, a.dot(b)) / sine * normal;
 }
 
 // Unit vectors out of the solid around each copy, or where copies were joined along an edge, into

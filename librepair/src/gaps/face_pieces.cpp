@@ -9,6 +9,7 @@
 #include <optional>
 #include <tuple>
 
+#include <base/angles.h>
 #include <base/ids.h>
 #include <mesh/triangulate_polygon.h>
 
@@ -84,7 +85,7 @@ class Regions {
     std::vector<double> angle(from_.size());
     for (std::uint32_t h = 0; h < from_.size(); ++h) {
       const Flat along = at_(from_[h ^ 1u]) - at_(from_[h]);
-      angle[h] = std::atan2(along.y(), along.x());
+      angle[h] = arc_tangent(along.y(), along.x());
     }
     std::sort(around.begin(), around.end(), [&](std::uint32_t g, std::uint32_t h) {
       return std::tuple(from_[g], angle[g], g) < std::tuple(from_[h], angle[h], h);

@@ -16,6 +16,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <base/angles.h>
+
 #include "rim_plane.h"
 
 namespace meshrepair::internal {
@@ -79,7 +81,7 @@ double mean_bend(const Rim& rim, const std::vector<Vec3d>& points,
       const double edge = (points[b] - points[a]).norm();
       const double height = 2 * triangle_area(points[a], points[b], third) / edge;
       const double weight = std::min(edge, height);
-      sum += weight * std::acos(std::clamp(-cosine, -1.0, 1.0));
+      sum += weight * arc_cosine(std::clamp(-cosine, -1.0, 1.0));
       length += weight;
     }
   }

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include <base/angles.h>
 #include <base/ids.h>
 
 #include "rim.h"
@@ -151,7 +152,7 @@ class Refiner {
     const Corners& c = triangles_[t];
     const Vec3d& at = points_[c[(k + 2) % 3]];
     const Vec3d u = points_[c[k]] - at, v = points_[c[(k + 1) % 3]] - at;
-    return std::atan2(u.cross(v).norm(), u.dot(v));
+    return arc_tangent(u.cross(v).norm(), u.dot(v));
   }
 
   // Turns side k of t into the other diagonal where the angles across it are more than half a turn.

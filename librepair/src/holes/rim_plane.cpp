@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include <base/angles.h>
+
 namespace meshrepair::internal {
 namespace {
 
@@ -18,7 +20,7 @@ double edge_length(const Rim& rim, std::size_t i) { return edge_of(rim, i).norm(
 // Between the surface at an edge and the plane.
 double angle_at(const Rim& rim, std::size_t i, const RimPlane& plane) {
   const Vec3d normal = edge_of(rim, i).cross(rim.apex[i] - rim.points[i]).normalized();
-  return std::acos(std::clamp(std::abs(normal.dot(plane.normal)), 0.0, 1.0));
+  return arc_cosine(std::clamp(std::abs(normal.dot(plane.normal)), 0.0, 1.0));
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 #include "surface_pieces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
 #include <base/parallel.h>
+#include <base/roots.h>
 #include <base/trivial_vector.h>
 #include <mesh/internal/triangle_measures.h>
 
@@ -69,8 +69,9 @@ SurfaceSum sum_of(const CleanSoup& soup, TriangleId t) {
   SurfaceSum sum;
   const Triangle& triangle = soup.triangles[t];
   const Plane plane = plane_of_corners(soup, t);
-  sum.area = std::hypot(static_cast<double>(plane.normal[0]), static_cast<double>(plane.normal[1]),
-                        static_cast<double>(plane.normal[2]));
+  sum.area =
+      stable_length({static_cast<double>(plane.normal[0]), static_cast<double>(plane.normal[1]),
+                     static_cast<double>(plane.normal[2])});
   if (says_something(triangle)) sum.kept = sum.area;
   sum.six_volumes = -plane.offset;
   for (std::size_t k = 0; k < 3; ++k) sum.normal[k] = plane.normal[k];
@@ -240,8 +241,8 @@ int SurfaceSum::outward() const {
 }
 
 bool SurfaceSum::nearly_closed() const {
-  return std::hypot(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
-                    static_cast<double>(normal[2])) <= kHoleShare * area;
+  return stable_length({static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                        static_cast<double>(normal[2])}) <= kHoleShare * area;
 }
 
 SurfacePieces find_pieces(const CleanSoup& soup, std::span<const IndexTriangle> triangles,

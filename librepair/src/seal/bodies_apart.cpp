@@ -2,7 +2,6 @@
 #include "bodies_apart.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include <base/ids.h>
+#include <base/roots.h>
 #include <check/box_tree.h>
 
 namespace meshrepair::internal {
@@ -77,8 +77,8 @@ class Divider {
     double largest = 0;
     for (const std::uint32_t b : among) {
       const Box& box = boxes_[b];
-      largest = std::max(largest, std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1],
-                                             box.high[2] - box.low[2]));
+      largest = std::max(largest, stable_length({box.high[0] - box.low[0], box.high[1] - box.low[1],
+                                                 box.high[2] - box.low[2]}));
     }
     return gap_ * largest;
   }

@@ -24,6 +24,7 @@
 
 #include <Eigen/Geometry>
 
+#include <base/angles.h>
 #include <base/disjoint_sets.h>
 #include <base/error.h>
 #include <base/parallel.h>
@@ -77,8 +78,9 @@ std::vector<Vec3d> ray_directions() {
   const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
   for (std::size_t i = 0; i < kRays; ++i) {
     const double z = 1 - (2 * static_cast<double>(i) + 1) / kRays;
-    const double radius = std::sqrt(1 - z * z), angle = turn * static_cast<double>(i);
-    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    const double radius = std::sqrt(1 - z * z);
+    const auto [cosine, sine] = cosine_and_sine(turn * static_cast<double>(i));
+    directions.emplace_back(radius * cosine, radius * sine, z);
   }
   return directions;
 }

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -25,6 +24,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <base/angles.h>
 #include <base/disjoint_sets.h>
 #include <base/ids.h>
 #include <exact/double_predicates.h>
@@ -152,7 +152,7 @@ class OffsetFinder {
   [[nodiscard]] double angle_at(std::uint32_t corner) const {
     const Vec3d& p = mesh_.at(corner);
     const Vec3d u = mesh_.at(next_side(corner)) - p, v = mesh_.beyond(corner) - p;
-    return std::atan2(u.cross(v).norm(), u.dot(v));
+    return arc_tangent(u.cross(v).norm(), u.dot(v));
   }
 
   void set_own_vector(std::uint32_t corner) {

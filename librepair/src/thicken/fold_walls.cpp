@@ -18,6 +18,8 @@
 
 #include <Eigen/Geometry>
 
+#include <base/angles.h>
+
 #include "hull_walls.h"
 #include "own_walls.h"
 
@@ -109,7 +111,7 @@ class FoldMaker {
       leaves_.push_back(leaf);
     }
     const Vec3d u = leaves_[0].inward, v = along.cross(u);
-    for (Leaf& leaf : leaves_) leaf.angle = std::atan2(leaf.inward.dot(v), leaf.inward.dot(u));
+    for (Leaf& leaf : leaves_) leaf.angle = arc_tangent(leaf.inward.dot(v), leaf.inward.dot(u));
     std::stable_sort(leaves_.begin(), leaves_.end(),
                      [](const Leaf& a, const Leaf& b) { return a.angle < b.angle; });
   }
