@@ -205,7 +205,9 @@ void write_html_stage(const HtmlRequest& request, View::Up up, const Drawn& inpu
                             page_kinds(kinds_of_origins()),
                             numbers_of(explanation.origins),
                             {},
-                            &result.attributes});
+                            &result.attributes,
+                            {},
+                            findings.thin});
   content.inputs = {findings.input};
   content.report = page_sections(findings);
   write_page(request, std::move(content), run);

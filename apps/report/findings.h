@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <bsp/tree.h>
+#include <check/thin_places.h>
 #include <hollow/hollow_report.h>
 #include <mesh/point_io.h>
 #include <mesh/soup_io.h>
@@ -62,8 +63,9 @@ struct Findings {
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
   HollowReport hollow;
-  bool has_walls = false;       // of sheets, in some mesh of a scene
-  bool wants_fidelity = false;  // though there is no report
+  std::optional<ThinReport> thin;  // of the output, if that was looked for
+  bool has_walls = false;          // of sheets, in some mesh of a scene
+  bool wants_fidelity = false;     // though there is no report
   std::optional<Fidelity> fidelity;
   std::size_t output_points = 0;
   std::string missing_guarantees;    // of that mesh, for people; empty: it holds all

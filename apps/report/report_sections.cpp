@@ -7,6 +7,7 @@
 
 #include "report/distance_report.h"
 #include "report/findings.h"
+#include "report/thickness_report.h"
 
 namespace meshrepair {
 namespace {
@@ -511,6 +512,11 @@ void add_sections(const Findings& findings, JsonReport& report) {
   if (has("extract") && was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));
     report.set_section("certificate", certificate_of(repair));
+  }
+  if (findings.thin) {
+    ThinReport few = *findings.thin;
+    keep_places(few, ThinOptions().most_places);
+    report.set_section("thickness", thickness_section(few));
   }
   if (!findings.required.is_null()) report.set_section("required", findings.required);
   if (findings.fidelity) report.set_section("distance", distance_section(*findings.fidelity));

@@ -2,6 +2,7 @@
 #include "report/thickness_report.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -76,6 +77,15 @@ std::string thickness_text(const ThinReport& thin, bool is_solid) {
                   100 * share_of(thin), thin.thin_area, thin.limit);
   for (const ThinLook& look : kLooks) text += line_of(look, thin[look.kind]);
   return text.append(caution);
+}
+
+std::string thin_counts(const ThinReport& thin) {
+  std::vector<std::string> counts;
+  for (const ThinLook& look : kLooks) {
+    const std::size_t count = thin[look.kind].count;
+    if (count > 0) counts.push_back(number_of(count, look.noun));
+  }
+  return joined_with(", ", counts);
 }
 
 Json thickness_section(const ThinReport& thin) {

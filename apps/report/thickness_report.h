@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What meshcheck --thickness has found, for people, for scripts and for the eye.
+// What --thickness has found, for people, for scripts and for the eye.
 #pragma once
 
 #include <array>
@@ -35,7 +35,10 @@ struct ThinLook {
 // Lines for the table. `is_solid`: the mesh bounds a solid.
 [[nodiscard]] std::string thickness_text(const ThinReport& thin, bool is_solid);
 
-// The section "thickness" of "check" in the report.
+// "2 walls, 1 pin"; empty where nothing is thin.
+[[nodiscard]] std::string thin_counts(const ThinReport& thin);
+
+// The section "thickness" of the report, and of "check" there.
 [[nodiscard]] Json thickness_section(const ThinReport& thin);
 
 // Of each kind only the first `most` places stay.

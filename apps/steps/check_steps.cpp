@@ -8,6 +8,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <base/stage_meter.h>
 #include <repair/join_gaps.h>
 #include <repair/seal_openings.h>
 
@@ -17,6 +18,19 @@
 #include "steps/scene_steps.h"
 
 namespace meshrepair {
+
+void add_thickness_option(CommandLine& app, ThinOptions& thin, const std::string& group,
+                          const std::string& description) {
+  app.add_option_function(
+         "--thickness",
+         [&thin](const std::string& word) {
+           std::tie(thin.limit, thin.is_share) = length_in(word).value_or(std::pair(0.0, false));
+         },
+         description)
+      ->check(why_no_length)
+      ->type_name("X|X%")
+      ->group(group);
+}
 
 void add_check_options(CommandLine& app, CheckRequest& request) {
   app.add_flag("--weld", request.check.weld,
@@ -32,17 +46,10 @@ void add_check_options(CommandLine& app, CheckRequest& request) {
          "Look for narrow openings of much wider spaces, and print the volume that the solid\n"
          "encloses once they are closed (by meshrepair --seal)")
       ->group("Check");
-  app.add_option_function(
-         "--thickness",
-         [&request](const std::string& word) {
-           std::tie(request.thin.limit, request.thin.is_share) =
-               length_in(word).value_or(std::pair(0.0, false));
-         },
-         "Look for walls, pins, gaps and sharp edges that are thinner than this, in units of\n"
-         "IN, or as a percentage of the bounding box diagonal, such as 1%, and print where")
-      ->check(why_no_length)
-      ->type_name("X|X%")
-      ->group("Check");
+  add_thickness_option(
+      app, request.thin, "Check",
+      "Look for walls, pins, gaps and sharp edges that are thinner than this, in units of\n"
+      "IN, or as a percentage of the bounding box diagonal, such as 1%, and print where");
 }
 
 std::string add_openings(const TriangleSoup& soup, const SurfaceCheck& check,
@@ -84,6 +91,16 @@ ThinFound add_thin_places(const TriangleSoup& soup, const SurfaceCheck& check,
   section["thickness"] = thickness_section(few);
   found.text = thickness_text(few, check.valid_solid());
   return found;
+}
+
+void thickness_stage(const TriangleSoup& result, ThinOptions options, double scale, Run& run,
+                     Findings& findings) {
+  if (options.limit <= 0) return;
+  if (!options.is_share) options.limit *= scale;
+  options.progress = &run.progress;
+  StageMeter meter(findings.repair.stages, nullptr);  // the search tells of its own stage
+  meter.begin("thickness");
+  findings.thin = find_thin_places(result, options);
 }
 
 std::string add_near_faces(const TriangleSoup& soup, const CheckRequest& request, Json& section) {

@@ -13,6 +13,8 @@
 #include <mesh/soup.h>
 
 #include "options/command_line.h"
+#include "program/program.h"
+#include "report/findings.h"
 #include "report/json_report.h"
 
 namespace meshrepair {
@@ -22,6 +24,10 @@ struct CheckRequest {
   bool openings = false;  // look for narrow ones, too
   ThinOptions thin;       // look for what is thin, too, if its limit is above 0
 };
+
+// --thickness, in a group of the help.
+void add_thickness_option(CommandLine& app, ThinOptions& thin, const std::string& group,
+                          const std::string& description);
 
 // --weld, --places, --openings and --thickness.
 void add_check_options(CommandLine& app, CheckRequest& request);
@@ -48,5 +54,9 @@ struct ThinFound {
 [[nodiscard]] ThinFound add_thin_places(const TriangleSoup& soup, const SurfaceCheck& check,
                                         const CheckRequest& request, std::size_t most_kept,
                                         Json& section);
+
+// The same of a result, into findings.thin. A limit in units of IN is multiplied by `scale`.
+void thickness_stage(const TriangleSoup& result, ThinOptions options, double scale, Run& run,
+                     Findings& findings);
 
 }  // namespace meshrepair

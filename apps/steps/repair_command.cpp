@@ -17,6 +17,7 @@
 #include "pictures/picture_steps.h"
 #include "program/program.h"
 #include "report/findings.h"
+#include "steps/check_steps.h"
 #include "steps/guarantees.h"
 #include "steps/mesh_steps.h"
 #include "steps/negative_steps.h"
@@ -91,6 +92,15 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 
+// A page shows more places than the report has.
+ThinOptions thin_places_of(const RepairCommand& command) {
+  ThinOptions thin = command.thin;
+  if (!command.steps.html.wanted()) return thin;
+  thin.mark_triangles = true;
+  thin.most_places = kMostPagePlaces;
+  return thin;
+}
+
 // Names of parts are what boundary conditions and the like hang on: they do not go without a word.
 void warn_of_lost_groups(const AnySoup& input, SoupFormat format, const AssetOptions& assets,
                          const Findings& findings) {
@@ -137,6 +147,10 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_origin_options(app, options.origin);
   add_certify_options(app, options.repair.certify, options.strict);
   add_require_option(app, options.required);
+  add_thickness_option(
+      app, command.thin, "Output",
+      "Warn of walls, pins, gaps and sharp edges of the result that are thinner than this, in\n"
+      "units of IN, or as a percentage of the bounding box diagonal, such as 1%, and print where");
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_colours_option(app, options.picture, "fates", "those of --explain");
@@ -177,6 +191,9 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
     if (command.hollow.options.wanted()) {
       throw UsageError("--hollow: cannot be used with --scene each");
     }
+    if (command.thin.limit > 0) {
+      throw UsageError("--thickness: cannot be used with --scene each; meshcheck can");
+    }
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
   Surface surface = repair_or_advise(input, points, repair_options, run, findings);
@@ -186,6 +203,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   HollowRequest hollow = command.hollow;
   hollow.scale_and_move(scale, findings);
   hollow_stage(hollow, repair_options, surface, attributes, run, findings);
+  thickness_stage(surface.mesh, thin_places_of(command), scale, run, findings);
   const std::vector<std::uint32_t> sources = sources_in_file(surface, before);
   format.extras.sources = sources;
   write_mesh_stage(surface, attributes, format, options, run, findings);
@@ -214,6 +232,7 @@ RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run&
   result.attributes =
       transfer_attributes_stage(input.soup, input.attributes, result.surface, run, findings);
   hollow_stage(command.hollow, repair_options, result.surface, result.attributes, run, findings);
+  thickness_stage(result.surface.mesh, command.thin, 1, run, findings);
   look_at_file(result.surface, format, findings);
   findings.missing_guarantees = missing_guarantees(findings, format);
   warn_of_findings(findings);

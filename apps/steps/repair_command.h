@@ -2,6 +2,7 @@
 // What meshrepair is asked for, and how it is done: from file to file, and in memory.
 #pragma once
 
+#include <check/thin_places.h>
 #include <extract/surface.h>
 #include <mesh/attributes.h>
 
@@ -18,6 +19,7 @@ struct RepairCommand {
   StepOptions steps;
   PointOptions points;
   HollowRequest hollow;
+  ThinOptions thin;  // what is thinner in the result is told; nothing if its limit is 0
   NegativeVolumes negative = NegativeVolumes::subtract;
   bool always = false;  // do the whole work, also for what is a solid already
 };

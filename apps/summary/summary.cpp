@@ -8,6 +8,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "pictures/explanation_file.h"
+#include "report/thickness_report.h"
 #include "report/words.h"
 #include "summary/change_bar.h"
 #include "summary/volumes_words.h"
@@ -582,7 +583,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   } else {
     describe_mesh(findings, seconds, lines);
   }
-  return lines.text();
+  return lines.text() + (findings.thin ? thickness_text(*findings.thin, true) : std::string());
 }
 
 void print_summary(Run& run, const Findings& findings) {

@@ -8,6 +8,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "report/thickness_report.h"
 #include "report/words.h"
 #include "summary/volumes_words.h"
 #include "terminal/warning_log.h"
@@ -178,6 +179,16 @@ void warn_of_coarse_grid(const Findings& findings) {
         {{"triangles", clean.dropped_below_grid}, {"step", clean.grid_unit}}});
 }
 
+void warn_of_thin_places(const Findings& findings) {
+  if (!findings.thin || findings.thin->thin_area == 0) return;
+  const ThinReport& thin = *findings.thin;
+  warn(findings.output_name(),
+       {WarningCode::thin,
+        fmt::format("{:.3g} % of the surface is thinner than {:.6g}: {}",
+                    100 * thin.thin_area / thin.area, thin.limit, thin_counts(thin)),
+        {{"limit", thin.limit}, {"area", thin.thin_area}}});
+}
+
 void warn_of_findings(Findings& findings) {
   if (std::exchange(findings.told, true)) return;
   warn_of_coarse_grid(findings);
@@ -190,6 +201,7 @@ void warn_of_findings(Findings& findings) {
   warn_of_unknown_parts(findings);
   warn_of_triangles_left(findings);
   warn_of_coarse_numbers(findings);
+  warn_of_thin_places(findings);
 }
 
 }  // namespace meshrepair

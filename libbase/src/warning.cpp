@@ -46,6 +46,7 @@ constexpr auto kWarningKinds = std::to_array<WarningKind>({
     {"W-STATES-NOT-SAVED", false, "Saved states are ignored, or none are saved"},
     {"W-TRIANGLES-LEFT", false,
      "More triangles stay than `--triangles` or `--max-error` asked for"},
+    {"W-THIN", false, "The result is thinner than `--thickness` in places"},
     {"W-REPORT-NOT-WRITTEN", false, "The report cannot be written"},
 });
 static_assert(kWarningKinds.size() ==

@@ -71,6 +71,8 @@ export interface RepairOptions extends FileOptions {
   /** Diameter of drain holes; `drainAt` is "X,Y,Z". */
   drain?: number | string;
   drainAt?: string;
+  /** What is thinner in the result is told. */
+  thickness?: number | string;
   always?: boolean;
   precision?: 'float32' | 'float64';
   /** Make the page that --html writes, too. Of files. */

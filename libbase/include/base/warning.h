@@ -55,6 +55,7 @@ enum class WarningCode {
   one_block,
   states_not_saved,
   triangles_left,
+  thin,
   report_not_written,
 };
 

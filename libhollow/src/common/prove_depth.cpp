@@ -171,18 +171,24 @@ bool DepthProver::is_apart(const Piece& piece, double distance, double& least) {
   return true;
 }
 
-Proof DepthProver::judge_within(const Piece& piece, double distance) {
-  double bound = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Corners& triangle = depth_.triangles()[piece[i].nearest];
-    double farthest = 0;
-    for (const Place& corner : piece) {
-      farthest = std::max(farthest, squared_distance(corner.at, triangle));
-    }
-    bound = std::min(bound, std::sqrt(farthest));
-    if (bound <= distance) break;
+// The largest distance of a corner from that triangle, or one above `enough`.
+double DepthProver::farthest_from(std::uint32_t triangle, const Piece& piece, double enough) const {
+  double farthest = 0;
+  for (const Place& corner : piece) {
+    const double distance =
+        corner.nearest == triangle
+            ? corner.distance
+            : std::sqrt(squared_distance(corner.at, depth_.triangles()[triangle]));
+    farthest = std::max(farthest, distance);
+    if (farthest > enough) break;
   }
-  if (bound <= distance) {
+  return farthest;
+}
+
+Proof DepthProver::judge_within(const Piece& piece, double distance) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double bound = farthest_from(piece[i].nearest, piece, distance);
+    if (bound > distance) continue;
     most_ = std::max(most_, bound);
     return Proof::holds;
   }

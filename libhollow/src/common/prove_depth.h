@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "common/depth.h"
@@ -42,6 +43,8 @@ class DepthProver {
   Proof prove(const Piece& piece, const Judge& judge);
   [[nodiscard]] Proof judge_beyond(const Piece& piece, double distance);
   [[nodiscard]] Proof judge_within(const Piece& piece, double distance);
+  [[nodiscard]] double farthest_from(std::uint32_t triangle, const Piece& piece,
+                                     double enough) const;
   [[nodiscard]] bool is_apart(const Piece& piece, double distance, double& least);
 
   const Depth& depth_;
