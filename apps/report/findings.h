@@ -11,6 +11,7 @@
 #include <bsp/tree.h>
 #include <check/thin_places.h>
 #include <hollow/hollow_report.h>
+#include <hollow/offset.h>
 #include <mesh/point_io.h>
 #include <mesh/soup_io.h>
 #include <repair/fidelity.h>
@@ -63,6 +64,7 @@ struct Findings {
   std::optional<TreeFacts> tree_written;
   RepairReport repair;
   HollowReport hollow;
+  OffsetReport offset;
   std::optional<ThinReport> thin;  // of the output, if that was looked for
   bool has_walls = false;          // of sheets, in some mesh of a scene
   bool wants_fidelity = false;     // though there is no report

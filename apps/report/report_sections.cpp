@@ -208,6 +208,15 @@ Json section_of(const ThickenReport& thicken) {
 Json vector_of(const Vec3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 // A bound that was not found is null, and what drains leave where there are none.
+Json section_of(const OffsetReport& offset) {
+  return {{"distance", offset.distance},
+          {"least", offset.least},
+          {"most", std::isfinite(offset.most) ? Json(offset.most) : Json()},
+          {"unproven", offset.unproven},
+          {"volume_before", offset.volume_before},
+          {"cells", offset.cells}};
+}
+
 Json section_of(const HollowReport& hollow) {
   Json cavities = Json::array();
   bool has_drains = false;
@@ -507,6 +516,7 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("extract", section_of(repair.extract));
   }
   add_what_was_taken_away(repair, report);
+  if (findings.offset.distance != 0) report.set_section("offset", section_of(findings.offset));
   if (findings.hollow.wall > 0) report.set_section("hollow", section_of(findings.hollow));
   // meshcheck has a stage of this name, too, but no result.
   if (has("extract") && was_begun(repair, "check")) {

@@ -92,6 +92,17 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 
+// What is done with one solid only.
+void refuse_scenes(const RepairCommand& command) {
+  const auto refuse = [](bool is_asked, const std::string& option) {
+    if (is_asked) throw UsageError(option + ": cannot be used with --scene each");
+  };
+  refuse(command.points.repair.base, "--base");
+  refuse(command.offset.distance != 0, "--offset");
+  refuse(command.hollow.options.wanted(), "--hollow");
+  refuse(command.thin.limit > 0, "--thickness");
+}
+
 // A page shows more places than the report has.
 ThinOptions thin_places_of(const RepairCommand& command) {
   ThinOptions thin = command.thin;
@@ -124,6 +135,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   const CommandOption& max_hole = add_max_hole_option(app, options.repair.holes);
   add_thicken_options(app, max_hole, options.repair.thicken);
   add_keep_options(app, options.repair.keep);
+  add_offset_option(app, command.offset);
   add_hollow_options(app, command.hollow);
   add_triangles_option(app, options.repair.fewer);
   add_max_error_option(app, options.repair.fewer);
@@ -187,19 +199,14 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   format.extras.unit = findings.unit;
   fit_to_input(input, command, repair_options);
   if (!input.scene.meshes.empty()) {
-    if (points.repair.base) throw UsageError("--base: cannot be used with --scene each");
-    if (command.hollow.options.wanted()) {
-      throw UsageError("--hollow: cannot be used with --scene each");
-    }
-    if (command.thin.limit > 0) {
-      throw UsageError("--thickness: cannot be used with --scene each; meshcheck can");
-    }
+    refuse_scenes(command);
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
   Surface surface = repair_or_advise(input, points, repair_options, run, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
+  offset_stage(command.offset, scale, repair_options, surface, attributes, run, findings);
   HollowRequest hollow = command.hollow;
   hollow.scale_and_move(scale, findings);
   hollow_stage(hollow, repair_options, surface, attributes, run, findings);
@@ -231,6 +238,7 @@ RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run&
                          findings);
   result.attributes =
       transfer_attributes_stage(input.soup, input.attributes, result.surface, run, findings);
+  offset_stage(command.offset, 1, repair_options, result.surface, result.attributes, run, findings);
   hollow_stage(command.hollow, repair_options, result.surface, result.attributes, run, findings);
   thickness_stage(result.surface.mesh, command.thin, 1, run, findings);
   look_at_file(result.surface, format, findings);

@@ -10,6 +10,7 @@
 #include "program/program.h"
 #include "report/findings.h"
 #include "steps/hollow_steps.h"
+#include "steps/offset_steps.h"
 #include "steps/point_steps.h"
 #include "steps/step_options.h"
 
@@ -18,6 +19,7 @@ namespace meshrepair {
 struct RepairCommand {
   StepOptions steps;
   PointOptions points;
+  OffsetRequest offset;
   HollowRequest hollow;
   ThinOptions thin;  // what is thinner in the result is told; nothing if its limit is 0
   NegativeVolumes negative = NegativeVolumes::subtract;

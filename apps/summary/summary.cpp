@@ -351,6 +351,16 @@ std::string words_of_drains(const HollowReport& hollow) {
   return joined(texts);
 }
 
+void describe_offset(const OffsetReport& offset, Lines& lines) {
+  if (offset.distance == 0) return;
+  const std::string proven = std::isfinite(offset.most)
+                                 ? fmt::format("{:.4g} to {:.4g} proven", offset.least, offset.most)
+                                 : fmt::format("at least {:.4g} proven", offset.least);
+  lines.add("offset", fmt::format("{} by {:.6g}: {}; volume {:.6g} before",
+                                  offset.distance > 0 ? "outward" : "inward",
+                                  std::abs(offset.distance), proven, offset.volume_before));
+}
+
 void describe_hollows(const HollowReport& hollow, Lines& lines) {
   if (hollow.wall == 0) return;
   std::vector<std::string> texts;
@@ -575,6 +585,7 @@ std::string summary_of(const Findings& findings, double seconds) {
   if (findings.repair.inside.solid_cells > 0 || findings.repair.spared_cells) {
     describe_decision(findings.repair, lines);
   }
+  describe_offset(findings.offset, lines);
   describe_hollows(findings.hollow, lines);
   if (findings.tree_written) {
     describe_tree(findings, seconds, lines);

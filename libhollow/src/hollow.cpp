@@ -8,69 +8,28 @@
 #include <utility>
 
 #include <base/error.h>
-#include <base/parallel.h>
-#include <base/shared_progress.h>
 #include <base/stage_meter.h>
 #include <boolean/boolean.h>
 #include <hollow/hollow.h>
 #include <mesh/append_soup.h>
 #include <mesh/mesh_parts.h>
 #include <mesh/topology.h>
-#include <simplify/decimate.h>
 
-#include "common/depth.h"
-#include "common/prove_depth.h"
-#include "common/wall_judge.h"
+#include "common/replace_result.h"
 #include "drains/place_drains.h"
-#include "walls/find_cavities.h"
+#include "walls/wall_maker.h"
 
 namespace meshrepair {
 namespace {
 
 using internal::Cavities;
 using internal::CavityPlaces;
-using internal::Depth;
-using internal::DepthProver;
 using internal::DrainPlacer;
 using internal::Drill;
-using internal::Piece;
 using internal::Place;
-using internal::Proof;
+using internal::WallMaker;
 
-// Coordinates of the result are off by so much of the largest one at most: twice what all three
-// lose in single precision, where the working grid has steps of a fourth of that.
-constexpr double kRounded = 2 * 1.75 * 0x1p-24;
-// Of the error, before coordinates are rounded: what is proven with no room then takes any number
-// of pieces to prove again.
-constexpr double kProvenFirst = 0.98;
-constexpr double kMade = 0.97;  // of the error: walls are made so good that proofs have some room
-constexpr int kMostRounds = 3;  // of taking triangles away
-constexpr double kLeastBall = 0.25;          // of the wall, that a cavity holds
-constexpr std::size_t kMostPieces = 200000;  // of a triangle: large ones need many
-constexpr std::size_t kTrianglesPerTask = 64;
-// Where the bounds that were asked for do not hold: shares of the thickness that are tried.
-constexpr std::array<double, 5> kLower = {0.95, 0.9, 0.75, 0.5, 0.25};
-constexpr std::array<double, 5> kHigher = {1.05, 1.1, 1.25, 1.5, 2};
-constexpr double kThinnest = 1e-5;  // of the size of the body: the working grid has steps of 1.5e-8
-
-double longest_side(const TriangleSoup& soup) {
-  Vec3d low = soup.points[0], high = low;
-  for (const Vec3d& point : soup.points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return (high - low).maxCoeff();
-}
-
-// Of the thickness, that walls may be off before their coordinates are rounded.
-double error_of(const TriangleSoup& solid, const HollowOptions& options) {
-  double largest = 0;
-  for (const Vec3d& point : solid.points) {
-    largest = std::max(largest, point.cwiseAbs().maxCoeff());
-  }
-  return std::max(kProvenFirst * kHollowError - kRounded * largest / options.wall,
-                  0.5 * kHollowError);
-}
+constexpr double kLeastBall = 0.25;  // of the wall, that a cavity holds
 
 class Hollower {
  public:
@@ -81,8 +40,7 @@ class Hollower {
         repair_(repair),
         hollowed_(hollowed),
         report_(report),
-        error_(error_of(solid.mesh, options)),
-        depth_(solid.mesh),
+        maker_(solid.mesh, options.wall, repair.certify.precision, "--hollow", repair.progress),
         meter_(report.stages, repair.progress) {}
 
   Surface run() {
@@ -94,7 +52,7 @@ class Hollower {
     find();
     note_places();
     meter_.begin("fewer");
-    take_away_triangles();
+    maker_.take_away_triangles(found_);
     keep_large();
     if (hollowed_.cavities.empty()) return solid_;
     meter_.begin("drains");
@@ -102,7 +60,7 @@ class Hollower {
     meter_.begin("subtract");
     Surface result = subtract();
     meter_.begin("walls");
-    measure(result);
+    measure_walls(result);
     look_for_voids(result);
     name_sources(result);
     return result;
@@ -110,11 +68,7 @@ class Hollower {
 
  private:
   void find() {
-    internal::CavityOptions options;
-    options.thickness = options_.wall;
-    options.error = kMade * error_ * options_.wall;
-    options.progress = repair_.progress;
-    found_ = internal::find_cavities(solid_.mesh, depth_, options);
+    found_ = maker_.find();
     hollowed_.cells = found_.cells;
     hollowed_.finest = std::isfinite(found_.finest) ? found_.finest : 0;
     hollowed_.unproven = found_.unproven;
@@ -135,68 +89,9 @@ class Hollower {
       places.triangles.push_back({points[a], points[b], points[c]});
       for (const std::uint32_t point : {a, b, c}) {
         if (std::exchange(is_noted[point], 1) != 0) continue;
-        places.corners.push_back(depth_.place(points[point], places.deepest.nearest));
+        places.corners.push_back(maker_.depth().place(points[point], places.deepest.nearest));
       }
     }
-  }
-
-  // Where tetrahedra are small, most triangles lie in one plane. Where a triangle turns out to be
-  // less deep than that between the points that were looked at, those that it came from stay next
-  // time.
-  void take_away_triangles() {
-    if (found_.cavity.empty()) return;
-    HalvedStage progress(repair_.progress);
-    std::vector<DecimationOptions::Stay> stays(found_.walls.points.size(),
-                                               DecimationOptions::Stay::no);
-    for (int round = 0; round < kMostRounds; ++round) {
-      DecimationOptions options;
-      options.distance = kMade * error_ * options_.wall;
-      internal::WallJudge judge(depth_, found_.walls.points, options_.wall, options.distance);
-      options.judge = &judge;
-      options.precision = repair_.certify.precision;
-      options.stays = stays;
-      options.progress = &progress;
-      progress.begin_step();
-      DecimationReport report;
-      DecimatedMesh fewer = decimate(found_.walls, options, report);
-      std::vector<char> is_beside(fewer.mesh.points.size(), 0);
-      const std::vector<std::uint32_t> beside = triangles_beside(fewer.mesh);
-      // What was not proven before does not get better.
-      if (beside.empty() || found_.unproven > 0) return take(std::move(fewer));
-      for (const std::uint32_t t : beside) {
-        for (const std::uint32_t point : fewer.mesh.triangles[t]) is_beside[point] = 1;
-      }
-      for (std::size_t i = 0; i < stays.size(); ++i) {
-        if (is_beside[fewer.point[i]] != 0) stays[i] = DecimationOptions::Stay::alone;
-      }
-    }
-  }
-
-  void take(DecimatedMesh&& fewer) {
-    std::vector<std::uint32_t> cavity;
-    for (const std::uint32_t t : fewer.source) cavity.push_back(found_.cavity[t]);
-    found_.walls = std::move(fewer.mesh);
-    found_.cavity = std::move(cavity);
-  }
-
-  // For which the bounds that were asked for are not proven.
-  [[nodiscard]] std::vector<std::uint32_t> triangles_beside(const TriangleSoup& walls) const {
-    std::vector<char> beside(walls.triangles.size(), 0);
-    CancelOnly quiet(repair_.progress);
-    SharedProgress polled(&quiet, tasks_of(beside.size(), kTrianglesPerTask));
-    parallel_tasks(
-        beside.size(), kTrianglesPerTask, [&](std::size_t, std::size_t first, std::size_t last) {
-          for (std::size_t t = first; t < last; ++t) {
-            const auto& [a, b, c] = walls.triangles[t];
-            beside[t] = !holds({walls.points[a], walls.points[b], walls.points[c]}, error_);
-          }
-          polled.done();
-        });
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t t = 0; t < beside.size(); ++t) {
-      if (beside[t] != 0) found.push_back(t);
-    }
-    return found;
   }
 
   // Numbers cavities anew, and drops the triangles of those that stay full.
@@ -249,7 +144,7 @@ class Hollower {
   }
 
   void place_drains() {
-    const DrainPlacer placer(solid_.mesh, depth_, options_);
+    const DrainPlacer placer(solid_.mesh, maker_.depth(), options_);
     for (std::size_t i = 0; i < options_.drains_at.size(); ++i) add_drain_at(i, placer);
     for (std::size_t c = 0; c < places_.size(); ++c) {
       if (!hollowed_.cavities[c].drains.empty()) continue;
@@ -311,12 +206,7 @@ class Hollower {
     options.repair.examine = nullptr;
     BooleanReport told;
     Surface result = boolean(solids, SetOperation::subtract, options, told);
-    report_.certify = told.result.certify;
-    report_.output = told.result.output;
-    report_.output_volume = told.result.output_volume;
-    report_.output_area = told.result.output_area;
-    report_.spared_cells |= std::exchange(report_.kept_valid, false);
-    report_.same_triangles = false;
+    internal::replace_result(report_, told.result);
     count_drilled(result);
     return result;
   }
@@ -350,80 +240,16 @@ class Hollower {
     return source - first < cavity_of_wall_.size() ? cavity_of_wall_[source - first] : kNoCavity;
   }
 
-  struct Bounds {
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0;
-    std::size_t beside = 0;  // triangles for which what was asked for is not proven
-  };
-
-  [[nodiscard]] Piece piece_of(const std::array<Vec3d, 3>& triangle) const {
-    Piece piece;
-    piece[0] = depth_.place(triangle[0], 0);
-    for (std::size_t i = 1; i < 3; ++i) piece[i] = depth_.place(triangle[i], piece[0].nearest);
-    piece[3] = piece[2];
-    return piece;
-  }
-
-  [[nodiscard]] bool is_proven(const Piece& piece, double error, DepthProver& prover) const {
-    return prover.is_beyond(piece, options_.wall * (1 - error)) == Proof::holds &&
-           prover.is_within(piece, options_.wall * (1 + error)) == Proof::holds;
-  }
-
-  [[nodiscard]] bool holds(const std::array<Vec3d, 3>& triangle, double error) const {
-    DepthProver prover(depth_, kMostPieces);
-    return is_proven(piece_of(triangle), error, prover);
-  }
-
-  [[nodiscard]] Bounds bounds_of(const std::array<Vec3d, 3>& triangle) const {
-    const Piece piece = piece_of(triangle);
-    const double wall = options_.wall;
-    DepthProver prover(depth_, kMostPieces);
-    if (is_proven(piece, kHollowError, prover)) return {prover.least(), prover.most(), 0};
-    Bounds bounds;
-    bounds.beside = 1;
-    bounds.least = 0;
-    for (const double share : kLower) {
-      DepthProver again(depth_, kMostPieces);
-      if (again.is_beyond(piece, share * wall) != Proof::holds) continue;
-      bounds.least = again.least();
-      break;
-    }
-    bounds.most = std::numeric_limits<double>::infinity();
-    for (const double share : kHigher) {
-      DepthProver again(depth_, kMostPieces);
-      if (again.is_within(piece, share * wall) != Proof::holds) continue;
-      bounds.most = again.most();
-      break;
-    }
-    return bounds;
-  }
-
   // On the coordinates of the result.
-  void measure(const Surface& result) {
+  void measure_walls(const Surface& result) {
     std::vector<std::uint32_t> walls;
     for (std::uint32_t t = 0; t < result.source.size(); ++t) {
       if (cavity_of(result.source[t]) != kNoCavity) walls.push_back(t);
     }
-    SharedProgress shared(repair_.progress, tasks_of(walls.size(), kTrianglesPerTask));
-    const auto reduce = [&](std::size_t first, std::size_t last) {
-      Bounds all;
-      for (std::size_t i = first; i < last; ++i) {
-        const auto& [a, b, c] = result.mesh.triangles[walls[i]];
-        join(all, bounds_of({result.mesh.points[a], result.mesh.points[b], result.mesh.points[c]}));
-      }
-      shared.done();
-      return all;
-    };
-    const Bounds all = parallel_reduce(walls.size(), kTrianglesPerTask, reduce, join);
+    const WallMaker::Bounds all = maker_.measure(result.mesh, walls);
     hollowed_.least = all.least;
     hollowed_.most = all.most;
     hollowed_.unproven += all.beside;
-  }
-
-  static void join(Bounds& all, const Bounds& one) {
-    all.least = std::min(all.least, one.least);
-    all.most = std::max(all.most, one.most);
-    all.beside += one.beside;
   }
 
   // A void that is closed has a component of its own around it, turned inward.
@@ -457,8 +283,7 @@ class Hollower {
   const RepairOptions& repair_;
   HollowReport& hollowed_;
   RepairReport& report_;
-  const double error_;
-  Depth depth_;
+  const WallMaker maker_;
   StageMeter meter_;
   Cavities found_;
   TriangleSoup walls_;  // of all cavities that are made
@@ -477,14 +302,8 @@ void check(const Surface& solid, const HollowOptions& options) {
   if (!options.drains_at.empty() && options.drain == 0) {
     throw UsageError("--drain-at: drains need a diameter, by --drain");
   }
-  const double thinnest = kThinnest * longest_side(solid.mesh);
-  if (options.drain > 0 && options.drain < thinnest) {
-    throw ValueError(
-        "--drain: a diameter of less than a hundred-thousandth of the body is too small");
-  }
-  if (options.wall < thinnest) {
-    throw ValueError("--hollow: a wall of less than a hundred-thousandth of the body is too thin");
-  }
+  if (options.drain > 0) internal::check_length(solid.mesh, options.drain, "--drain");
+  internal::check_length(solid.mesh, options.wall, "--hollow");
 }
 
 }  // namespace

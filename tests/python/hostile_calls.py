@@ -122,7 +122,7 @@ OPTION_NAMES = ("inside", "sew", "seal", "holes", "max_hole", "thicken", "keep",
                 "always", "format", "precision", "strict", "threads", "time_limit", "max_memory", "max_triangles", "nan",
                 "attributes", "progress", "drop", "eps", "predicates", "bogus", "help", "report", "verbose", "points",
                 "", "-", "a b", "ä", "inside\0", "distance", "no_such", "scene", "units", "require", "origin", "negative",
-                "beam_sides", "triangles", "max_error", "hollow", "drain", "drain_at", "thickness")
+                "beam_sides", "triangles", "max_error", "hollow", "drain", "drain_at", "thickness", "offset")
 OPTION_VALUES = (None, True, False, 0, -1, 1e300, float("nan"), float("inf"), "auto", "none", "", "-", "--help", "x" * 10000, b"\xff",
                  "\ud800", "a\0b", [], [1], ["normals"], {}, object(), np.float32(0.5), np.int8(3), np.array([1]), 10 ** 5000, 1j,
                  "solidity", "1%", "print", "parts=same", 3, {"colour": np.zeros((4, 3))}, {"colour": np.zeros(2)}, {"colour": "red"}, {1: 2},

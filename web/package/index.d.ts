@@ -66,6 +66,8 @@ export interface RepairOptions extends FileOptions {
   simplify?: number;
   triangles?: number | string;
   maxError?: number | string;
+  /** Outward, or inward if it is negative. */
+  offset?: number | string;
   /** Thickness of the walls that cavities leave. */
   hollow?: number | string;
   /** Diameter of drain holes; `drainAt` is "X,Y,Z". */

@@ -67,9 +67,10 @@ using KeyMap = std::unordered_map<std::array<std::uint32_t, N>, std::uint32_t, K
 
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 
-[[noreturn]] void throw_too_many() {
-  throw LimitError("--hollow: walls so thin beside the body take more than " +
-                   std::to_string(kMostCells) + " tetrahedra; thicker ones take fewer");
+[[noreturn]] void throw_too_many(const CavityOptions& options) {
+  throw LimitError(std::string(options.option) +
+                   ": so short a distance beside the size of the body takes more than " +
+                   std::to_string(kMostCells) + " tetrahedra; a longer one takes fewer");
 }
 
 class CavityFinder : public WallPoints {
@@ -89,7 +90,7 @@ class CavityFinder : public WallPoints {
       place_wall_points(pending);
       cut(pending, judge(pending));
       pending = grid_.take_changed();
-      if (grid_.size() > kMostCells) throw_too_many();
+      if (grid_.size() > kMostCells) throw_too_many(options_);
     }
     return collect();
   }
@@ -419,7 +420,7 @@ class CavityFinder : public WallPoints {
 Cavities find_cavities(const TriangleSoup& solid, const Depth& depth,
                        const CavityOptions& options) {
   const double squares = surface_area(solid) / (options.thickness * options.thickness);
-  if (kCellsOfSquare * squares > static_cast<double>(kMostCells)) throw_too_many();
+  if (kCellsOfSquare * squares > static_cast<double>(kMostCells)) throw_too_many(options);
   return CavityFinder(solid, depth, options).run();
 }
 

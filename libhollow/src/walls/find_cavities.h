@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include <base/progress.h>
@@ -15,6 +16,7 @@ namespace meshrepair::internal {
 struct CavityOptions {
   double thickness = 0;
   double error = 0;                      // how much deeper, or less deep, a point of a wall may be
+  std::string_view option;               // that the thickness came from, for messages
   ProgressObserver* progress = nullptr;  // not owned
 };
 
