@@ -465,6 +465,15 @@ void add_what_was_taken_away(const RepairReport& repair, JsonReport& report) {
   if (repair.fewer.before > 0) report.set_section("fewer", section_of(repair.fewer));
 }
 
+void add_walls(const Findings& findings, JsonReport& report) {
+  if (findings.offset.distance != 0) report.set_section("offset", section_of(findings.offset));
+  if (findings.hollow.wall > 0) report.set_section("hollow", section_of(findings.hollow));
+  if (!findings.thin) return;
+  ThinReport few = *findings.thin;
+  keep_places(few, ThinOptions().most_places);
+  report.set_section("thickness", thickness_section(few));
+}
+
 }  // namespace
 
 void add_sections(const Findings& findings, JsonReport& report) {
@@ -516,17 +525,11 @@ void add_sections(const Findings& findings, JsonReport& report) {
     report.set_section("extract", section_of(repair.extract));
   }
   add_what_was_taken_away(repair, report);
-  if (findings.offset.distance != 0) report.set_section("offset", section_of(findings.offset));
-  if (findings.hollow.wall > 0) report.set_section("hollow", section_of(findings.hollow));
+  add_walls(findings, report);
   // meshcheck has a stage of this name, too, but no result.
   if (has("extract") && was_begun(repair, "check")) {
     report.set_section("result", result_of(findings));
     report.set_section("certificate", certificate_of(repair));
-  }
-  if (findings.thin) {
-    ThinReport few = *findings.thin;
-    keep_places(few, ThinOptions().most_places);
-    report.set_section("thickness", thickness_section(few));
   }
   if (!findings.required.is_null()) report.set_section("required", findings.required);
   if (findings.fidelity) report.set_section("distance", distance_section(*findings.fidelity));
