@@ -41,7 +41,7 @@ constexpr std::array<Painted, kTriangleFates> kFates = {{
     {"green", "thickened into a wall", {40, 170, 70}},
     {"blue", "flipped", {40, 90, 230}},
     {"grey", "whole in the result", {200, 200, 200}},
-    {"yellow", "cut, or merged with others", {245, 225, 40}},
+    {"yellow", "cut, moved, or merged with others", {245, 225, 40}},
     {"cyan", "sewn to others", {50, 200, 210}},
     {"violet", "inside the solid", {150, 90, 200}},
     {"magenta", "covered by others", {210, 40, 200}},
@@ -53,7 +53,7 @@ constexpr std::array<Painted, kTriangleFates> kFates = {{
 constexpr std::array<Painted, kTriangleOrigins> kOrigins = {{
     {"grey", "whole triangles of IN", {200, 200, 200}},
     {"yellow", "pieces of triangles of IN", {245, 225, 40}},
-    {"green", "walls of thickened sheets, cavities and drains", {40, 170, 70}},
+    {"green", "walls of thickened sheets, cavities, drains and offsets", {40, 170, 70}},
     {"orange", "patches of holes and gaps", {245, 140, 20}},
     {"sky", "patches of sealed openings", {110, 190, 255}},
 }};

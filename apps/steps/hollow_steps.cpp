@@ -183,8 +183,10 @@ void hollow_stage(const HollowRequest& request, const RepairOptions& options, Su
   if (!request.options.wanted()) return;
   RepairOptions quiet = options;
   quiet.progress = &run.progress;
-  Surface hollowed = hollow(surface, options_for(request, surface.mesh, findings), quiet,
-                            findings.hollow, findings.repair);
+  HollowReport made;
+  Surface hollowed =
+      hollow(surface, options_for(request, surface.mesh, findings), quiet, made, findings.repair);
+  findings.hollow = std::move(made);  // of one that was stopped, nothing is told
   if (!findings.hollow.cavities.empty()) {
     if (!attributes.is_bare()) {
       attributes = with_walls(surface.mesh, std::move(attributes), hollowed);

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "steps/offset_steps.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <check/mesh_distance.h>
 #include <hollow/offset.h>
+#include <repair/explain_repair.h>
 
 #include "options/numbers.h"
 #include "report/words.h"
@@ -40,6 +44,14 @@ void warn_of_offset(const Findings& findings, bool had_attributes) {
                                {}});
 }
 
+// No triangle is whole any more.
+void forget_fates(const Surface& surface, RepairExplanation& explanation) {
+  if (explanation.origins.empty()) return;
+  explanation.origins.assign(surface.mesh.triangles.size(), TriangleOrigin::wall);
+  std::replace(explanation.fates.begin(), explanation.fates.end(), TriangleFate::whole,
+               TriangleFate::cut);
+}
+
 }  // namespace
 
 void add_offset_option(CommandLine& app, OffsetRequest& request) {
@@ -62,18 +74,17 @@ void add_offset_option(CommandLine& app, OffsetRequest& request) {
 }
 
 void offset_stage(const OffsetRequest& request, double scale, const RepairOptions& options,
-                  Surface& surface, Attributes& attributes, Run& run, Findings& findings) {
+                  Attributes& of_input, Surface& surface, Run& run, Findings& findings) {
   if (request.distance == 0) return;
   RepairOptions quiet = options;
   quiet.progress = &run.progress;
   const double unit = request.is_share ? bounding_diagonal(surface.mesh) : scale;
-  surface = offset(surface, unit * request.distance, quiet, findings.offset, findings.repair);
-  const bool had_attributes = !attributes.is_bare();
-  attributes = {};
-  findings.repair.explanation.origins.assign(
-      findings.repair.explanation.origins.empty() ? 0 : surface.mesh.triangles.size(),
-      TriangleOrigin::wall);
-  warn_of_offset(findings, had_attributes);
+  OffsetReport made;
+  surface = offset(surface, unit * request.distance, quiet, made, findings.repair);
+  findings.offset = made;  // of one that was stopped, nothing is told
+  forget_fates(surface, findings.repair.explanation);
+  warn_of_offset(findings, !of_input.is_bare());
+  of_input = {};
 }
 
 }  // namespace meshrepair

@@ -19,9 +19,10 @@ struct OffsetRequest {
 
 void add_offset_option(CommandLine& app, OffsetRequest& request);
 
-// Nothing is done unless it is asked for. The new surface has no attributes. A distance in units of
-// IN is multiplied by `scale`. `options` are those of the repair.
+// Nothing is done unless it is asked for. The new surface takes no attributes of the input: they
+// are dropped. A distance in units of IN is multiplied by `scale`. `options` are those of the
+// repair. Throws UsageError where these reduce the surface.
 void offset_stage(const OffsetRequest& request, double scale, const RepairOptions& options,
-                  Surface& surface, Attributes& attributes, Run& run, Findings& findings);
+                  Attributes& of_input, Surface& surface, Run& run, Findings& findings);
 
 }  // namespace meshrepair

@@ -92,6 +92,13 @@ void fit_to_input(const AnySoup& input, const RepairCommand& command, RepairOpti
   options.explain = !steps.explained.empty() || steps.html.wanted() || steps.picture.painted;
 }
 
+// Reduced before, the offset would be that of another solid; reduced afterwards, farther than said.
+void refuse_to_reduce_offsets(const RepairCommand& command) {
+  if (command.offset.distance == 0 || !command.steps.repair.fewer.wanted()) return;
+  throw UsageError(
+      "--offset: cannot be used with --triangles or --max-error; reduce OUT in a run of its own");
+}
+
 // What is done with one solid only.
 void refuse_scenes(const RepairCommand& command) {
   const auto refuse = [](bool is_asked, const std::string& option) {
@@ -162,7 +169,8 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_thickness_option(
       app, command.thin, "Output",
       "Warn of walls, pins, gaps and sharp edges of the result that are thinner than this, in\n"
-      "units of IN, or as a percentage of the bounding box diagonal, such as 1%, and print where");
+      "units of IN, or as a percentage of the result's bounding box diagonal, such as 1%, and "
+      "print where");
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_colours_option(app, options.picture, "fates", "those of --explain");
@@ -174,6 +182,7 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
 
 void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
   const StepOptions& options = command.steps;
+  refuse_to_reduce_offsets(command);
   WriteOptions format = mesh_format(options);
   ReadOptions reading = reading_for(*format.format, options.assets, read_options(run));
   // Pictures and pages show also what the output cannot hold.
@@ -203,10 +212,10 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
     return repair_scene(input, given, repair_options, format, options, run, findings);
   }
   Surface surface = repair_or_advise(input, points, repair_options, run, findings);
+  offset_stage(command.offset, scale, repair_options, input.attributes, surface, run, findings);
   measure_distance_stage(input.soup, surface, repair_options.certify.precision, run, findings);
   Attributes attributes =
       transfer_attributes_stage(input.soup, input.attributes, surface, run, findings);
-  offset_stage(command.offset, scale, repair_options, surface, attributes, run, findings);
   HollowRequest hollow = command.hollow;
   hollow.scale_and_move(scale, findings);
   hollow_stage(hollow, repair_options, surface, attributes, run, findings);
@@ -227,6 +236,7 @@ void repair_file(const RepairCommand& command, Run& run, Findings& findings) {
 RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run& run,
                               Findings& findings) {
   const StepOptions& options = command.steps;
+  refuse_to_reduce_offsets(command);
   // OBJ keeps indices and all digits, as memory does.
   const SoupFormat format = options.format.value_or(SoupFormat::obj);
   input.attributes = chosen_for(options.format, options.assets, std::move(input.attributes));
@@ -234,11 +244,11 @@ RepairedMesh repair_in_memory(AnySoup& input, const RepairCommand& command, Run&
   fit_to_input(input, command, repair_options);
   RepairedMesh result;
   result.surface = repair_or_advise(input, command.points, repair_options, run, findings);
+  offset_stage(command.offset, 1, repair_options, input.attributes, result.surface, run, findings);
   measure_distance_stage(input.soup, result.surface, repair_options.certify.precision, run,
                          findings);
   result.attributes =
       transfer_attributes_stage(input.soup, input.attributes, result.surface, run, findings);
-  offset_stage(command.offset, 1, repair_options, result.surface, result.attributes, run, findings);
   hollow_stage(command.hollow, repair_options, result.surface, result.attributes, run, findings);
   thickness_stage(result.surface.mesh, command.thin, 1, run, findings);
   look_at_file(result.surface, format, findings);

@@ -51,7 +51,7 @@ class Hollower {
     meter_.begin("cavities");
     find();
     note_places();
-    meter_.begin("fewer");
+    meter_.begin("coarsen");
     maker_.take_away_triangles(found_);
     keep_large();
     if (hollowed_.cavities.empty()) return solid_;

@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include <base/error.h>
 #include <base/stage_meter.h>
+#include <check/mesh_distance.h>
 #include <hollow/offset.h>
 #include <mesh/append_soup.h>
 #include <mesh/mesh_parts.h>
+#include <mesh/precision.h>
 #include <mesh/topology.h>
 
 #include "common/replace_result.h"
@@ -27,6 +30,7 @@ using internal::WallMaker;
 
 // From the solid to the box, in distances: walls of the box are 1.5 from those of the solid.
 constexpr double kRoom = 2.5;
+constexpr double kMostOfSize = 1000;  // of the solid's diagonal: the farthest offset
 
 TriangleSoup turned(TriangleSoup soup) {
   for (auto& triangle : soup.triangles) std::swap(triangle[1], triangle[2]);
@@ -72,11 +76,11 @@ class Offsetter {
         meter_(report.stages, options.progress) {}
 
   Surface run() {
-    meter_.begin("cavities");
+    meter_.begin("offset");
     Cavities found = maker_.find();
     made_.cells = found.cells;
     made_.unproven = found.unproven;
-    meter_.begin("fewer");
+    meter_.begin("coarsen");
     maker_.take_away_triangles(found);
     TriangleSoup walls = walls_of(found);
     if (walls.triangles.empty()) {
@@ -130,9 +134,7 @@ class Offsetter {
     Surface result = repair(walls, again, told);
     std::fill(result.source.begin(), result.source.end(), Surface::kNoSource);
     internal::replace_result(report_, told);
-    TriangleFates& fates = report_.triangles;
-    fates.cut += std::exchange(fates.untouched, 0);  // all have moved
-    fates.rounded = 0;
+    report_.triangles = {};  // all have moved
     return result;
   }
 
@@ -156,6 +158,17 @@ class Offsetter {
   StageMeter meter_;
 };
 
+void check_distance(const TriangleSoup& solid, double distance, Precision precision) {
+  internal::check_length(solid, distance, "--offset");
+  if (distance > kMostOfSize * bounding_diagonal(solid)) {
+    throw ValueError("--offset: more than a thousand times the size of the body is too large");
+  }
+  if (internal::number_spacing(solid, precision) <= kHollowError * distance) return;
+  throw ValueError(
+      "--offset: rounding coordinates of this size moves them by more than the distance allows; "
+      "--origin auto, or a format of double precision, may do");
+}
+
 }  // namespace
 
 Surface offset(const Surface& solid, double distance, const RepairOptions& options,
@@ -163,7 +176,7 @@ Surface offset(const Surface& solid, double distance, const RepairOptions& optio
   if (distance == 0 || !std::isfinite(distance)) {
     throw UsageError("--offset: a distance above or below 0");
   }
-  internal::check_length(solid.mesh, std::abs(distance), "--offset");
+  check_distance(solid.mesh, std::abs(distance), options.certify.precision);
   made = {};
   made.distance = distance;
   made.volume_before = signed_volume(solid.mesh);

@@ -100,6 +100,8 @@ TEST(Offset, SaysWhatIsOutOfRange) {
   EXPECT_THROW((void)moved(cube, 0), UsageError);
   EXPECT_THROW((void)moved(cube, std::numeric_limits<double>::infinity()), UsageError);
   EXPECT_THROW((void)moved(cube, 1e-6), ValueError);
+  EXPECT_THROW((void)moved(cube, 1e155), ValueError);
+  EXPECT_THROW((void)moved(testing::moved(cube, {1e5, 1e5, 1e5}), 0.1), ValueError);
   EXPECT_THROW((void)moved(cube, -0.5), NoSolidError);
 }
 

@@ -23,7 +23,8 @@ constexpr double kRounded = 2 * 1.75 * 0x1p-24;
 // of pieces to prove again.
 constexpr double kProvenFirst = 0.98;
 constexpr double kMade = 0.97;  // of the error: walls are made so good that proofs have some room
-constexpr int kMostRounds = 3;  // of taking triangles away
+constexpr int kMostRounds = 3;  // of taking triangles away, where proofs fail
+constexpr double kWorthAgain = 0.9;                    // of the triangles before
 constexpr std::size_t kMostPiecesOfTriangle = 200000;  // of a triangle: large ones need many
 constexpr std::size_t kTrianglesPerTask = 64;
 // Where the bounds that were asked for do not hold: shares of the thickness that are tried.
@@ -80,11 +81,20 @@ Cavities WallMaker::find() const {
   return find_cavities(solid_, depth_, options);
 }
 
-// Where a triangle turns out to be less deep than that between the points that were looked at,
-// those that it came from stay next time.
+// What a collapse refuses, others may allow later.
 void WallMaker::take_away_triangles(Cavities& found) const {
   if (found.cavity.empty()) return;
   HalvedStage progress(progress_);
+  double before = 0;
+  do {
+    before = static_cast<double>(found.cavity.size());
+    if (!take_away_some(found, progress)) return;
+  } while (found.unproven == 0 && static_cast<double>(found.cavity.size()) < kWorthAgain * before);
+}
+
+// False if nothing is. Where a triangle turns out to be less deep than that between the points that
+// were looked at, those that it came from stay next time.
+bool WallMaker::take_away_some(Cavities& found, HalvedStage& progress) const {
   std::vector<DecimationOptions::Stay> stays(found.walls.points.size(),
                                              DecimationOptions::Stay::no);
   for (int round = 0; round < kMostRounds; ++round) {
@@ -106,7 +116,7 @@ void WallMaker::take_away_triangles(Cavities& found) const {
       for (const std::uint32_t t : fewer.source) cavity.push_back(found.cavity[t]);
       found.walls = std::move(fewer.mesh);
       found.cavity = std::move(cavity);
-      return;
+      return true;
     }
     std::vector<char> is_beside(fewer.mesh.points.size(), 0);
     for (const std::uint32_t t : beside) {
@@ -116,6 +126,7 @@ void WallMaker::take_away_triangles(Cavities& found) const {
       if (is_beside[fewer.point[i]] != 0) stays[i] = DecimationOptions::Stay::alone;
     }
   }
+  return false;
 }
 
 // For which the bounds that were asked for are not proven.

@@ -48,6 +48,7 @@ class WallMaker {
  private:
   using Triangle = std::array<Vec3d, 3>;
 
+  [[nodiscard]] bool take_away_some(Cavities& found, HalvedStage& progress) const;
   [[nodiscard]] std::vector<std::uint32_t> triangles_beside(const TriangleSoup& walls) const;
   [[nodiscard]] Piece piece_of(const Triangle& triangle) const;
   [[nodiscard]] bool is_proven(const Piece& piece, double error, DepthProver& prover) const;
