@@ -37,14 +37,10 @@ WallJudge::WallJudge(const Depth& depth, const std::vector<Vec3d>& points, doubl
                  });
 }
 
+// What takes longest is last.
 bool WallJudge::allows(const Question& question) {
   place_ = depth_.place(question.place, places_[question.point].nearest);
   if (place_.distance < least_ || place_.distance > most_) return false;
-  for (const auto& [a, b, c] : question.before) {
-    DepthProver prover(depth_, kMostSwept);
-    const Piece swept = {place_, places_[a], places_[b], places_[c]};
-    if (prover.is_within(swept, most_) != Proof::holds) return false;
-  }
   const auto now = [&](const std::array<std::uint32_t, 3>& triangle) {
     const auto at = [&](std::uint32_t p) { return p == question.point ? place_ : places_[p]; };
     const auto& [a, b, c] = triangle;
@@ -56,11 +52,17 @@ bool WallJudge::allows(const Question& question) {
     if (!is_deep(piece)) return false;
     turned += turned_area(piece);
   }
-  if (turned == 0) return true;
-  for (const auto& [a, b, c] : question.before) {
-    turned -= turned_area({places_[a], places_[b], places_[c], places_[c]});
+  if (turned > 0) {
+    for (const auto& [a, b, c] : question.before) {
+      turned -= turned_area({places_[a], places_[b], places_[c], places_[c]});
+    }
+    if (turned > 0) return false;
   }
-  return turned <= 0;
+  return std::all_of(question.before.begin(), question.before.end(), [&](const auto& triangle) {
+    const auto& [a, b, c] = triangle;
+    DepthProver prover(depth_, kMostSwept);
+    return prover.is_within({place_, places_[a], places_[b], places_[c]}, most_) == Proof::holds;
+  });
 }
 
 // Twice the area of a triangle that is seen from the cavity, as its middle tells; else nothing.
