@@ -69,6 +69,21 @@ std::string why_no_length(const std::string& word) {
                          : word + " is no length: a number above 0, or one with a % behind it";
 }
 
+CommandOption* add_length_option(CommandLine& app, const std::string& name, double& length,
+                                 bool& is_share, const std::string& description,
+                                 const std::string& group) {
+  return app
+      .add_option_function(
+          name,
+          [&length, &is_share](const std::string& word) {
+            std::tie(length, is_share) = *length_in(word);
+          },
+          description)
+      ->check(why_no_length)
+      ->type_name("X|X%")
+      ->group(group);
+}
+
 WhyNot number_between(double least, double most) {
   return [least, most](const std::string& word) {
     const std::optional<double> number = parse_number(word);

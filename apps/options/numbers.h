@@ -36,6 +36,11 @@ inline constexpr std::size_t kMostThreads = 1024;  // that --threads takes
 // For check() of an option: an empty text where the word is a length.
 [[nodiscard]] std::string why_no_length(const std::string& word);
 
+// An option that takes a length, or a share.
+CommandOption* add_length_option(CommandLine& app, const std::string& name, double& length,
+                                 bool& is_share, const std::string& description,
+                                 const std::string& group);
+
 // For check() of an option: what says why a word is no such number.
 [[nodiscard]] WhyNot number_between(double least,
                                     double most = std::numeric_limits<double>::infinity());

@@ -207,7 +207,7 @@ Json section_of(const ThickenReport& thicken) {
 
 Json vector_of(const Vec3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-// A bound that was not found is null, and what drains leave where there are none.
+// A bound that was not found is null.
 Json section_of(const OffsetReport& offset) {
   return {{"distance", offset.distance},
           {"least", offset.least},
@@ -217,6 +217,7 @@ Json section_of(const OffsetReport& offset) {
           {"cells", offset.cells}};
 }
 
+// The same, and what drains leave where there are none.
 Json section_of(const HollowReport& hollow) {
   Json cavities = Json::array();
   bool has_drains = false;

@@ -19,19 +19,6 @@
 
 namespace meshrepair {
 
-void add_thickness_option(CommandLine& app, ThinOptions& thin, const std::string& group,
-                          const std::string& description) {
-  app.add_option_function(
-         "--thickness",
-         [&thin](const std::string& word) {
-           std::tie(thin.limit, thin.is_share) = length_in(word).value_or(std::pair(0.0, false));
-         },
-         description)
-      ->check(why_no_length)
-      ->type_name("X|X%")
-      ->group(group);
-}
-
 void add_check_options(CommandLine& app, CheckRequest& request) {
   app.add_flag("--weld", request.check.weld,
                "Merge points with equal coordinates, as always for STL")
@@ -46,10 +33,11 @@ void add_check_options(CommandLine& app, CheckRequest& request) {
          "Look for narrow openings of much wider spaces, and print the volume that the solid\n"
          "encloses once they are closed (by meshrepair --seal)")
       ->group("Check");
-  add_thickness_option(
-      app, request.thin, "Check",
+  add_length_option(
+      app, "--thickness", request.thin.limit, request.thin.is_share,
       "Look for walls, pins, gaps and sharp edges that are thinner than this, in units of\n"
-      "IN, or as a percentage of the bounding box diagonal, such as 1%, and print where");
+      "IN, or as a percentage of the bounding box diagonal, such as 1%, and print where",
+      "Check");
 }
 
 std::string add_openings(const TriangleSoup& soup, const SurfaceCheck& check,

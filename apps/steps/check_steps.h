@@ -25,10 +25,6 @@ struct CheckRequest {
   ThinOptions thin;       // look for what is thin, too, if its limit is above 0
 };
 
-// --thickness, in a group of the help.
-void add_thickness_option(CommandLine& app, ThinOptions& thin, const std::string& group,
-                          const std::string& description);
-
 // --weld, --places, --openings and --thickness.
 void add_check_options(CommandLine& app, CheckRequest& request);
 

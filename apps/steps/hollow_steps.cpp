@@ -126,20 +126,6 @@ void explain_walls(const TriangleSoup& solid, const Surface& hollowed,
   explanation.origins = std::move(origins);
 }
 
-CommandOption* add_length_option(CommandLine& app, const std::string& name, double& length,
-                                 bool& is_share, const std::string& description) {
-  return app
-      .add_option_function(
-          name,
-          [&length, &is_share](const std::string& word) {
-            std::tie(length, is_share) = *length_in(word);
-          },
-          description)
-      ->check(why_no_length)
-      ->type_name("X|X%")
-      ->group("Repair");
-}
-
 }  // namespace
 
 void HollowRequest::scale_and_move(double factor, const Findings& findings) {
@@ -158,13 +144,15 @@ void add_hollow_options(CommandLine& app, HollowRequest& request) {
       app, "--hollow", request.options.wall, request.is_share,
       "Make cavities in the repaired solid, so that its walls have this thickness: in\n"
       "units of IN, or as a percentage of the bounding box diagonal, such as 2%.\n"
-      "The thickness is proven within 2 %. The outer surface does not change");
+      "The thickness is proven within 2 %. The outer surface does not change",
+      "Repair");
   const CommandOption* const drain =
       add_length_option(
           app, "--drain", request.options.drain, request.is_drain_share,
           "With --hollow, drill drain holes of this diameter: for each cavity one at its\n"
           "lowest place, and one far from it. Cavities that are too small for them stay full.\n"
-          "Without it, cavities are closed")
+          "Without it, cavities are closed",
+          "Repair")
           ->needs(hollow);
   app.add_option("--drain-at", request.places,
                  "Drill a drain hole from the place of the surface that is nearest to this point\n"

@@ -10,6 +10,7 @@
 
 #include <base/error.h>
 
+#include "options/numbers.h"
 #include "options/purposes.h"
 #include "options/repair_options.h"
 #include "page/html_report.h"
@@ -166,11 +167,12 @@ void add_repair_command(CommandLine& app, RepairCommand& command) {
   add_origin_options(app, options.origin);
   add_certify_options(app, options.repair.certify, options.strict);
   add_require_option(app, options.required);
-  add_thickness_option(
-      app, command.thin, "Output",
+  add_length_option(
+      app, "--thickness", command.thin.limit, command.thin.is_share,
       "Warn of walls, pins, gaps and sharp edges of the result that are thinner than this, in\n"
       "units of IN, or as a percentage of the result's bounding box diagonal, such as 1%, and "
-      "print where");
+      "print where",
+      "Output");
   add_explain_option(app, options.explained);
   add_picture_options(app, options.picture, "IN and OUT side by side");
   add_colours_option(app, options.picture, "fates", "those of --explain");

@@ -20,6 +20,7 @@
 #include <mesh/topology.h>
 
 #include "common/replace_result.h"
+#include "common/soup_box.h"
 #include "walls/wall_maker.h"
 
 namespace meshrepair {
@@ -38,18 +39,15 @@ TriangleSoup turned(TriangleSoup soup) {
 }
 
 TriangleSoup box_around(const TriangleSoup& solid, double room) {
-  Vec3d low = solid.points[0], high = low;
-  for (const Vec3d& point : solid.points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  low.array() -= room;
-  high.array() += room;
+  Box around = internal::box_of(solid);
+  around.widen(room);
   TriangleSoup box;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    box.points.emplace_back((corner & 1) != 0 ? high.x() : low.x(),
-                            (corner & 2) != 0 ? high.y() : low.y(),
-                            (corner & 4) != 0 ? high.z() : low.z());
+    Vec3d point;
+    for (unsigned k = 0; k < 3; ++k) {
+      point[k] = (corner >> k & 1U) != 0 ? around.high[k] : around.low[k];
+    }
+    box.points.push_back(point);
   }
   box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};

@@ -30,6 +30,7 @@
 #include <mesh/topology.h>
 
 #include "common/prove_depth.h"
+#include "common/soup_box.h"
 #include "walls/cut_cell.h"
 #include "walls/tetrahedra.h"
 
@@ -79,7 +80,7 @@ class CavityFinder : public WallPoints {
       : depth_(depth),
         options_(options),
         finder_(depth, options.thickness, options.error),
-        grid_(box_of(solid), first_edge(solid)),
+        grid_(box_of(solid), longest_side(box_of(solid)) / kCubes),
         progress_(options.progress) {}
 
   Cavities run() {
@@ -107,20 +108,6 @@ class CavityFinder : public WallPoints {
 
  private:
   enum class Verdict : char { done, cut, given_up };
-
-  static Box box_of(const TriangleSoup& solid) {
-    Box box;
-    for (const auto& triangle : solid.triangles) {
-      for (const std::uint32_t point : triangle) box.add(solid.points[point]);
-    }
-    return box;
-  }
-  static double first_edge(const TriangleSoup& solid) {
-    const Box box = box_of(solid);
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.high[k] - box.low[k]);
-    return longest / kCubes;
-  }
 
   [[nodiscard]] bool is_in(std::uint32_t point) const { return in_[point] > 0; }
 

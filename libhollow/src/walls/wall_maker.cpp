@@ -11,6 +11,7 @@
 #include <hollow/hollow_options.h>
 #include <simplify/decimate.h>
 
+#include "common/soup_box.h"
 #include "common/wall_judge.h"
 
 namespace meshrepair::internal {
@@ -32,15 +33,6 @@ constexpr std::array<double, 5> kLower = {0.95, 0.9, 0.75, 0.5, 0.25};
 constexpr std::array<double, 5> kHigher = {1.05, 1.1, 1.25, 1.5, 2};
 constexpr double kShortest = 1e-5;  // of the size of the body: the working grid has steps of 1.5e-8
 
-double longest_side(const TriangleSoup& soup) {
-  Vec3d low = soup.points[0], high = low;
-  for (const Vec3d& point : soup.points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return (high - low).maxCoeff();
-}
-
 double error_of(const TriangleSoup& solid, double thickness) {
   double largest = 0;
   for (const Vec3d& point : solid.points) {
@@ -58,7 +50,7 @@ void join(WallMaker::Bounds& all, const WallMaker::Bounds& one) {
 }  // namespace
 
 void check_length(const TriangleSoup& solid, double length, const std::string& option) {
-  if (length >= kShortest * longest_side(solid)) return;
+  if (length >= kShortest * longest_side(box_of(solid))) return;
   throw ValueError(option + ": less than a hundred-thousandth of the body is too small");
 }
 
